@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include <dch/vec3.hpp>
+
+namespace dch {
+
+/// Largest coordinate magnitude accepted [length]; keeps squared distances far from overflow.
+inline constexpr double kMaxCoordinate = 1e100;
+
+/// The simulation cell: none, orthorhombic or triclinic, periodic along any subset of its vectors.
+///
+/// The cell may be unreduced (arbitrarily skewed); nearest images are true nearest images all the same.
+/// Internally the periodic vectors are Selling-reduced to an obtuse superbase, whose subset sums contain
+/// every Voronoi-relevant vector of the lattice (Conway and Sloane, Proc. R. Soc. A 436:55, 1992); a
+/// displacement that no relevant vector shortens is the shortest of its class. Naive rounding in a skewed
+/// cell is not a metric and would break the packing lemma (5.3.2) that the hierarchy rests on.
+///
+/// A copy is cheap (a few hundred bytes); a Box never changes after construction.
+class Box {
+ public:
+  enum class Kind { none, orthorhombic, triclinic };
+  using Periodic = std::array<bool, 3>;
+
+  /// No cell: open boundaries along every axis.
+  Box() = default;
+  static Box none() { return Box(); }
+
+  /// Axis-parallel cell [origin, origin + lengths).
+  /// @throws InvalidBox unless every length is finite and > 0 (along non-periodic axes too: use none()).
+  static Box orthorhombic(Vec3 lengths, Periodic periodic = {true, true, true}, Vec3 origin = {});
+
+  /// Cell spanned by a, b, c (any orientation, any skew). Becomes orthorhombic if the off-axis components are
+  /// below 1e-12 of the cell's size (file formats leave tilts of 1e-17 behind).
+  /// @throws InvalidBox if a vector is not finite or the three are linearly dependent.
+  static Box triclinic(Vec3 a, Vec3 b, Vec3 c, Periodic periodic = {true, true, true}, Vec3 origin = {});
+
+  Kind kind() const { return kind_; }
+  /// "none", "orthorhombic ppp", "triclinic ppf", ...
+  std::string description() const;
+
+  bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
+  bool any_periodic() const { return rank_ > 0; }
+  /// Cell vector `axis` as given [length]; zero without a cell.
+  Vec3 vector(int axis) const { return cell_[static_cast<std::size_t>(axis)]; }
+  Vec3 origin() const { return origin_; }
+  double volume() const;
+
+  /// Smallest perpendicular height of the reduced periodic cell [length]; infinity if nothing is periodic.
+  double min_height() const { return min_height_; }
+  /// Largest cutoff + skin for which one image of each neighbor suffices: min_height() / 2.
+  double max_cutoff() const { return 0.5 * min_height_; }
+
+  /// Shortest vector of the class d + lattice [length]. Exactly antisymmetric: nearest_image(-d) is
+  /// -nearest_image(d) up to a tie between images of equal length.
+  Vec3 nearest_image(Vec3 d) const;
+
+  /// Squared distance of the nearest images of p and q [length^2]; a metric on the torus, bitwise symmetric.
+  double distance2(Vec3 p, Vec3 q) const { return norm2(nearest_image(q - p)); }
+
+  /// The image of p inside the reduced cell: fractional coordinates in [0, 1) along periodic vectors (rounding
+  /// may give p on the far face; never beyond). Unchanged along others.
+  Vec3 wrap(Vec3 p) const;
+
+  /// Fractional coordinates of p with respect to the cell vectors as given; p - origin without a cell.
+  Vec3 fractional(Vec3 p) const;
+
+  /// Largest distance two points can have on a fully periodic torus (an upper bound) [length]; infinity if some
+  /// axis is open.
+  double max_distance() const;
+
+  /// Periodic vectors after Selling reduction, and their number (0 to 3). For an orthorhombic box they are the
+  /// axis vectors of the periodic axes.
+  const std::array<Vec3, 3>& reduced() const { return reduced_; }
+  int rank() const { return rank_; }
+
+  friend bool operator==(const Box& a, const Box& b) {
+    return a.kind_ == b.kind_ && a.periodic_ == b.periodic_ && a.cell_ == b.cell_ && a.origin_ == b.origin_;
+  }
+  friend bool operator!=(const Box& a, const Box& b) { return !(a == b); }
+
+ private:
+  void reduce();
+
+  Kind kind_ = Kind::none;
+  Periodic periodic_{false, false, false};
+  Vec3 origin_{};
+  std::array<Vec3, 3> cell_{};
+  int rank_ = 0;                         ///< number of periodic vectors
+  std::array<Vec3, 3> reduced_{};        ///< reduced periodic vectors, the first rank_ are set
+  std::array<Vec3, 3> dual_{};           ///< dual basis of reduced_ within its span: dual_i . reduced_j = delta_ij
+  std::array<Vec3, 7> relevant_{};       ///< one of each +-pair of candidate Voronoi-relevant vectors
+  std::array<double, 7> relevant_norm2_{};
+  int relevant_count_ = 0;
+  double safe_norm2_ = 0;                ///< a displacement this short is nearest already: (shortest vector / 2)^2
+  double min_height_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace dch

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/exclusions.hpp>
+#include <dch/span.hpp>
+
+namespace dch {
+
+enum class ListKind {
+  half,  ///< each pair once, in the row of its smaller index
+  full   ///< each pair in both rows
+};
+
+/// Neighbor list in CSR form; neighbors of i are j[first[i]] .. j[first[i+1]-1], ascending.
+struct NeighborList {
+  ListKind kind = ListKind::half;
+  std::vector<std::int64_t> first{0};
+  std::vector<std::int32_t> j;
+
+  /// Number of rows (particles).
+  std::size_t size() const { return first.size() - 1; }
+  /// Number of distinct pairs.
+  std::int64_t pairs() const {
+    return kind == ListKind::half ? first.back() : first.back() / 2;
+  }
+  Span<const std::int32_t> row(std::size_t i) const {
+    return {j.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
+  }
+};
+
+/// A cutoff for each pair of particle types.
+class TypeCutoffs {
+ public:
+  /// One type for all: a single cutoff [length].
+  explicit TypeCutoffs(double cutoff);
+  /// Symmetric matrix of cutoffs, row-major, types x types [length]. A cutoff of 0 drops the pair altogether.
+  /// @throws InvalidParameter if it is not square, not symmetric, or holds a negative or non-finite entry, or only 0.
+  TypeCutoffs(int types, std::vector<double> matrix);
+
+  int types() const { return types_; }
+  double operator()(int a, int b) const { return matrix_[static_cast<std::size_t>(a * types_ + b)]; }
+  double largest() const { return largest_; }
+
+ private:
+  int types_ = 1;
+  std::vector<double> matrix_;
+  double largest_ = 0;
+};
+
+/// What a list has to hold.
+///
+/// The pair distance is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest image, evaluated in
+/// double from the positions as given, in this order; a pair is in the list iff its square is
+/// <= (cutoff + skin)^2. Every engine uses this definition, so ties at the cutoff come out alike.
+struct ListParams {
+  TypeCutoffs cutoffs{1.0};
+  double skin = 0;  ///< r_s >= 0 [length], added to every non-zero cutoff; the list is stale once an atom moved more than r_s/2
+  ListKind kind = ListKind::half;
+  Span<const std::int32_t> types{};        ///< one per particle in [0, cutoffs.types()); may be empty for one type
+  const Exclusions* exclusions = nullptr;  ///< pairs left out; not owned, may be null
+  /// Particles from this index on are ghosts: pairs of two ghosts are left out, and in a full list the rows of
+  /// ghosts are empty. Negative: there are none.
+  std::int32_t first_ghost = -1;
+
+  /// Largest cutoff plus skin: r_list.
+  double list_radius() const { return cutoffs.largest() + skin; }
+};
+
+}  // namespace dch

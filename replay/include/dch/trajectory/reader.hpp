@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <dch/trajectory/frame.hpp>
+
+namespace dch::trajectory {
+
+/// Reads the frames of a trajectory file one after the other.
+class TrajectoryReader {
+ public:
+  virtual ~TrajectoryReader() = default;
+
+  /// Reads the next frame; false at the end of the file.
+  /// @throws FileError if the file is broken or ends inside a frame, if a coordinate is not finite, if the number of
+  ///   atoms or the ids change between frames, or if the box has a zero or negative extent.
+  virtual bool read(Frame& frame) = 0;
+
+  virtual std::string format() const = 0;       ///< "LAMMPS dump", "GROMACS XTC", "DCD", "H5MD", ...
+  virtual std::string length_unit() const = 0;  ///< "nm", "Angstrom", "the dump's unit", or what the file says
+};
+
+/// Opens a trajectory by its file name: .lammpstrj .dump .lammpstrj.gz .dump.gz (LAMMPS text dump), .xtc .trr .gro
+/// (GROMACS), .dcd (CHARMM/NAMD), .h5 .h5md (H5MD).
+/// @throws FileError if the file does not exist, cannot be read, is empty, or its ending is unknown (the message lists
+///   those known).
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+
+}  // namespace dch::trajectory
