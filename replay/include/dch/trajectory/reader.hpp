@@ -14,8 +14,12 @@ class TrajectoryReader {
   virtual ~TrajectoryReader() = default;
 
   /// Reads the next frame; false at the end of the file.
-  /// @throws FileError if the file is broken or ends inside a frame, if a coordinate is not finite, if the number of
-  ///   atoms or the ids change between frames, or if the box has a zero or negative extent.
+  ///
+  /// A LAMMPS dump with ids may hold other atoms in each frame, so frame.ids may change in number and value; atoms keep
+  /// their ids. In all other files every frame has the atoms of the first.
+  /// @throws FileError if the file is broken or ends inside a frame, if a coordinate is not finite or larger than
+  ///   kMaxCoordinate, if the box has a zero or negative extent, if an id occurs twice in a frame, or if the number of
+  ///   atoms changes in a file without ids. Reading on after a throw is not possible.
   virtual bool read(Frame& frame) = 0;
 
   virtual std::string format() const = 0;       ///< "LAMMPS dump", "GROMACS XTC", "DCD", "H5MD", ...

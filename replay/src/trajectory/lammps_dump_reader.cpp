@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "lammps_dump_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fmt/format.h>
+#include <numeric>
+
+#include "text.hpp"
+
+namespace dch::trajectory {
+namespace {
+
+using Role = DumpColumns::Role;
+
+/// Lengths of LAMMPS's unit styles (docs.lammps.org/units.html).
+std::string length_of_unit_style(const std::string& style) {
+  constexpr std::pair<const char*, const char*> kLengths[] = {
+      {"lj", "sigma"}, {"real", "Angstrom"}, {"metal", "Angstrom"},   {"si", "m"},
+      {"cgs", "cm"},   {"electron", "Bohr"}, {"micro", "micrometer"}, {"nano", "nm"}};
+  for (const auto& [name, length] : kLengths) {
+    if (style == name) return length;
+  }
+  return "the dump's unit";
+}
+
+template <class T>
+void reorder(std::vector<T>& values, const std::vector<std::pair<std::int64_t, std::int32_t>>& order) {
+  if (values.empty()) return;
+  std::vector<T> sorted(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    sorted[k] = values[static_cast<std::size_t>(order[k].second)];
+  values.swap(sorted);
+}
+
+}  // namespace
+
+LammpsDumpReader::LammpsDumpReader(const std::string& path)
+    : lines_(path, FinalNewline::required), header_reader_(lines_) {
+  lines_.set_frame(0);
+  header_reader_.read_leading_units();
+}
+
+std::string LammpsDumpReader::length_unit() const { return length_of_unit_style(header_reader_.units()); }
+
+bool LammpsDumpReader::read(Frame& frame) {
+  lines_.set_frame(frames_);
+  if (!header_reader_.read(header_)) {
+    if (frames_ == 0) lines_.fail_here("the file holds no frame");
+    return false;
+  }
+  check_same_atoms();
+  read_atoms(frame);
+  sort_by_id(frame);
+  frame.step = header_.step;
+  frame.time = header_.time;
+  frame.box = header_.box;
+  ++frames_;
+  return true;
+}
+
+void LammpsDumpReader::read_atoms(Frame& frame) {
+  frame.positions.clear();
+  frame.ids.clear();
+  frame.types.clear();
+  frame.molecules.clear();
+  frame.images.clear();
+  first_atom_line_ = lines_.number() + 1;
+  std::string_view line;
+  for (std::int64_t row = 0; row < header_.atoms; ++row) {
+    if (!lines_.next(line)) {
+      lines_.fail_here(
+          fmt::format("the file ends after {} of the frame's {} atoms: it is truncated", row, header_.atoms));
+    }
+    read_atom(line, frame);
+  }
+  if (!header_.columns.has_id) {
+    frame.ids.resize(frame.positions.size());
+    std::iota(frame.ids.begin(), frame.ids.end(), std::int64_t{1});
+  }
+}
+
+void LammpsDumpReader::read_atom(std::string_view line, Frame& frame) {
+  const DumpColumns& columns = header_.columns;
+  Vec3 position;
+  std::int64_t id = 0;
+  std::int32_t molecule = 0, type = 0;
+  std::array<std::int32_t, 3> image{};
+  std::size_t column = 0;
+  std::string_view rest = line, word;
+  for (; column < columns.roles.size() && next_word(rest, word); ++column) {
+    switch (columns.roles[column]) {
+      case Role::ignored:
+        break;
+      case Role::id:
+        read_field(word, "an atom id", id);
+        break;
+      case Role::molecule:
+        read_field(word, "a molecule number", molecule);
+        break;
+      case Role::type:
+        read_field(word, "an atom type", type);
+        break;
+      case Role::x:
+        read_field(word, "the coordinate x", position.x);
+        break;
+      case Role::y:
+        read_field(word, "the coordinate y", position.y);
+        break;
+      case Role::z:
+        read_field(word, "the coordinate z", position.z);
+        break;
+      case Role::ix:
+        read_field(word, "the image flag ix", image[0]);
+        break;
+      case Role::iy:
+        read_field(word, "the image flag iy", image[1]);
+        break;
+      case Role::iz:
+        read_field(word, "the image flag iz", image[2]);
+        break;
+    }
+  }
+  if (column < columns.roles.size() || !is_blank(rest)) fail_for_field_count(line);
+  if (columns.scaled) position = unscaled(position);
+  if (!is_valid_position(position)) {
+    lines_.fail_here(fmt::format("a coordinate is not finite or larger than {:g}", kMaxCoordinate));
+  }
+  frame.positions.push_back(position);
+  if (columns.has_id) frame.ids.push_back(id);
+  if (columns.has_molecule) frame.molecules.push_back(molecule);
+  if (columns.has_type) frame.types.push_back(type);
+  if (columns.has_images) frame.images.push_back(image);
+}
+
+template <class T>
+void LammpsDumpReader::read_field(std::string_view word, const char* what, T& value) const {
+  if (!parse_number(word, value)) lines_.fail_here(fmt::format("expected {}, found {}", what, quoted(word)));
+}
+
+void LammpsDumpReader::fail_for_field_count(std::string_view line) const {
+  if (line.substr(0, 5) == "ITEM:") {
+    lines_.fail_here(fmt::format("the next item begins after {} of the frame's {} atoms",
+                                 lines_.number() - first_atom_line_, header_.atoms));
+  }
+  lines_.fail_here(fmt::format("expected {} fields, one for each column of 'ITEM: ATOMS', found {}",
+                               header_.columns.roles.size(), quoted(line)));
+}
+
+Vec3 LammpsDumpReader::unscaled(Vec3 p) const {
+  const Cell& cell = header_.cell;
+  return cell.origin + p.x * cell.edges[0] + p.y * cell.edges[1] + p.z * cell.edges[2];
+}
+
+void LammpsDumpReader::sort_by_id(Frame& frame) {
+  const auto not_ascending = [](std::int64_t a, std::int64_t b) { return a >= b; };
+  if (std::adjacent_find(frame.ids.begin(), frame.ids.end(), not_ascending) == frame.ids.end()) return;
+
+  order_.clear();
+  for (const std::int64_t id : frame.ids) order_.emplace_back(id, static_cast<std::int32_t>(order_.size()));
+  std::sort(order_.begin(), order_.end());
+  for (std::size_t k = 1; k < order_.size(); ++k) {
+    if (order_[k].first != order_[k - 1].first) continue;
+    lines_.fail_in_line(first_atom_line_ + order_[k].second,
+                        fmt::format("the atom id {} appears a second time (first in line {})",
+                                    order_[k].first, first_atom_line_ + order_[k - 1].second));
+  }
+  reorder(frame.ids, order_);
+  reorder(frame.positions, order_);
+  reorder(frame.types, order_);
+  reorder(frame.molecules, order_);
+  reorder(frame.images, order_);
+}
+
+void LammpsDumpReader::check_same_atoms() {
+  const bool has_id = header_.columns.has_id;
+  if (frames_ == 0) {
+    first_has_id_ = has_id;
+    first_atoms_ = header_.atoms;
+  } else if (has_id != first_has_id_) {
+    lines_.fail_here(has_id ? "the frame has a column of ids, the first frame has none"
+                            : "the frame has no column of ids, the first frame has one");
+  } else if (!has_id && header_.atoms != first_atoms_) {
+    lines_.fail_in_line(
+        header_.atoms_line,
+        fmt::format("the frame has {} atoms, the first frame {}; without ids the number must not change "
+                    "(dump the column id)",
+                    header_.atoms, first_atoms_));
+  }
+}
+
+}  // namespace dch::trajectory

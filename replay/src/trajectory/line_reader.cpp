@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "line_reader.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "place.hpp"
+
+namespace dch::trajectory {
+namespace {
+
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+
+}  // namespace
+
+LineReader::LineReader(std::string path, FinalNewline final_newline)
+    : path_(std::move(path)),
+      final_newline_(final_newline),
+      source_(open_byte_source(path_)),
+      buffer_(2 * kLongestLine) {}
+
+bool LineReader::next(std::string_view& line) {
+  if (!std::exchange(again_, false)) {
+    std::size_t length = find_newline();
+    const bool whole = length != std::string_view::npos;
+    if (!whole) length = end_ - begin_;
+    if (!whole && length == 0) return false;
+    ++number_;
+    if (!whole && final_newline_ == FinalNewline::required) {
+      fail_here(
+          "the file ends inside this line: it is truncated (if it is complete, add the missing final "
+          "newline)");
+    }
+    line_ = std::string_view(buffer_.data() + begin_, length);
+    begin_ += length + (whole ? 1 : 0);
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+  }
+  line = line_;
+  return true;
+}
+
+std::size_t LineReader::find_newline() {
+  std::size_t searched = 0;
+  while (true) {
+    const char* from = buffer_.data() + begin_ + searched;
+    if (const void* found = std::memchr(from, '\n', end_ - begin_ - searched)) {
+      return static_cast<std::size_t>(static_cast<const char*>(found) - buffer_.data()) - begin_;
+    }
+    searched = end_ - begin_;
+    if (searched > kLongestLine) {
+      fail_in_line(number_ + 1, "is longer than 1 MiB: this is not a text file of the expected format");
+    }
+    if (!fill()) return std::string_view::npos;
+  }
+}
+
+bool LineReader::fill() try {
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  const std::size_t got = source_->read(buffer_.data() + end_, buffer_.size() - end_);
+  end_ += got;
+  return got > 0;
+} catch (const BrokenStream& error) {
+  fail_in_line(number_ + 1, error.what());
+}
+
+void LineReader::fail_in_line(std::int64_t line, const std::string& what) const {
+  if (frame_ >= 0) fail_at_line(path_, frame_, line, what);
+  fail_at_line(path_, line, what);
+}
+
+}  // namespace dch::trajectory

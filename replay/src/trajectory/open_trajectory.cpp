@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <string_view>
+
+#include <dch/trajectory/reader.hpp>
+
+#include "dcd_reader.hpp"
+#include "file_name.hpp"
+#include "lammps_dump_reader.hpp"
+#include "place.hpp"
+
+namespace dch::trajectory {
+namespace {
+
+using MakeReader = std::unique_ptr<TrajectoryReader> (*)(const std::string& path);
+
+template <class Reader>
+std::unique_ptr<TrajectoryReader> make(const std::string& path) {
+  return std::make_unique<Reader>(path);
+}
+
+struct Format {
+  std::string_view ending;
+  MakeReader make_reader;
+};
+
+constexpr Format kFormats[] = {
+    {".lammpstrj", make<LammpsDumpReader>},
+    {".dump", make<LammpsDumpReader>},
+    {".lammpstrj.gz", make<LammpsDumpReader>},
+    {".dump.gz", make<LammpsDumpReader>},
+    {".dcd", make<DcdReader>},
+};
+
+std::string known_endings() {
+  std::string list;
+  for (const Format& format : kFormats) list += (list.empty() ? "" : " ") + std::string(format.ending);
+  return list;
+}
+
+}  // namespace
+
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
+  const std::string name = lower_case_name(path);
+  for (const Format& format : kFormats) {
+    if (has_ending(name, format.ending)) return format.make_reader(path);
+  }
+  fail(path, "unknown kind of trajectory; the endings known are " + known_endings());
+}
+
+}  // namespace dch::trajectory
