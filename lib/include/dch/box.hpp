@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
 namespace dch {
@@ -56,28 +57,35 @@ class Box {
   /// Largest cutoff + skin for which one image of each neighbor suffices: min_height() / 2.
   double max_cutoff() const { return 0.5 * min_height_; }
 
-  /// Shortest vector of the class d + lattice [length]. Exactly antisymmetric: nearest_image(-d) is
-  /// -nearest_image(d) up to a tie between images of equal length.
-  Vec3 nearest_image(Vec3 d) const;
+  /// Shortest vector of the class d + lattice [length]. Exactly antisymmetric, ties included:
+  /// nearest_image(-d) is -nearest_image(d). Cheapest for displacements of wrapped points, right for any.
+  Vec3 nearest_image(Vec3 d) const { return norm2(d) <= safe_norm2_ ? d : nearest_image_far(d); }
 
   /// Squared distance of the nearest images of p and q [length^2]; a metric on the torus, bitwise symmetric.
   double distance2(Vec3 p, Vec3 q) const { return norm2(nearest_image(q - p)); }
 
-  /// The image of p inside the reduced cell: fractional coordinates in [0, 1) along periodic vectors (rounding
-  /// may give p on the far face; never beyond). Unchanged along others.
+  /// The image of p inside the reduced cell: fractional coordinates in [0, 1) along periodic vectors, exactly
+  /// so if these are parallel to the axes, else up to rounding. Unchanged along others.
   Vec3 wrap(Vec3 p) const;
 
   /// Fractional coordinates of p with respect to the cell vectors as given; p - origin without a cell.
   Vec3 fractional(Vec3 p) const;
 
-  /// Largest distance two points can have on a fully periodic torus (an upper bound) [length]; infinity if some
-  /// axis is open.
+  /// Largest distance two points can have on a fully periodic torus (an upper bound) [length]; infinity if
+  /// some axis is open.
   double max_distance() const;
 
-  /// Periodic vectors after Selling reduction, and their number (0 to 3). For an orthorhombic box they are the
-  /// axis vectors of the periodic axes.
+  /// Periodic vectors after Selling reduction, and their number (0 to 3). For an orthorhombic box they are
+  /// the axis vectors of the periodic axes.
   const std::array<Vec3, 3>& reduced() const { return reduced_; }
+  /// Dual basis of reduced() within its span, dual_i . reduced_j = delta_ij [1/length]; heights are
+  /// 1/|dual_i|.
+  const std::array<Vec3, 3>& reduced_dual() const { return dual_; }
   int rank() const { return rank_; }
+  /// One of each pair +-v of candidate Voronoi-relevant vectors [length].
+  Span<const Vec3> relevant() const { return {relevant_.data(), static_cast<std::size_t>(relevant_count_)}; }
+  /// Length of the shortest lattice vector; infinity if nothing is periodic.
+  double shortest_period() const;
 
   friend bool operator==(const Box& a, const Box& b) {
     return a.kind_ == b.kind_ && a.periodic_ == b.periodic_ && a.cell_ == b.cell_ && a.origin_ == b.origin_;
@@ -86,19 +94,25 @@ class Box {
 
  private:
   void reduce();
+  Vec3 nearest_image_far(Vec3 d) const;
+  Vec3 nearest_image_skewed(Vec3 d) const;
+
+  static constexpr double kOpen = std::numeric_limits<double>::infinity();
 
   Kind kind_ = Kind::none;
   Periodic periodic_{false, false, false};
   Vec3 origin_{};
   std::array<Vec3, 3> cell_{};
-  int rank_ = 0;                         ///< number of periodic vectors
-  std::array<Vec3, 3> reduced_{};        ///< reduced periodic vectors, the first rank_ are set
-  std::array<Vec3, 3> dual_{};           ///< dual basis of reduced_ within its span: dual_i . reduced_j = delta_ij
-  std::array<Vec3, 7> relevant_{};       ///< one of each +-pair of candidate Voronoi-relevant vectors
+  int rank_ = 0;                    ///< number of periodic vectors
+  std::array<Vec3, 3> reduced_{};   ///< reduced periodic vectors, the first rank_ are set
+  std::array<Vec3, 3> dual_{};      ///< dual basis of reduced_ within its span: dual_i . reduced_j = delta_ij
+  std::array<Vec3, 7> relevant_{};  ///< one of each +-pair of candidate Voronoi-relevant vectors
   std::array<double, 7> relevant_norm2_{};
   int relevant_count_ = 0;
-  double safe_norm2_ = 0;                ///< a displacement this short is nearest already: (shortest vector / 2)^2
-  double min_height_ = std::numeric_limits<double>::infinity();
+  bool axis_parallel_ = true;               ///< every reduced vector is parallel to an axis
+  Vec3 axis_periods_{kOpen, kOpen, kOpen};  ///< period along each axis then; infinite along open axes
+  double safe_norm2_ = kOpen;  ///< a displacement this short is nearest already: (shortest vector / 2)^2
+  double min_height_ = kOpen;
 };
 
 }  // namespace dch
