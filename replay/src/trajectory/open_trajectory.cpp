@@ -6,6 +6,7 @@
 
 #include "dcd_reader.hpp"
 #include "file_name.hpp"
+#include "gromacs_reader.hpp"
 #include "lammps_dump_reader.hpp"
 #include "place.hpp"
 
@@ -30,6 +31,9 @@ constexpr Format kFormats[] = {
     {".lammpstrj.gz", make<LammpsDumpReader>},
     {".dump.gz", make<LammpsDumpReader>},
     {".dcd", make<DcdReader>},
+    {".xtc", make_xtc_reader},
+    {".trr", make_trr_reader},
+    {".gro", make_gro_reader},
 };
 
 std::string known_endings() {

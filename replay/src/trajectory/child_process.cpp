@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "child_process.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <mutex>
+#include <sstream>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace dch::trajectory {
+namespace {
+
+/// A descriptor that closes itself unless it has been released.
+class Descriptor {
+ public:
+  Descriptor(int value, const char* what) : value_(value) {
+    if (value_ < 0) throw std::system_error(errno, std::generic_category(), what);
+  }
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return value_; }
+  int release() { return std::exchange(value_, -1); }
+
+ private:
+  int value_;
+};
+
+/// A handler of the host, run in the child, would do the host's work twice (remove its temporary files, say).
+void reset_signal_handlers() {
+  for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
+}
+
+/// Exit handlers run in reverse order, so this one comes before all those of the host.
+void skip_exit_handlers_of_host() {
+  std::atexit([] { ::_exit(EXIT_FAILURE); });
+}
+
+void redirect_streams(int messages) {
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nowhere, STDIN_FILENO);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(messages, STDERR_FILENO);
+}
+
+[[noreturn]] void run_child(const std::function<void(int)>& body, int pipe, int messages) {
+  reset_signal_handlers();
+  skip_exit_handlers_of_host();
+  redirect_streams(messages);
+  const rlimit no_core_file{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core_file);
+  try {
+    body(pipe);
+  } catch (...) {
+    // The caller's body reports its exceptions through the pipe; one that gets here ends the child without an
+    // answer.
+    ::_exit(EXIT_FAILURE);
+  }
+  ::_exit(EXIT_SUCCESS);
+}
+
+std::string describe_status(int status) {
+  if (!WIFSIGNALED(status)) return "it ended the process";
+  if (WTERMSIG(status) == SIGPROF) return "no end came in sight (an endless loop)";
+  return fmt::format("it was ended by the signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::function<void(int)>& body) {
+  // Two threads that start children at once would hand each child the other's writing end, and a pipe whose
+  // writing end is open in a stranger never ends.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+
+  Descriptor messages(::memfd_create("dch-messages", MFD_CLOEXEC), "a nameless file cannot be made");
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "a pipe cannot be made");
+  Descriptor reading(ends[0], "pipe"), writing(ends[1], "pipe");
+  constexpr int kReadAhead = 1 << 20;
+  ::fcntl(writing.get(), F_SETPIPE_SZ, kReadAhead);  // a smaller pipe works too
+
+  id_ = ::fork();
+  if (id_ < 0) throw std::system_error(errno, std::generic_category(), "a process cannot be started");
+  if (id_ == 0) {
+    ::close(reading.release());
+    run_child(body, writing.get(), messages.get());
+  }
+  pipe_ = reading.release();
+  messages_ = messages.release();
+}
+
+ChildProcess::~ChildProcess() {
+  ::close(pipe_);
+  ::close(messages_);
+  if (id_ < 0) return;
+  ::kill(id_, SIGKILL);
+  while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::string ChildProcess::wait_and_describe() {
+  if (id_ < 0) return "it ended the process";
+  int status = 0;
+  pid_t waited = 0;
+  do {
+    waited = ::waitpid(id_, &status, 0);
+  } while (waited < 0 && errno == EINTR);
+  // A host that ignores SIGCHLD leaves no status to fetch.
+  std::string text = waited == id_ ? describe_status(status) : "it ended the process";
+  id_ = -1;
+  if (const std::string words = last_words(); !words.empty()) text += "; its last words: " + words;
+  return text;
+}
+
+std::string ChildProcess::last_words() const {
+  constexpr std::size_t kMost = 4096;
+  constexpr std::size_t kShown = 600;
+  std::string raw(kMost, '\0');
+  const off_t size = ::lseek(messages_, 0, SEEK_END);
+  const off_t from = size > static_cast<off_t>(kMost) ? size - static_cast<off_t>(kMost) : 0;
+  const ssize_t got = ::pread(messages_, raw.data(), raw.size(), from);
+  raw.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+
+  std::istringstream words(raw);
+  std::string text;
+  for (std::string word; words >> word;) text += (text.empty() ? "" : " ") + word;
+  return text.size() > kShown ? "... " + text.substr(text.size() - kShown) : text;
+}
+
+void ChildProcess::clear_messages() {
+  if (::ftruncate(STDERR_FILENO, 0) == 0) ::lseek(STDERR_FILENO, 0, SEEK_SET);
+}
+
+void ChildProcess::restart_watchdog(int seconds) {
+  itimerval timer{};
+  timer.it_value.tv_sec = seconds;
+  ::setitimer(ITIMER_PROF, &timer, nullptr);  // SIGPROF ends the process
+}
+
+}  // namespace dch::trajectory

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "frame_channel.hpp"
+
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <unistd.h>
+#include <vector>
+
+#include "cell.hpp"
+
+namespace dch::trajectory {
+namespace {
+
+/// The parts of a frame whose size does not depend on the number of atoms.
+struct FrameHead {
+  std::int64_t step;
+  double time;
+  bool has_time;
+  bool has_box;
+  Cell cell;
+};
+static_assert(std::is_trivially_copyable_v<FrameHead>);
+
+FrameHead head_of(const Frame& frame) {
+  FrameHead head{};
+  head.step = frame.step;
+  head.has_time = frame.time.has_value();
+  head.time = frame.time.value_or(0);
+  head.has_box = frame.box.kind() != Box::Kind::none;
+  for (int axis = 0; axis < 3; ++axis) {
+    head.cell.edges[static_cast<std::size_t>(axis)] = frame.box.vector(axis);
+    head.cell.periodic[static_cast<std::size_t>(axis)] = frame.box.periodic(axis);
+  }
+  head.cell.origin = frame.box.origin();
+  return head;
+}
+
+}  // namespace
+
+bool FrameSender::send_hello(const std::string& format, const std::string& length_unit) {
+  const Message kind = Message::hello;
+  return send(&kind, sizeof kind) && send_text(format) && send_text(length_unit);
+}
+
+bool FrameSender::send_frame(const Frame& frame) {
+  const Message kind = Message::frame;
+  const FrameHead head = head_of(frame);
+  return send(&kind, sizeof kind) && send(&head, sizeof head) && send_array(frame.positions) &&
+         send_array(frame.ids) && send_array(frame.types) && send_array(frame.molecules) &&
+         send_array(frame.images);
+}
+
+bool FrameSender::send_end() {
+  const Message kind = Message::end;
+  return send(&kind, sizeof kind);
+}
+
+bool FrameSender::send_error(const std::string& what) {
+  const Message kind = Message::error;
+  return send(&kind, sizeof kind) && send_text(what);
+}
+
+bool FrameSender::send(const void* data, std::size_t size) {
+  const char* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t done = ::write(descriptor_, bytes, size);
+    if (done < 0 && errno != EINTR) return false;
+    if (done > 0) {
+      bytes += done;
+      size -= static_cast<std::size_t>(done);
+    }
+  }
+  return true;
+}
+
+bool FrameSender::send_text(const std::string& text) {
+  return send_array(std::vector<char>(text.begin(), text.end()));
+}
+
+template <class T>
+bool FrameSender::send_array(const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const auto count = static_cast<std::int64_t>(values.size());
+  return send(&count, sizeof count) && send(values.data(), values.size() * sizeof(T));
+}
+
+bool FrameReceiver::receive_kind(Message& kind) { return receive(&kind, sizeof kind); }
+
+bool FrameReceiver::receive_hello(std::string& format, std::string& length_unit) {
+  return receive_text(format) && receive_text(length_unit);
+}
+
+bool FrameReceiver::receive_frame(Frame& frame) {
+  FrameHead head{};
+  if (!receive(&head, sizeof head)) return false;
+  frame.step = head.step;
+  frame.time.reset();
+  if (head.has_time) frame.time = head.time;
+  frame.box = head.has_box ? head.cell.box() : Box::none();
+  return receive_array(frame.positions) && receive_array(frame.ids) && receive_array(frame.types) &&
+         receive_array(frame.molecules) && receive_array(frame.images);
+}
+
+bool FrameReceiver::receive_text(std::string& text) {
+  std::vector<char> characters;
+  if (!receive_array(characters)) return false;
+  text.assign(characters.begin(), characters.end());
+  return true;
+}
+
+bool FrameReceiver::receive(void* data, std::size_t size) {
+  char* bytes = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t done = ::read(descriptor_, bytes, size);
+    if (done == 0 || (done < 0 && errno != EINTR)) return false;
+    if (done > 0) {
+      bytes += done;
+      size -= static_cast<std::size_t>(done);
+    }
+  }
+  return true;
+}
+
+template <class T>
+bool FrameReceiver::receive_array(std::vector<T>& values) {
+  std::int64_t count = 0;
+  if (!receive(&count, sizeof count)) return false;
+  if (count < 0 || count > std::numeric_limits<std::int32_t>::max()) return false;
+  values.resize(static_cast<std::size_t>(count));
+  return receive(values.data(), values.size() * sizeof(T));
+}
+
+}  // namespace dch::trajectory

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <dch/trajectory/frame.hpp>
+
+namespace dch::trajectory {
+
+/// What one process tells another about a trajectory, over a pipe. Both are the same program, so the bytes
+/// are those of memory.
+enum class Message : int { hello, frame, end, error };
+
+/// The sending end. Functions return false if the other end has been closed.
+class FrameSender {
+ public:
+  explicit FrameSender(int descriptor) : descriptor_(descriptor) {}
+  bool send_hello(const std::string& format, const std::string& length_unit);
+  bool send_frame(const Frame& frame);
+  bool send_end();
+  bool send_error(const std::string& what);
+
+ private:
+  bool send(const void* data, std::size_t size);
+  bool send_text(const std::string& text);
+  template <class T>
+  bool send_array(const std::vector<T>& values);
+
+  int descriptor_;
+};
+
+/// The receiving end. Functions return false if the pipe ends too early.
+class FrameReceiver {
+ public:
+  explicit FrameReceiver(int descriptor) : descriptor_(descriptor) {}
+  bool receive_kind(Message& kind);
+  bool receive_hello(std::string& format, std::string& length_unit);
+  bool receive_frame(Frame& frame);
+  bool receive_text(std::string& text);
+
+ private:
+  bool receive(void* data, std::size_t size);
+  template <class T>
+  bool receive_array(std::vector<T>& values);
+
+  int descriptor_;
+};
+
+}  // namespace dch::trajectory
