@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The installed LAMMPS: headers, shared library and the version that both belong to, as target Lammps::host.
+# Debian's LAMMPSConfig.cmake cannot be used: it wants targets of packages that it does not depend on.
+find_path(LAMMPS_INCLUDE_DIR lammps/lammps.h DOC "Folder that holds lammps/lammps.h")
+find_library(LAMMPS_LIBRARY lammps DOC "LAMMPS's shared library")
+
+if(LAMMPS_LIBRARY AND NOT DCH_LAMMPS_VERSION)
+  get_filename_component(_lammps_libdir ${LAMMPS_LIBRARY} DIRECTORY)
+  set(_lammps_version_file ${_lammps_libdir}/cmake/LAMMPS/LAMMPSConfigVersion.cmake)
+  if(EXISTS ${_lammps_version_file})
+    file(STRINGS ${_lammps_version_file} _lammps_version REGEX "^set\\(PACKAGE_VERSION \"[0-9]+\"\\)")
+    string(REGEX MATCH "[0-9]+" _lammps_version "${_lammps_version}")
+  endif()
+endif()
+set(DCH_LAMMPS_VERSION "${_lammps_version}" CACHE STRING "LAMMPS version as a number, for example 20210929")
+if(NOT DCH_LAMMPS_VERSION AND _lammps_version)
+  set_property(CACHE DCH_LAMMPS_VERSION PROPERTY VALUE "${_lammps_version}")
+endif()
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(
+  LammpsHost REQUIRED_VARS LAMMPS_LIBRARY LAMMPS_INCLUDE_DIR DCH_LAMMPS_VERSION
+  REASON_FAILURE_MESSAGE "Install the package liblammps-dev, or name the parts with -DLAMMPS_INCLUDE_DIR=, \
+-DLAMMPS_LIBRARY= and -DDCH_LAMMPS_VERSION=, or leave the LAMMPS adapter out with -DDCH_BUILD_LAMMPS=OFF.")
+
+if(LammpsHost_FOUND AND NOT TARGET Lammps::host)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  add_library(Lammps::host INTERFACE IMPORTED)
+  target_include_directories(Lammps::host SYSTEM INTERFACE ${LAMMPS_INCLUDE_DIR}/lammps)
+  if(NOT EXISTS ${LAMMPS_INCLUDE_DIR}/lammps/fmt/format.h)
+    target_include_directories(Lammps::host SYSTEM INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../shim)
+  endif()
+  target_compile_definitions(Lammps::host INTERFACE LAMMPS_SMALLBIG OMPI_SKIP_MPICXX
+                                                    DCH_LAMMPS_VERSION=${DCH_LAMMPS_VERSION})
+  target_link_libraries(Lammps::host INTERFACE ${LAMMPS_LIBRARY} MPI::MPI_CXX)
+endif()

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dch_command.h"
+
+#include <comm.h>
+#include <error.h>
+#include <string>
+#include <vector>
+
+#include <dch/error.hpp>
+#include <dch/hierarchy.hpp>
+
+#include "dch_options.h"
+#include "neighbor_dch.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+std::unique_ptr<dch::PairSearch> make_search(const dch::HierarchyParams& params) {
+  return dch::make_dch_search(params);
+}
+
+}  // namespace
+
+void DchCommand::command(int narg, char** arg) {
+  using dch::lammps::Request;
+  Request request;
+  try {
+    request = dch::lammps::parse_request(std::vector<std::string>(arg, arg + narg));
+  } catch (const dch::InvalidParameter& e) {
+    error->all(FLERR, std::string(e.what()));
+  }
+  NeighborDCH* neighbor_dch = NeighborDCH::install(lmp, make_search);
+  switch (request.action) {
+    case Request::Action::on:
+      neighbor_dch->enable(request.c);
+      break;
+    case Request::Action::off:
+      neighbor_dch->disable();
+      break;
+    case Request::Action::verify:
+      neighbor_dch->set_verify(request.verify_every);
+      break;
+    case Request::Action::stats: {
+      const dch::lammps::RunReport report = neighbor_dch->report();
+      if (comm->me == 0) utils::logmesg(lmp, dch::lammps::format_report(report));
+      break;
+    }
+  }
+}
+
+}  // namespace LAMMPS_NS

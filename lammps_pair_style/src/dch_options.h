@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dch::lammps {
+
+/// What one `dch ...` line of an input script asks for.
+struct Request {
+  enum class Action { on, off, stats, verify };
+  Action action = Action::on;
+  double c = 1.05;       ///< `on c`: conflict graph parameter of the hierarchy
+  int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
+};
+
+/// Parses the words after `dch`.
+/// @throws dch::InvalidParameter naming the word, what is allowed and an example.
+Request parse_request(const std::vector<std::string>& words);
+
+}  // namespace dch::lammps

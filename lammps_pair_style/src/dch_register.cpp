@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dch_register.h"
+
+#include <cstdio>
+#include <input.h>
+#include <lammps_host.h>
+#include <library.h>
+
+#include "dch_command.h"
+
+namespace {
+
+LAMMPS_NS::Command* create_command(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::DchCommand(lmp); }
+
+void complain(const char* format, int wanted, int found) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) std::fprintf(stderr, format, wanted, found);
+}
+
+}  // namespace
+
+int dch_register(void* handle) {
+  // Only the C function may be trusted before the versions are known to agree.
+  const int version = handle ? lammps_version(handle) : 0;
+  if (version != DCH_LAMMPS_VERSION) {
+    complain(
+        "ERROR: the DCH neighbor lists were built for LAMMPS version %d, but this is version %d; build them "
+        "against the headers of this LAMMPS\n",
+        DCH_LAMMPS_VERSION, version);
+    return 1;
+  }
+  auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(handle);
+  lmp->input->command_map->emplace("dch", &create_command);
+  return 0;
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#if defined(__GNUC__)
+#define DCH_EXPORT __attribute__((visibility("default")))
+#else
+#define DCH_EXPORT
+#endif
+
+/// Gives the LAMMPS instance behind this handle the command `dch`. Lists stay native until a script says `dch
+/// on`. Returns 0, also if it has the command already. Otherwise the instance is left as it was, a message on
+/// stderr says what is wrong, and the result is 1: libraries for another LAMMPS version, whose classes are
+/// laid out differently although its file has the same name.
+extern "C" DCH_EXPORT int dch_register(void* lammps);

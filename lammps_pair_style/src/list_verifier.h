@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <lammps_host.h>
+#include <string>
+#include <vector>
+
+#include "list_compare.h"
+#include "list_filler.h"
+
+namespace LAMMPS_NS {
+
+/// Compares two builds of one list as sets of pairs with their special bits, over all processes.
+class ListVerifier : protected Pointers {
+ public:
+  explicit ListVerifier(LAMMPS* lammps) : Pointers(lammps) {}
+
+  /// The list's entries as it stands. In a half list a pair of owned atoms stands in the row of the smaller
+  /// index.
+  std::vector<dch::lammps::ListEntry> entries(const NeighList& list, const ServedList& served) const;
+
+  /// Every process has to call it. Returns an empty string if the lists are equal, else a message that names
+  /// the number of differing pairs and one of them; the same message on every process.
+  ///
+  /// With newton on a list holds a pair of an owned atom and a ghost on one side only, and the two builders
+  /// choose the side by different rules: such pairs are sent to a process chosen by their atoms and compared
+  /// there.
+  std::string compare(std::vector<dch::lammps::ListEntry> native, std::vector<dch::lammps::ListEntry> ours,
+                      const ServedList& served) const;
+
+ private:
+  void append_pairs(const std::vector<dch::lammps::ListEntry>& entries, bool native,
+                    std::vector<dch::lammps::AtomPair>& out) const;
+  std::vector<dch::lammps::AtomPair> exchange(const std::vector<dch::lammps::AtomPair>& pairs) const;
+  double image_tolerance() const;
+  std::string first_difference(const std::vector<dch::lammps::AtomPair>& differences) const;
+};
+
+}  // namespace LAMMPS_NS

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// lmp-dch: LAMMPS with the command `dch`, and LAMMPS's own command line.
+#include <input.h>
+#include <lammps_host.h>
+#include <library.h>
+#include <memory>
+
+#include "dch_register.h"
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(argc, argv, MPI_COMM_WORLD);
+  const int status = dch_register(lammps.get());
+  if (status == 0) lammps->input->file();
+  lammps.reset();
+  lammps_python_finalize();
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Finalize();
+  return status;
+}

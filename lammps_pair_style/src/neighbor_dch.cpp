@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "neighbor_dch.h"
+
+#include <algorithm>
+#include <array>
+#include <atom.h>
+#include <cmath>
+#include <comm.h>
+#include <compute.h>
+#include <error.h>
+#include <fix.h>
+#include <force.h>
+#include <neigh_list.h>
+#include <new>
+#include <pair.h>
+#include <typeinfo>
+#include <update.h>
+#include <utility>
+
+#include <dch/error.hpp>
+
+namespace LAMMPS_NS {
+
+using namespace NeighConst;
+
+namespace {
+
+// The search radius exceeds the cutoff by more than rounding, and LAMMPS's own test of the squared distance
+// decides.
+constexpr double kRadiusMargin = 1.0 + 1e-12;
+
+// A pair of types without interaction has cutoff 0 in LAMMPS, which still lists coincident atoms.
+constexpr double kSmallestCutoff = 1e-100;
+
+double seconds_since(double& start) {
+  const double now = MPI_Wtime();
+  return now - std::exchange(start, now);
+}
+
+}  // namespace
+
+/// Restricts what Neighbor::build() builds to some of the perpetual lists while it lives.
+class NeighborDCH::OnlyTheseLists {
+ public:
+  OnlyTheseLists(NeighborDCH& neighbor, std::vector<int>& lists)
+      : neighbor_(neighbor),
+        plist_(std::exchange(neighbor.plist, lists.data())),
+        npair_(std::exchange(neighbor.npair_perpetual, static_cast<int>(lists.size()))) {}
+  ~OnlyTheseLists() {
+    neighbor_.plist = plist_;
+    neighbor_.npair_perpetual = npair_;
+  }
+  OnlyTheseLists(const OnlyTheseLists&) = delete;
+  OnlyTheseLists& operator=(const OnlyTheseLists&) = delete;
+
+ private:
+  NeighborDCH& neighbor_;
+  int* plist_;
+  int npair_;
+};
+
+NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
+    : Neighbor(*retired),
+      retired_(retired),
+      points_(lmp),
+      candidates_(factory),
+      filler_(lmp),
+      verifier_(lmp) {
+  // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
+  // nothing.
+  retired->*(&NeighborDCH::copymode) = 1;
+}
+
+NeighborDCH::~NeighborDCH() { show_bins(); }
+
+NeighborDCH* NeighborDCH::install(LAMMPS* lammps, dch::lammps::SearchFactory factory) {
+  if (auto* present = dynamic_cast<NeighborDCH*>(lammps->neighbor)) return present;
+  if (lammps->kokkos) {
+    lammps->error->all(
+        FLERR,
+        std::string("The dch command cannot replace the neighbor lists of KOKKOS; start LAMMPS without "
+                    "'-k on'"));
+  }
+  const Neighbor& stock = *lammps->neighbor;
+  if (typeid(stock) != typeid(Neighbor)) {
+    lammps->error->all(
+        FLERR,
+        std::string("The dch command replaces LAMMPS's own neighbor class, but this LAMMPS runs another "
+                    "one; use either, not both"));
+  }
+  auto* ours = new NeighborDCH(lammps->neighbor, factory);
+  lammps->neighbor = ours;
+  return ours;
+}
+
+void NeighborDCH::enable(double c) {
+  enabled_ = true;
+  c_ = c;
+}
+
+void NeighborDCH::disable() {
+  enabled_ = false;
+  show_bins();
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Which lists are ours
+
+void NeighborDCH::init() {
+  if (enabled_ && atom->molecular == Atom::TEMPLATE) {
+    error->all(FLERR, std::string(
+                          "DCH neighbor lists do not know the bonds of atom_style template; use another atom "
+                          "style or give 'dch off' before the run"));
+  }
+  show_bins();
+  Neighbor::init();
+  const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
+  run_ = {};
+  before_run_ = {};
+  if (!enabled_) {
+    served_.clear();
+    return;
+  }
+  filler_.copy_settings();
+  classify_lists();
+  announce(before);
+  if (served_.empty()) return;
+  params_ = {};
+  params_.radius = cutneighmax * kRadiusMargin;
+  params_.c = c_;
+  try {
+    candidates_.prepare(params_);
+  } catch (const dch::Error& e) {
+    error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
+  }
+  before_run_ = candidates_.stats();
+  hide_bins();
+}
+
+void NeighborDCH::classify_lists() {
+  served_plist_.clear();
+  native_plist_.clear();
+  std::vector<ServedList> served;
+  for (int k = 0; k < npair_perpetual; ++k) {
+    const int m = plist[k];
+    const NeighList& list = *lists[m];
+    if (!native_reason(list).empty()) {
+      native_plist_.push_back(m);
+      continue;
+    }
+    const int mask = pairmasks[list.pair_method - 1];
+    ServedList ours;
+    ours.index = m;
+    ours.full = (mask & NP_FULL) != 0;
+    ours.newton = !ours.full && !(mask & NP_NEWTOFF);
+    ours.ghost = list.ghost != 0;
+    const auto old =
+        std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
+    if (old != served_.end()) ours.storage = std::move(old->storage);
+    served.push_back(std::move(ours));
+    served_plist_.push_back(m);
+  }
+  served_ = std::move(served);
+  for (int m = 0; m < nlist; ++m) {
+    if (lists[m]->pair_method == 0) continue;
+    notes_.push_back({m + 1, list_name(*lists[m]), native_reason(*lists[m])});
+  }
+}
+
+std::string NeighborDCH::list_name(const NeighList& list) const {
+  std::string owner = "parent of skip lists";
+  if (list.requestor_type == NeighList::PAIR) {
+    const char* keyword = force->pair_match_ptr(static_cast<Pair*>(list.requestor));
+    owner = std::string("pair ") + (keyword ? keyword : "?");
+  } else if (list.requestor_type == NeighList::FIX) {
+    owner = std::string("fix ") + static_cast<Fix*>(list.requestor)->style;
+  } else if (list.requestor_type == NeighList::COMPUTE) {
+    owner = std::string("compute ") + static_cast<Compute*>(list.requestor)->style;
+  }
+  const int mask = pairmasks[list.pair_method - 1];
+  if (mask & NP_FULL) return owner + (list.ghost ? ", full with ghosts" : ", full");
+  return owner + (list.ghost ? ", half with ghosts" : ", half") +
+         (mask & NP_NEWTOFF ? ", newton off" : ", newton on");
+}
+
+std::string NeighborDCH::derivation(const NeighList& list) const {
+  if (list.listcopy) return "copied from list " + std::to_string(list.listcopy->index + 1);
+  if (list.listfull) return "half of list " + std::to_string(list.listfull->index + 1);
+  if (list.listskip) return "part of list " + std::to_string(list.listskip->index + 1);
+  return {};
+}
+
+std::string NeighborDCH::reason_of_style(const NeighList& list) const {
+  const int mask = pairmasks[list.pair_method - 1];
+  if (mask & NP_SIZE) return "granular: cutoffs by radius";
+  if (mask & NP_RESPA) return "inner and middle levels of r-RESPA";
+  if (mask & (NP_ONESIDE | NP_OFF2ON)) return "one-sided";
+  if (mask & NP_BOND) return "bonds in the list";
+  if (mask & (NP_SSA | NP_INTEL | NP_KOKKOS_DEVICE | NP_KOKKOS_HOST))
+    return "layout of an accelerator package";
+  if (mask & (NP_COPY | NP_SKIP | NP_HALF_FULL)) return "derived from another list";
+  return {};
+}
+
+std::string NeighborDCH::native_reason(const NeighList& list) const {
+  if (list.occasional) return "built on demand only";
+  if (const std::string from = derivation(list); !from.empty()) return from;
+  if (const std::string kind = reason_of_style(list); !kind.empty()) return kind;
+  if (list.requestor_type == NeighList::FIX || list.requestor_type == NeighList::COMPUTE) {
+    return "asked for by a " + std::string(list.requestor_type == NeighList::FIX ? "fix" : "compute") +
+           ", maybe with a cutoff of its own";
+  }
+  if (force->pair_match("kim", 0) || force->pair_match("kim", 0, 1))
+    return "pair kim sets cutoffs of its own";
+  if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
+  if (!(cutneighmax > 0)) return "no cutoff";
+  if (list.ghost && includegroup) return "ghost rows with neigh_modify include";
+  if (list.ghost) {
+    for (int a = 1; a <= atom->ntypes; ++a) {
+      for (int b = 1; b <= atom->ntypes; ++b) {
+        if (cutneighghostsq[a][b] > cutneighmaxsq) return "ghost cutoff beyond the largest cutoff";
+      }
+    }
+  }
+  return {};
+}
+
+void NeighborDCH::announce(const std::vector<dch::lammps::ListNote>& before) const {
+  if (notes_ == before || comm->me != 0) return;
+  utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size()) + " of " +
+                          std::to_string(notes_.size()) + " lists; 'dch stats' says which\n");
+}
+
+// setup_bins() is not virtual and runs outside build(): where bins are in sight stock code sizes them, and
+// stops at large or sparse systems with "Too many neighbor bins", although nobody reads them.
+void NeighborDCH::hide_bins() {
+  for (int m = 0; m < nlist; ++m) {
+    const bool ours = std::find(served_plist_.begin(), served_plist_.end(), m) != served_plist_.end();
+    if (!ours && lists[m]->bin_method > 0) return;
+  }
+  bins_hidden_ = true;
+  all_bins_ = std::exchange(nbin, 0);
+  all_stencils_ = std::exchange(nstencil_perpetual, 0);
+}
+
+void NeighborDCH::show_bins() {
+  if (!bins_hidden_) return;
+  bins_hidden_ = false;
+  nbin = all_bins_;
+  nstencil_perpetual = all_stencils_;
+  last_setup_bins = -1;  // makes the next native build size them first
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Building them
+
+void NeighborDCH::build(int topoflag) {
+  if (!enabled_ || served_.empty()) {
+    Neighbor::build(topoflag);
+    return;
+  }
+  const bool verify = verify_every_ > 0 && run_.builds % verify_every_ == 0;
+  if (verify) build_native_reference();
+  build_ours();
+  if (verify) check_against_native();
+  OnlyTheseLists rest(*this, native_plist_);
+  Neighbor::build(topoflag);
+}
+
+void NeighborDCH::build_ours() {
+  double clock = MPI_Wtime();
+  try {
+    points_.gather();
+    run_.points_seconds += seconds_since(clock);
+    candidates_.update(points_.positions(), points_.keys());
+    run_.structure_seconds += seconds_since(clock);
+    run_.entries = 0;
+    for (ServedList& served : served_) {
+      NeighList& list = *lists[served.index];
+      const dch::NeighborList& rows = candidates_.rows(list_params(served));
+      run_.rows_seconds += seconds_since(clock);
+      list.grow(atom->nlocal, atom->nlocal + atom->nghost);
+      filler_.fill(rows, points_.atoms(), points_.owned(), served, list);
+      run_.entries += served.pairs;
+      run_.fill_seconds += seconds_since(clock);
+    }
+  } catch (const dch::Error& e) {
+    error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
+  } catch (const std::bad_alloc&) {
+    error->one(FLERR, std::string("DCH neighbor lists: out of memory; use more processes or give 'dch off'"));
+  }
+  ++run_.builds;
+}
+
+dch::ListParams NeighborDCH::list_params(const ServedList& served) const {
+  dch::ListParams params;
+  params.kind = served.full ? dch::ListKind::full : dch::ListKind::half;
+  params.first_ghost = served.ghost ? -1 : points_.owned();
+  params.cutoffs = dch::TypeCutoffs(params_.radius);
+  if (!served.ghost && atom->ntypes > 1 && cutneighmin < cutneighmax) {
+    params.cutoffs = type_cutoffs();
+    params.types = points_.types();
+  }
+  return params;
+}
+
+dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
+  const int n = atom->ntypes;
+  std::vector<double> matrix;
+  for (int a = 1; a <= n; ++a) {
+    for (int b = 1; b <= n; ++b) {
+      const double cutoff = std::sqrt(std::max(cutneighsq[a][b], cutneighsq[b][a]));
+      matrix.push_back(std::clamp(cutoff * kRadiusMargin, kSmallestCutoff, params_.radius));
+    }
+  }
+  return dch::TypeCutoffs(n, std::move(matrix));
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Checking them
+
+void NeighborDCH::build_native_reference() {
+  const bool were_hidden = bins_hidden_;
+  show_bins();
+  if (style != NSQ) setup_bins();
+  const bigint calls = ncalls;
+  double clock = MPI_Wtime();
+  {
+    OnlyTheseLists ours(*this, served_plist_);
+    Neighbor::build(0);
+  }
+  run_.verified_native_seconds += seconds_since(clock);
+  ncalls = calls;
+  if (were_hidden) hide_bins();
+  native_entries_.clear();
+  for (const ServedList& served : served_)
+    native_entries_.push_back(verifier_.entries(*lists[served.index], served));
+  run_.verified_dch_seconds -= run_.seconds();  // check_against_native() adds it again, this build included
+}
+
+void NeighborDCH::check_against_native() {
+  run_.verified_dch_seconds += run_.seconds();
+  for (std::size_t k = 0; k < served_.size(); ++k) {
+    const NeighList& list = *lists[served_[k].index];
+    std::vector<dch::lammps::ListEntry> ours = verifier_.entries(list, served_[k]);
+    const std::string difference =
+        verifier_.compare(std::move(native_entries_[k]), std::move(ours), served_[k]);
+    if (difference.empty()) continue;
+    error->all(FLERR, "dch verify: at step " + std::to_string(update->ntimestep) +
+                          " the native and the DCH list (" + list_name(list) +
+                          ") are not the same: " + difference +
+                          ". Give 'dch off' to go on with native lists, and please report the script");
+  }
+  ++run_.verified_builds;
+  run_.verified_entries += run_.entries;
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Saying what they did
+
+dch::lammps::RunReport NeighborDCH::report() const {
+  const dch::SearchStats& now = candidates_.stats();
+  std::size_t bytes = now.memory_bytes;
+  for (const ServedList& served : served_) bytes += served.storage.capacity() * sizeof(int);
+
+  std::array<std::int64_t, 8> sums{run_.entries,
+                                   run_.verified_entries,
+                                   now.promotions - before_run_.promotions,
+                                   now.demotions - before_run_.demotions,
+                                   now.inserted - before_run_.inserted,
+                                   now.removed - before_run_.removed,
+                                   static_cast<std::int64_t>(bytes),
+                                   atom->nlocal};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T, MPI_SUM, world);
+  std::array<std::int64_t, 3> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
+                                      now.levels};
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_INT64_T, MPI_MAX, world);
+  std::array<double, 6> times{run_.points_seconds, run_.structure_seconds,       run_.rows_seconds,
+                              run_.fill_seconds,   run_.verified_native_seconds, run_.verified_dch_seconds};
+  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
+
+  dch::lammps::RunReport report;
+  report.enabled = enabled_;
+  report.verify_every = verify_every_;
+  report.processes = comm->nprocs;
+  report.radius = params_.radius;
+  report.c = params_.c;
+  report.counters = run_;
+  report.counters.entries = sums[0];
+  report.counters.verified_entries = sums[1];
+  report.counters.points_seconds = times[0];
+  report.counters.structure_seconds = times[1];
+  report.counters.rows_seconds = times[2];
+  report.counters.fill_seconds = times[3];
+  report.counters.verified_native_seconds = times[4];
+  report.counters.verified_dch_seconds = times[5];
+  report.promotions = sums[2];
+  report.demotions = sums[3];
+  report.inserted = sums[4];
+  report.removed = sums[5];
+  report.memory_bytes = sums[6];
+  report.atoms = sums[7];
+  report.structures_built = largest[0];
+  report.repairs = largest[1];
+  report.levels = static_cast<int>(largest[2]);
+  report.lists = notes_;
+  return report;
+}
+
+}  // namespace LAMMPS_NS

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <lammps_host.h>
+#include <memory>
+#include <neighbor.h>
+#include <string>
+#include <vector>
+
+#include "atom_points.h"
+#include "candidate_rows.h"
+#include "list_filler.h"
+#include "list_verifier.h"
+#include "run_report.h"
+
+namespace LAMMPS_NS {
+
+/// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy over owned and ghost
+/// atoms.
+///
+/// It takes the place of the stock object, so every pair style, fix and compute finds its list where it
+/// always was. Of the perpetual lists it fills those that LAMMPS would build by searching space for a pair
+/// style; LAMMPS goes on to derive skip, copy and half-from-full lists from them, and builds all others
+/// itself. The displacement test, the topology lists and all settings stay the base class's. Each process
+/// keeps a hierarchy of its own; atoms are named by PointKeys, so that it is repaired, not built anew, when
+/// atoms are re-sorted, migrate or cross the box.
+class NeighborDCH : public Neighbor {
+ public:
+  /// Takes over the state of `retired`, which is kept, emptied, until this object goes: parts of LAMMPS point
+  /// into it until the next run initializes them. Lists are native until enable().
+  NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory);
+  ~NeighborDCH() override;
+  NeighborDCH(const NeighborDCH&) = delete;
+  NeighborDCH& operator=(const NeighborDCH&) = delete;
+
+  /// The NeighborDCH of this LAMMPS, put in the place of its stock Neighbor if there is none yet. Stops
+  /// LAMMPS with a message if another class has taken that place.
+  static NeighborDCH* install(LAMMPS* lammps, dch::lammps::SearchFactory factory);
+
+  /// From the next run on, lists come from a hierarchy with this c (dch::HierarchyParams::c, at least 1.05).
+  void enable(double c);
+  /// All lists are native from their next build on.
+  void disable();
+  /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
+  /// compared.
+  void set_verify(int interval) { verify_every_ = interval; }
+
+  /// What the lists of the last run did, over all processes. Every process has to call it.
+  dch::lammps::RunReport report() const;
+
+  void init() override;
+  void build(int topoflag) override;
+
+ private:
+  class OnlyTheseLists;
+
+  void classify_lists();
+  std::string list_name(const NeighList& list) const;
+  std::string native_reason(const NeighList& list) const;
+  std::string reason_of_style(const NeighList& list) const;
+  std::string derivation(const NeighList& list) const;
+  void announce(const std::vector<dch::lammps::ListNote>& before) const;
+  void show_bins();
+  void hide_bins();
+
+  void build_native_reference();
+  void build_ours();
+  dch::ListParams list_params(const ServedList& served) const;
+  dch::TypeCutoffs type_cutoffs() const;
+  void check_against_native();
+
+  std::unique_ptr<Neighbor> retired_;
+  bool enabled_ = false;
+  double c_ = 1.05;
+  int verify_every_ = 0;
+
+  bool bins_hidden_ = false;
+  int all_bins_ = 0, all_stencils_ = 0;  ///< nbin and nstencil_perpetual while they are hidden
+
+  std::vector<ServedList> served_;
+  std::vector<int> served_plist_;  ///< perpetual lists that are ours
+  std::vector<int> native_plist_;  ///< and those that are not, in LAMMPS's order of building
+  std::vector<dch::lammps::ListNote> notes_;
+  dch::HierarchyParams params_;
+
+  AtomPoints points_;
+  dch::lammps::CandidateRows candidates_;
+  ListFiller filler_;
+  ListVerifier verifier_;
+  std::vector<std::vector<dch::lammps::ListEntry>>
+      native_entries_;  ///< by served list, while one build is verified
+
+  dch::lammps::RunCounters run_;
+  dch::SearchStats before_run_;
+};
+
+}  // namespace LAMMPS_NS

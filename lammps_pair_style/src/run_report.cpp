@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run_report.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace dch::lammps {
+namespace {
+
+std::string line(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string line(const char* format, ...) {
+  char text[400];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return std::string(text) + "\n";
+}
+
+double per(double amount, std::int64_t count) {
+  return count > 0 ? amount / static_cast<double>(count) : 0.0;
+}
+
+std::string settings(const RunReport& r) {
+  std::string text = std::string("DCH neighbor lists: ") + (r.enabled ? "on" : "off");
+  if (r.verify_every == 1) text += ", verified at every build";
+  if (r.verify_every > 1) text += ", verified at every " + std::to_string(r.verify_every) + "th build";
+  return text + "\n";
+}
+
+std::string list_table(const RunReport& r) {
+  std::string text;
+  for (const ListNote& note : r.lists) {
+    text += "  list " + std::to_string(note.number) + ", " + note.name + ": " +
+            (note.reason.empty() ? "DCH" : "native, " + note.reason) + "\n";
+  }
+  return text.empty() ? "  no lists: they are assigned when a run begins\n" : text;
+}
+
+std::string work_table(const RunReport& r) {
+  const RunCounters& n = r.counters;
+  std::string text;
+  text += line("  builds in the last run  %lld", static_cast<long long>(n.builds));
+  text += line("  structure               radius %g, c %g, %d levels; built %lld times, repaired %lld times",
+               r.radius, r.c, r.levels, static_cast<long long>(r.structures_built),
+               static_cast<long long>(r.repairs));
+  text += line("  promotions, demotions   %lld, %lld", static_cast<long long>(r.promotions),
+               static_cast<long long>(r.demotions));
+  text += line("  points added, removed   %lld, %lld", static_cast<long long>(r.inserted),
+               static_cast<long long>(r.removed));
+  text += line("  pairs at the last build %lld (%g an atom)", static_cast<long long>(n.entries),
+               per(static_cast<double>(n.entries), r.atoms));
+  text += line("  time a build            %.4g ms: points %.3g, structure %.3g, rows %.3g, lists %.3g",
+               per(1e3 * n.seconds(), n.builds), per(1e3 * n.points_seconds, n.builds),
+               per(1e3 * n.structure_seconds, n.builds), per(1e3 * n.rows_seconds, n.builds),
+               per(1e3 * n.fill_seconds, n.builds));
+  text +=
+      line("  memory                  %.4g Mbytes", static_cast<double>(r.memory_bytes) / (1024.0 * 1024.0));
+  return text;
+}
+
+std::string verify_line(const RunReport& r) {
+  const RunCounters& n = r.counters;
+  if (n.verified_builds == 0) return "  verified                no build of the last run; see 'dch verify'\n";
+  return line(
+      "  verified                %lld builds, %lld pairs, all equal; native %.4g ms a build, DCH/native %.3g",
+      static_cast<long long>(n.verified_builds), static_cast<long long>(n.verified_entries),
+      per(1e3 * n.verified_native_seconds, n.verified_builds),
+      n.verified_native_seconds > 0 ? n.verified_dch_seconds / n.verified_native_seconds : 0.0);
+}
+
+}  // namespace
+
+std::string format_report(const RunReport& report) {
+  std::string text = settings(report) + list_table(report);
+  if (report.counters.builds == 0) return text + "  no build of a DCH list yet: give 'dch on' and a run\n";
+  return text + work_table(report) + verify_line(report);
+}
+
+}  // namespace dch::lammps
