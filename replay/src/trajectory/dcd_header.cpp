@@ -12,6 +12,7 @@
 namespace dch::trajectory {
 namespace {
 
+constexpr double kAkma = 0.0488882129;     ///< CHARMM's unit of time [ps]
 constexpr std::int32_t kControlSize = 84;  ///< "CORD" and 20 integers
 
 /// The length of the first record is known, so it tells the byte order.
@@ -80,7 +81,7 @@ DcdHeader read_dcd_header(const InputFile& file) {
   const auto fixed = control.get(8);
   const bool charmm =
       control.get(19) != 0;  // X-PLOR leaves the version 0, has no cell, and writes a double here
-  header.time_step = charmm ? static_cast<double>(control.get<float>(9)) : control.get<double>(9);
+  header.time_step = kAkma * (charmm ? static_cast<double>(control.get<float>(9)) : control.get<double>(9));
   header.has_cell = charmm && control.get(10) != 0;
   header.has_fourth_dimension = charmm && control.get(11) != 0;
 

@@ -15,7 +15,7 @@ struct DcdHeader {
   std::int64_t atoms = 0;
   std::int64_t first_step = 0;
   std::int64_t step_interval = 0;
-  double time_step = 0;  ///< [AKMA, 48.88821 fs]
+  double time_step = 0;  ///< [ps]
   bool has_cell = false;
   bool has_fourth_dimension = false;
   std::vector<std::int32_t> free_atoms;  ///< indices of the atoms in frames 1, 2, ...; empty if all are

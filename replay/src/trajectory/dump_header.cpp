@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dump_header.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -79,7 +80,8 @@ void DumpHeaderReader::read_item(std::string_view item, DumpHeader& header) {
     mark_seen(seen_.time, item);
     const std::string_view value = value_line("time");
     double time = 0;
-    if (!parse_number(value, time)) lines_.fail_here("expected a time (a number), found " + quoted(value));
+    if (!parse_number(value, time) || !std::isfinite(time))
+      lines_.fail_here("expected a time (a number), found " + quoted(value));
     header.time = time;
   } else if (item == "UNITS") {
     mark_seen(seen_.units, item);

@@ -9,7 +9,7 @@ namespace dch::trajectory {
 
 /// What a scanner finds out about a frame without unpacking it.
 struct FrameSummary {
-  std::int64_t offset = 0;  ///< where the frame begins [bytes]
+  std::string place;  ///< where the frame begins, for messages: "byte 1234", "line 12"
   std::int64_t atoms = 0;
   bool has_positions = true;
 };

@@ -27,6 +27,7 @@ class GroScanner final : public FrameScanner {
     lines_.set_frame(frames_);
     if (!find_title()) return false;
     summary = FrameSummary();
+    summary.place = fmt::format("line {}", lines_.number());
     summary.atoms = scan_count();
     width_ = 0;
     for (std::int64_t k = 0; k < summary.atoms; ++k) scan_atom(k, summary.atoms);

@@ -73,7 +73,7 @@ void GromacsReader::check(const Frame& frame, const FrameSummary& summary) const
 }
 
 void GromacsReader::fail_here(const FrameSummary& summary, const std::string& what) const {
-  fail_at_byte(path_, scanned_ - 1, summary.offset, what);
+  fail(path_, fmt::format("frame {}, {}: {}", scanned_ - 1, summary.place, what));
 }
 
 std::unique_ptr<TrajectoryReader> make_xtc_reader(const std::string& path) {

@@ -7,32 +7,13 @@
 #include <fmt/format.h>
 #include <numeric>
 
+#include "lammps_units.hpp"
 #include "text.hpp"
 
 namespace dch::trajectory {
 namespace {
 
 using Role = DumpColumns::Role;
-
-/// Lengths of LAMMPS's unit styles (docs.lammps.org/units.html).
-std::string length_of_unit_style(const std::string& style) {
-  constexpr std::pair<const char*, const char*> kLengths[] = {
-      {"lj", "sigma"}, {"real", "Angstrom"}, {"metal", "Angstrom"},   {"si", "m"},
-      {"cgs", "cm"},   {"electron", "Bohr"}, {"micro", "micrometer"}, {"nano", "nm"}};
-  for (const auto& [name, length] : kLengths) {
-    if (style == name) return length;
-  }
-  return "the dump's unit";
-}
-
-template <class T>
-void reorder(std::vector<T>& values, const std::vector<std::pair<std::int64_t, std::int32_t>>& order) {
-  if (values.empty()) return;
-  std::vector<T> sorted(values.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sorted[k] = values[static_cast<std::size_t>(order[k].second)];
-  values.swap(sorted);
-}
 
 }  // namespace
 
@@ -42,7 +23,10 @@ LammpsDumpReader::LammpsDumpReader(const std::string& path)
   header_reader_.read_leading_units();
 }
 
-std::string LammpsDumpReader::length_unit() const { return length_of_unit_style(header_reader_.units()); }
+std::string LammpsDumpReader::length_unit() const {
+  const LammpsUnits* units = find_lammps_units(header_reader_.units());
+  return units != nullptr ? std::string(units->length) : "the dump's unit";
+}
 
 bool LammpsDumpReader::read(Frame& frame) {
   lines_.set_frame(frames_);
@@ -55,6 +39,8 @@ bool LammpsDumpReader::read(Frame& frame) {
   sort_by_id(frame);
   frame.step = header_.step;
   frame.time = header_.time;
+  const LammpsUnits* units = find_lammps_units(header_reader_.units());
+  if (frame.time && units != nullptr && units->picoseconds > 0) *frame.time *= units->picoseconds;
   frame.box = header_.box;
   ++frames_;
   return true;
@@ -154,23 +140,11 @@ Vec3 LammpsDumpReader::unscaled(Vec3 p) const {
 }
 
 void LammpsDumpReader::sort_by_id(Frame& frame) {
-  const auto not_ascending = [](std::int64_t a, std::int64_t b) { return a >= b; };
-  if (std::adjacent_find(frame.ids.begin(), frame.ids.end(), not_ascending) == frame.ids.end()) return;
-
-  order_.clear();
-  for (const std::int64_t id : frame.ids) order_.emplace_back(id, static_cast<std::int32_t>(order_.size()));
-  std::sort(order_.begin(), order_.end());
-  for (std::size_t k = 1; k < order_.size(); ++k) {
-    if (order_[k].first != order_[k - 1].first) continue;
-    lines_.fail_in_line(first_atom_line_ + order_[k].second,
-                        fmt::format("the atom id {} appears a second time (first in line {})",
-                                    order_[k].first, first_atom_line_ + order_[k - 1].second));
-  }
-  reorder(frame.ids, order_);
-  reorder(frame.positions, order_);
-  reorder(frame.types, order_);
-  reorder(frame.molecules, order_);
-  reorder(frame.images, order_);
+  const auto repeated = sorter_.sort_by_id(frame);
+  if (!repeated) return;
+  lines_.fail_in_line(first_atom_line_ + repeated->second,
+                      fmt::format("the atom id {} appears a second time (first in line {})", repeated->id,
+                                  first_atom_line_ + repeated->first));
 }
 
 void LammpsDumpReader::check_same_atoms() {

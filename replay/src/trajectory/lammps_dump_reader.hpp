@@ -3,12 +3,11 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include <dch/trajectory/reader.hpp>
 
 #include "dump_header.hpp"
+#include "frame_sorter.hpp"
 #include "line_reader.hpp"
 
 namespace dch::trajectory {
@@ -43,7 +42,7 @@ class LammpsDumpReader final : public TrajectoryReader {
   std::int64_t first_atom_line_ = 0;
   bool first_has_id_ = false;  ///< whether the first frame has a column of ids
   std::int64_t first_atoms_ = 0;
-  std::vector<std::pair<std::int64_t, std::int32_t>> order_;  ///< (id, row), scratch
+  FrameSorter sorter_;
 };
 
 }  // namespace dch::trajectory

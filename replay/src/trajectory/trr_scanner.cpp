@@ -40,7 +40,7 @@ class TrrScanner final : public FrameScanner {
     if (cursor_.at_end()) return false;
     cursor_.set_frame(frames_);
     summary = FrameSummary();
-    summary.offset = cursor_.offset();
+    summary.place = fmt::format("byte {}", cursor_.offset());
     const Header header = scan_header();
     for (const std::int64_t size : header.size) cursor_.skip("a block of the frame", size);
     summary.atoms = header.atoms;

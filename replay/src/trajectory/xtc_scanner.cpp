@@ -23,7 +23,7 @@ class XtcScanner final : public FrameScanner {
     if (cursor_.at_end()) return false;
     cursor_.set_frame(frames_);
     summary = FrameSummary();
-    summary.offset = cursor_.offset();
+    summary.place = fmt::format("byte {}", cursor_.offset());
     summary.atoms = scan_header();
     scan_coordinates(summary.atoms);
     ++frames_;

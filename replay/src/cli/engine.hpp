@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <dch/hierarchy.hpp>
+#include <dch/pair_search.hpp>
+
+namespace dch::cli {
+
+enum class EngineKind { dch, cell, allpairs };
+
+/// What a replay's engine is made from.
+struct EngineOptions {
+  EngineKind kind = EngineKind::dch;
+  double c = 1.05;  ///< parameter of the hierarchy (dch only)
+  MaintenancePolicy policy = MaintenancePolicy::automatic;  ///< repair or rebuild (dch only)
+};
+
+std::string to_string(EngineKind kind);           ///< as on the command line: "dch", "cell", "allpairs"
+std::string to_string(MaintenancePolicy policy);  ///< "auto", "repair", "rebuild"
+
+/// An engine, with a view of its hierarchy where it keeps one.
+struct Engine {
+  std::unique_ptr<PairSearch> search;      ///< its times cover update() and list() of every kind alike
+  const Hierarchy* hierarchy = nullptr;    ///< owned by search; null for cell and allpairs
+};
+
+/// @param radius cutoff + skin of the lists to come [length]
+/// @throws InvalidParameter for a radius or c out of range.
+Engine make_engine(const EngineOptions& options, double radius);
+
+}  // namespace dch::cli

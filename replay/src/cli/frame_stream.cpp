@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "frame_stream.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <dch/trajectory/file_error.hpp>
+
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+
+namespace dch::cli {
+namespace {
+
+void note_frame(const trajectory::Frame& frame, std::int64_t index, Scan& scan) {
+  const std::string kind = frame.box.description();
+  if (std::find(scan.box_kinds.begin(), scan.box_kinds.end(), kind) == scan.box_kinds.end()) {
+    scan.box_kinds.push_back(kind);
+  }
+  if (scan.frames == 0) {
+    scan.first_frame = frame;
+    scan.first_step = frame.step;
+    scan.first_time = frame.time;
+    scan.smallest_height_frame = index;
+  }
+  if (frame.box.min_height() < scan.smallest_height) {
+    scan.smallest_height = frame.box.min_height();
+    scan.smallest_height_frame = index;
+  }
+  scan.last_step = frame.step;
+  scan.last_time = frame.time;
+  ++scan.frames;
+}
+
+void require_frames(const Scan& scan, const FrameRange& range) {
+  if (scan.frames > 0) return;
+  if (scan.frames_passed == 0) {
+    throw trajectory::FileError(fmt::format("{}: holds no frame; a trajectory needs at least one", scan.path));
+  }
+  throw UsageError(fmt::format("--frames selects no frame of {}: it starts at frame {}, and the file's frames are 0 to "
+                               "{}; give a smaller first frame", scan.path, range.begin, scan.frames_passed - 1));
+}
+
+}  // namespace
+
+FrameStream::FrameStream(const std::string& path, const FrameRange& range)
+    : range_(range), reader_(trajectory::open_trajectory(path)) {}
+
+bool FrameStream::next(trajectory::Frame& frame) {
+  while (passed_ < range_.end) {
+    throw_if_interrupted();
+    if (!reader_->read(frame)) return false;
+    ++passed_;
+    if (range_.contains(passed_ - 1)) return true;
+  }
+  return false;
+}
+
+Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress) {
+  FrameStream stream(path, range);
+  Scan scan;
+  scan.path = path;
+  scan.format = stream.reader().format();
+  scan.smallest_height = std::numeric_limits<double>::infinity();
+  progress.start("checking " + path);
+  trajectory::Frame frame;
+  while (stream.next(frame)) {
+    note_frame(frame, stream.index(), scan);
+    progress.advance(stream.index());
+  }
+  scan.frames_passed = stream.passed();
+  scan.length_unit = stream.reader().length_unit();
+  progress.clear();
+  require_frames(scan, range);
+  return scan;
+}
+
+}  // namespace dch::cli

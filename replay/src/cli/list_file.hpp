@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <dch/neighbor_list.hpp>
+
+#include "output_file.hpp"
+
+namespace dch::cli {
+
+/// What a file of lists says about itself.
+struct ListFileHeader {
+  std::string source;                ///< the trajectory's file name
+  std::string unit;                  ///< of cutoff and skin
+  std::string engine;
+  std::string exclusions;            ///< "none", "1-2", "1-3", "1-4"
+  double cutoff = 0, skin = 0;       ///< [length]
+  ListKind kind = ListKind::half;
+  std::vector<std::int64_t> ids;     ///< of the atoms, in the order of the rows
+};
+
+/// Writes neighbor lists to an HDF5 file, frame by frame: only the frame at hand is held in memory.
+///
+/// Dataset `j` holds the neighbors of all frames one after the other; row k of `first` (frames x atoms + 1) holds where
+/// the rows of frame k begin in it: the neighbors of atom i in frame k are j[first[k, i] : first[k, i + 1]].
+/// A frame whose list was kept from the frame before points to the same entries. docs/cli.md describes the file.
+class ListFile {
+ public:
+  /// @throws trajectory::FileError if the file cannot be created.
+  ListFile(const std::string& path, const ListFileHeader& header);
+  ~ListFile();
+  ListFile(const ListFile&) = delete;
+  ListFile& operator=(const ListFile&) = delete;
+
+  /// @param is_new false if `list` is the list of the frame before
+  /// @throws trajectory::FileError, the disk being full, say.
+  void append(std::int64_t frame, std::int64_t step, const NeighborList& list, bool is_new);
+
+  /// Completes the file and gives it its name. @throws trajectory::FileError.
+  void commit();
+
+ private:
+  struct Datasets;
+  OutputFile file_;
+  std::unique_ptr<Datasets> datasets_;
+  std::vector<std::int64_t> first_;  ///< of the frame last written
+  std::int64_t entries_ = 0;         ///< in dataset j
+};
+
+}  // namespace dch::cli

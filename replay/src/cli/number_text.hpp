@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dch::cli {
+
+/// A whole number with separators of thousands: 1,234,567.
+std::string grouped(std::int64_t value);
+
+/// About four significant digits for a person to read: 12,346  1,235  12.35  0.01235  1.235e-07.
+std::string readable(double value);
+
+}  // namespace dch::cli

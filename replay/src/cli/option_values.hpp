@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dch::cli {
+
+/// Frames begin, begin + step, ... below end, counted from 0 (as Python slices).
+struct FrameRange {
+  std::int64_t begin = 0;
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
+  std::int64_t step = 1;
+
+  bool contains(std::int64_t frame) const {
+    return frame >= begin && frame < end && (frame - begin) % step == 0;
+  }
+  bool bounded() const { return end != std::numeric_limits<std::int64_t>::max(); }
+};
+
+/// Reads "a:b:s", each part optional, or a single frame number.
+/// @throws UsageError for anything else, a step below 1 and a range without frames, such as 5:2.
+FrameRange parse_frame_range(const std::string& text);
+
+/// A finite number within [lowest, highest]; with `lowest_is_open` the lowest value itself is refused.
+struct NumberLimits {
+  double lowest = 0;
+  double highest = 0;
+  bool lowest_is_open = false;
+  std::string meaning;  ///< for messages: "the cutoff, a length in the file's unit"
+};
+
+/// @throws UsageError naming option, value, limits and meaning.
+double parse_number(const std::string& option, const std::string& text, const NumberLimits& limits);
+
+/// A whole number within [lowest, highest].
+/// @throws UsageError as parse_number.
+std::int64_t parse_whole_number(const std::string& option, const std::string& text, std::int64_t lowest,
+                                std::int64_t highest, const std::string& meaning);
+
+/// A file name that an option gave.
+struct NamedPath {
+  std::string option;  ///< "--out", "FILE", ...
+  std::string path;    ///< empty if not given
+};
+
+/// @throws UsageError if two outputs, or an output and an input, are the same file.
+void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
+
+}  // namespace dch::cli
