@@ -23,43 +23,45 @@ enum class EdgeRule {
 
 /// When update() repairs and when it builds anew.
 enum class MaintenancePolicy {
-  automatic,       ///< whichever the structure's own timings say is cheaper
-  always_repair,   ///< build once, then repair
-  always_rebuild   ///< build at every update
+  automatic,      ///< whichever the structure's own timings say is cheaper
+  always_repair,  ///< build once, then repair
+  always_rebuild  ///< build at every update
 };
 
 struct HierarchyParams {
   /// rho_0, the edge threshold of level 0 [length]: cutoff + skin of the list that the level-0 edges are.
   double radius = 0;
-  /// c >= 1.05: the level scale is r0 = radius / (2 c). Larger c: smaller balls, more levels and edges, more slack.
+  /// c >= 1.05: the level scale is r0 = radius / (2 c). Larger c: smaller balls, more levels and edges, more
+  /// slack.
   double c = 1.05;
   EdgeRule edge_rule = EdgeRule::additive;
   MaintenancePolicy policy = MaintenancePolicy::automatic;
-  /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and all
-  /// pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
+  /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and
+  /// all pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
   int max_roots = 16;
 };
 
 /// One level of a hierarchy, for tests, statistics and plots.
 struct LevelInfo {
-  double covering_radius = 0;     ///< R_i = 2^i r0: level i+1 covers level i within it [length]
-  double edge_threshold = 0;      ///< rho_i [length]
+  double covering_radius = 0;  ///< R_i = 2^i r0: level i+1 covers level i within it [length]
+  double edge_threshold = 0;   ///< rho_i [length]
   std::int64_t nodes = 0;
-  std::int64_t edges = 0;         ///< edges of G_c at this level; -1 for level 0, whose edges are the lists
+  std::int64_t edges = 0;  ///< edges of G_c at this level; -1 for level 0, whose edges are the lists
   std::int64_t max_degree = 0;
 };
 
 /// The discrete center hierarchy of a point set and its conflict graph (thesis, chapter 5).
 ///
-/// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i r0: every node of
-/// level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i apart. G_c joins two
-/// nodes of level i within rho_i of each other. r0 is tied to the list, 2 c r0 = radius, so that the level-0 edges
-/// **are** the neighbor list of that radius; r0 does not depend on the closest pair, so coincident points are no
-/// trouble (one of them stands in level 1).
+/// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i r0:
+/// every node of level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i
+/// apart. G_c joins two nodes of level i within rho_i of each other. r0 is tied to the list, 2 c r0 = radius,
+/// so that the level-0 edges
+/// **are** the neighbor list of that radius; r0 does not depend on the closest pair, so coincident points are
+/// no trouble (one of them stands in level 1).
 ///
-/// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing lemma 5.3.2
-/// and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion. Where this departs
-/// from the thesis's text (thresholds, repair order, forest roots) see docs/thesis-map.md.
+/// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing
+/// lemma 5.3.2 and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion.
+/// Where this departs from the thesis's text (thresholds, repair order, forest roots) see docs/thesis-map.md.
 ///
 /// Points have ids: 0..n-1 after build(), and what insert() returns. Not thread-safe.
 class Hierarchy {
@@ -76,22 +78,23 @@ class Hierarchy {
   /// @throws InvalidPosition, CutoffTooLarge. The hierarchy is empty after a throw.
   void build(Span<const Vec3> positions, const Box& box);
 
-  /// Brings the structure up to date with new positions, indexed by id, in a possibly changed box: black-box repair
-  /// (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement, O(n + k lg alpha) for k changes; or a
-  /// build, as the policy decides. Entries of ids that were removed are ignored.
+  /// Brings the structure up to date with new positions, indexed by id, in a possibly changed box: black-box
+  /// repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement, O(n + k lg alpha) for k
+  /// changes; or a build, as the policy decides. Entries of ids that were removed are ignored.
   /// @throws InvalidParameter if the number of positions is not capacity(); as build() otherwise.
   void update(Span<const Vec3> positions, const Box& box);
 
-  /// Adds a point, with its edges in every level: O(lg alpha). Returns its id: the smallest free one.
-  /// @throws InvalidPosition.
-  std::int32_t insert(Vec3 position);
+  /// Adds a point, with its edges in every level: O(lg alpha), or O(1) levels if `near` (optional) is the id
+  /// of a point close by. Returns the new id: the smallest free one.
+  /// @throws InvalidPosition; InvalidParameter if near is given and not in the hierarchy.
+  std::int32_t insert(Vec3 position, std::int32_t near = -1);
 
   /// Removes a point; its children find new parents or are promoted: O(lg alpha).
   /// @throws InvalidParameter if there is no such point.
   void remove(std::int32_t id);
 
-  /// Gives every point a new id: the point now called old_of_new[k] is called k from here on. Ids that are not
-  /// listed must not be alive. O(n).
+  /// Gives every point a new id: the point now called old_of_new[k] is called k from here on. Ids that are
+  /// not listed must not be alive. O(n).
   /// @throws InvalidParameter unless old_of_new lists every live id exactly once.
   void renumber(Span<const std::int32_t> old_of_new);
 
@@ -106,7 +109,8 @@ class Hierarchy {
   LevelInfo level(int i) const;
   /// Highest level in which the point stands.
   int top_level(std::int32_t id) const;
-  /// Id of the parent of the point's node in level i; the point itself if it stands in level i+1; -1 for a root.
+  /// Id of the parent of the point's node in level i; the point itself if it stands in level i+1; -1 for a
+  /// root.
   /// @throws InvalidParameter if the point does not stand in level i.
   std::int32_t parent(std::int32_t id, int i) const;
   /// Ids of the neighbors in level i of G_c, ascending. Level 0 is enumerated from level 1 by Lemma 5.3.1(5).
@@ -117,14 +121,15 @@ class Hierarchy {
   /// @throws InvalidParameter if params.list_radius() exceeds radius, or types or exclusions do not fit.
   void list(const ListParams& params, NeighborList& out);
 
-  /// Checks every invariant of Lemma 5.3.1 and of the data layout against all pairs: nesting, coverage, separation,
-  /// parents, children, edges of every level. O(n^2) time, for tests and for --verify.
-  /// Returns an empty string if all hold, else a description of the first violation found.
+  /// Checks every invariant of Lemma 5.3.1 and of the data layout against all pairs: nesting, coverage,
+  /// separation, parents, children, edges of every level. O(n^2) time, for tests and for --verify. Returns an
+  /// empty string if all hold, else a description of the first violation found.
   std::string validate() const;
 
   const SearchStats& stats() const;
 
  private:
+  friend struct HierarchyTestAccess;  // tests plant faults for validate() to find
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -18,6 +18,7 @@ struct SearchStats {
   std::int64_t repairs = 0;     ///< structures brought up to date under motion (0 for engines that cannot)
   std::int64_t promotions = 0;  ///< nodes lifted one level (DCH)
   std::int64_t demotions = 0;   ///< nodes removed from one level (DCH)
+  std::int64_t reparented = 0;  ///< nodes that lost their parent under motion and were given a place again (DCH)
   std::int64_t inserted = 0;    ///< particles added to a standing structure
   std::int64_t removed = 0;     ///< particles removed from a standing structure
   int levels = 0;               ///< height of the hierarchy now (DCH)

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/vec3.hpp>
+
+namespace dch::detail {
+
+/// Points to be tested against others: one array a coordinate for the vector units, and no branch that
+/// depends on a distance, since about half of the candidates pass and a mispredicted branch costs more than
+/// the test.
+class CandidateBuffer {
+ public:
+  void clear() { size_ = 0; }
+  std::size_t size() const { return size_; }
+  std::int32_t node(std::size_t k) const { return node_[k]; }
+  Vec3 position(std::size_t k) const { return {x_[k], y_[k], z_[k]}; }
+
+  void append_if(bool keep, Vec3 p, std::int32_t node) {
+    if (size_ == node_.size()) grow();
+    x_[size_] = p.x;
+    y_[size_] = p.y;
+    z_[size_] = p.z;
+    node_[size_] = node;
+    size_ += keep;
+  }
+
+  /// Finds the entries from `first` on within sqrt(limit2) of p. Returns how many; hit(h) and
+  /// distance2(hit(h)) tell which and how far.
+  template <class Metric>
+  std::size_t select(const Metric& metric, Vec3 p, std::size_t first, double limit2) {
+    const double *x = x_.data(), *y = y_.data(), *z = z_.data();
+    double* d2 = distance2_.data();
+    std::int32_t* hit = hit_.data();
+    for (std::size_t k = first; k < size_; ++k) d2[k] = metric.distance2(p, Vec3{x[k], y[k], z[k]});
+    std::size_t hits = 0;
+    for (std::size_t k = first; k < size_; ++k) {
+      hit[hits] = static_cast<std::int32_t>(k);
+      hits += d2[k] <= limit2;
+    }
+    return hits;
+  }
+  std::size_t hit(std::size_t h) const { return static_cast<std::size_t>(hit_[h]); }
+  double distance2(std::size_t k) const { return distance2_[k]; }
+
+ private:
+  void grow() {
+    const std::size_t n = 2 * size_ + 64;
+    for (auto* array : {&x_, &y_, &z_, &distance2_}) array->resize(n);
+    for (auto* array : {&node_, &hit_}) array->resize(n);
+  }
+
+  std::size_t size_ = 0;
+  std::vector<double> x_, y_, z_, distance2_;
+  std::vector<std::int32_t> node_, hit_;
+};
+
+}  // namespace dch::detail

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <string>
+
+#include <dch/error.hpp>
+#include <dch/hierarchy.hpp>
+
+#include "key_table.hpp"
+
+namespace dch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// PairSearch on a Hierarchy. With keys, particles are matched by name: those that left are removed, new ones
+/// inserted and the rest renumbered; then all are moved at once.
+class DchSearch final : public PairSearch {
+ public:
+  explicit DchSearch(const HierarchyParams& params) : hierarchy_(params) {}
+
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override {
+    const auto start = Clock::now();
+    try {
+      if (keys.empty()) {
+        by_index(positions, box);
+      } else {
+        by_key(positions, box, keys);
+      }
+    } catch (...) {
+      state_ = State::empty;
+      hierarchy_.build({}, Box::none());
+      throw;
+    }
+    ++updates_;
+    maintain_seconds_ += seconds_since(start);
+  }
+
+  void list(const ListParams& params, NeighborList& out) override { hierarchy_.list(params, out); }
+  using PairSearch::list;
+
+  const SearchStats& stats() const override {
+    stats_ = hierarchy_.stats();
+    stats_.updates = updates_;
+    stats_.maintain_seconds = maintain_seconds_;
+    return stats_;
+  }
+  std::string name() const override { return "dch"; }
+
+ private:
+  enum class State { empty, indexed, keyed };
+
+  void build(Span<const Vec3> positions, const Box& box) {
+    const auto start = Clock::now();
+    hierarchy_.build(positions, box);
+    build_seconds_ = seconds_since(start);
+  }
+
+  void by_index(Span<const Vec3> positions, const Box& box) {
+    if (state_ == State::indexed && positions.size() == hierarchy_.size()) {
+      hierarchy_.update(positions, box);
+    } else {
+      build(positions, box);
+    }
+    state_ = State::indexed;
+  }
+
+  void by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+    if (keys.size() != positions.size())
+      throw InvalidParameter("update() got " + std::to_string(keys.size()) + " keys for " +
+                             std::to_string(positions.size()) + " positions; give one for each, or none");
+    const std::int32_t repeated = fresh_keys_.fill(keys);
+    if (repeated != detail::KeyTable::kAbsent)
+      throw InvalidParameter("update(): key " + std::to_string(keys[repeated]) + " of particle " +
+                             std::to_string(repeated) +
+                             " names an earlier particle too; keys must be distinct");
+    if (state_ == State::keyed && match(positions, keys)) {
+      hierarchy_.update(positions, box);
+    } else {
+      build(positions, box);
+    }
+    std::swap(keys_, fresh_keys_);
+    state_ = State::keyed;
+  }
+
+  /// Makes the hierarchy hold the particles with these keys under their new indices; false if so many come
+  /// and go that by the times measured so far a new build is cheaper.
+  bool match(Span<const Vec3> positions, Span<const std::uint64_t> keys) {
+    const std::size_t before = hierarchy_.size();
+    std::vector<std::int32_t> old_of_new(keys.size());
+    std::vector<char> stays(before, 0);
+    std::size_t arrivals = 0;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      old_of_new[k] = keys_.find(keys[k]);
+      if (old_of_new[k] == detail::KeyTable::kAbsent) {
+        ++arrivals;
+      } else {
+        stays[old_of_new[k]] = 1;
+      }
+    }
+    const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
+    if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
+        exchange_seconds_ * static_cast<double>(exchanged) > build_seconds_) {
+      exchange_seconds_ *= kForget;
+      return false;
+    }
+
+    const auto start = Clock::now();
+    for (std::size_t id = 0; id < before; ++id)
+      if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (old_of_new[k] == detail::KeyTable::kAbsent)
+        old_of_new[k] = hierarchy_.insert(positions[k], k == 0 ? -1 : old_of_new[k - 1]);
+    if (exchanged > 0) exchange_seconds_ = seconds_since(start) / static_cast<double>(exchanged);
+    hierarchy_.renumber(old_of_new);
+    return true;
+  }
+
+  static constexpr double kForget =
+      0.95;  // an estimate that ruled exchange out fades, so that it is tried again
+
+  Hierarchy hierarchy_;
+  State state_ = State::empty;
+  detail::KeyTable keys_, fresh_keys_;
+  double build_seconds_ = 0;     ///< of the last build
+  double exchange_seconds_ = 0;  ///< to insert or remove one particle, at the last exchange
+  std::int64_t updates_ = 0;
+  double maintain_seconds_ = 0;
+  mutable SearchStats stats_;
+};
+
+}  // namespace
+
+std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params) {
+  return std::make_unique<DchSearch>(params);
+}
+
+std::unique_ptr<PairSearch> make_dch_search(double radius) {
+  HierarchyParams params;
+  params.radius = radius;
+  return make_dch_search(params);
+}
+
+}  // namespace dch

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+
+#include <dch/error.hpp>
+
+#include "hierarchy_impl.hpp"
+#include "position_check.hpp"
+#include "space_filling_order.hpp"
+
+namespace dch {
+
+using detail::kNone;
+using detail::with_metric;
+using Clock = std::chrono::steady_clock;
+
+// --- levels
+// -----------------------------------------------------------------------------------------------------
+
+double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(params.radius / (2 * params.c), i); }
+
+double Hierarchy::Impl::threshold_of_level(int i) const {
+  if (i == 0) return params.radius;
+  if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i);
+  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0));
+}
+
+void Hierarchy::Impl::push_level() {
+  const int i = static_cast<int>(levels.size());
+  Level level;
+  level.radius = radius_of_level(i);
+  level.radius2 = level.radius * level.radius;
+  level.threshold = threshold_of_level(i);
+  level.threshold2 = level.threshold * level.threshold;
+  levels.push_back(std::move(level));
+}
+
+void Hierarchy::Impl::pop_level() {
+  levels.pop_back();
+  Level& roots = levels.back();
+  for (auto* links : {&roots.parent, &roots.up, &roots.next_sibling, &roots.prev_sibling})
+    std::fill(links->begin(), links->end(), kNone);
+}
+
+std::int32_t Hierarchy::Impl::node_of(std::int32_t id, int level) const {
+  if (id < 0 || static_cast<std::size_t>(id) >= slot_of_id.size()) return kNone;
+  std::int32_t node = slot_of_id[id];
+  for (int i = 0; i < level && node != kNone; ++i) node = levels[i].up[node];
+  return node;
+}
+
+std::size_t Hierarchy::Impl::memory_bytes() const {
+  std::size_t bytes =
+      raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
+  for (const Level& level : levels) bytes += level.memory_bytes();
+  return bytes;
+}
+
+// --- building
+// ---------------------------------------------------------------------------------------------------
+
+void Hierarchy::Impl::reset(const Box& b) {
+  box = b;
+  levels.clear();
+  raw.clear();
+  slot_of_id.clear();
+  free_ids.clear();
+  push_level();
+}
+
+void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
+  const auto start = Clock::now();
+  const std::int64_t promotions = stats.promotions;
+  reset(b);
+  detail::check_positions(positions, b);
+  detail::check_radius(params.radius, b);
+  const auto n = positions.size();
+  raw.assign(n, Vec3{});
+  slot_of_id.assign(n, kNone);
+  levels[0].position.reserve(n);
+  with_metric(box, [&](const auto& metric) {
+    std::int32_t hint = kNone;
+    for (const std::int32_t id : detail::space_filling_order(positions, box, params.radius))
+      hint = insert(metric, id, positions[id], hint);
+  });
+  reorder();
+  ++stats.builds;
+  stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
+  if (n > 0) cost.build_per_point = std::chrono::duration<double>(Clock::now() - start).count() / double(n);
+}
+
+// --- public interface
+// -------------------------------------------------------------------------------------------
+
+namespace {
+
+HierarchyParams checked(const HierarchyParams& p) {
+  if (!(std::isfinite(p.radius) && p.radius >= kMinRadius && p.radius <= kMaxCoordinate))
+    throw InvalidParameter("hierarchy radius (cutoff + skin) is " + std::to_string(p.radius) +
+                           "; it must be a finite length in 1e-100..1e100");
+  if (!(p.c >= kMinC && p.c <= kMaxC))
+    throw InvalidParameter("hierarchy parameter c is " + std::to_string(p.c) +
+                           "; it must be in 1.05..1000 (at c = 1 parent and child edges change together)");
+  if (p.max_roots < 1)
+    throw InvalidParameter("max_roots is " + std::to_string(p.max_roots) + "; it must be at least 1");
+  return p;
+}
+
+}  // namespace
+
+Hierarchy::Hierarchy(const HierarchyParams& params) : impl_(std::make_unique<Impl>(checked(params))) {}
+Hierarchy::~Hierarchy() = default;
+Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
+Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
+
+void Hierarchy::build(Span<const Vec3> positions, const Box& box) {
+  try {
+    impl_->build(positions, box);
+  } catch (...) {
+    impl_->reset(Box());
+    throw;
+  }
+}
+
+void Hierarchy::update(Span<const Vec3> positions, const Box& box) {
+  if (positions.size() != capacity())
+    throw InvalidParameter("update() got " + std::to_string(positions.size()) +
+                           " positions for a hierarchy with ids 0.." + std::to_string(capacity()) +
+                           " (exclusive); give one for each, or build() anew");
+  impl_->update(positions, box);
+}
+
+std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
+  detail::check_positions(Span<const Vec3>(&position, 1), box());
+  if (near != kNone && !contains(near))
+    throw InvalidParameter("insert(): there is no point with id " + std::to_string(near) +
+                           " to look near of");
+  Impl& h = *impl_;
+  std::int32_t id;
+  if (h.free_ids.empty()) {
+    id = static_cast<std::int32_t>(h.slot_of_id.size());
+    h.slot_of_id.push_back(kNone);
+    h.raw.push_back(position);
+  } else {
+    std::pop_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
+    id = h.free_ids.back();
+    h.free_ids.pop_back();
+  }
+  with_metric(h.box, [&](const auto& metric) {
+    h.insert(metric, id, position, near == kNone ? kNone : h.slot_of_id[near]);
+  });
+  ++h.stats.inserted;
+  return id;
+}
+
+void Hierarchy::remove(std::int32_t id) {
+  if (!contains(id)) throw InvalidParameter("remove(): there is no point with id " + std::to_string(id));
+  Impl& h = *impl_;
+  with_metric(h.box, [&](const auto& metric) { h.remove(metric, id); });
+  h.free_ids.push_back(id);
+  std::push_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
+  ++h.stats.removed;
+}
+
+void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
+  Impl& h = *impl_;
+  if (old_of_new.size() != size())
+    throw InvalidParameter("renumber() got " + std::to_string(old_of_new.size()) + " ids for " +
+                           std::to_string(size()) + " points");
+  std::vector<std::int32_t> new_of_old(capacity(), kNone);
+  for (std::size_t k = 0; k < old_of_new.size(); ++k) {
+    const std::int32_t old = old_of_new[k];
+    if (!contains(old) || new_of_old[old] != kNone)
+      throw InvalidParameter("renumber(): id " + std::to_string(old) +
+                             (contains(old) ? " is listed twice" : " is not in the hierarchy"));
+    new_of_old[old] = static_cast<std::int32_t>(k);
+  }
+  std::vector<Vec3> raw(old_of_new.size());
+  std::vector<std::int32_t> slots(old_of_new.size());
+  for (std::size_t k = 0; k < old_of_new.size(); ++k) {
+    raw[k] = h.raw[old_of_new[k]];
+    slots[k] = h.slot_of_id[old_of_new[k]];
+  }
+  h.raw = std::move(raw);
+  h.slot_of_id = std::move(slots);
+  h.free_ids.clear();
+  for (auto& level : h.levels)
+    for (std::int32_t& id : level.id)
+      if (id != kNone) id = new_of_old[id];
+}
+
+std::size_t Hierarchy::size() const { return impl_->slot_of_id.size() - impl_->free_ids.size(); }
+std::size_t Hierarchy::capacity() const { return impl_->slot_of_id.size(); }
+bool Hierarchy::contains(std::int32_t id) const { return impl_->node_of(id, 0) != kNone; }
+const Box& Hierarchy::box() const { return impl_->box; }
+const HierarchyParams& Hierarchy::params() const { return impl_->params; }
+int Hierarchy::levels() const { return static_cast<int>(impl_->levels.size()); }
+
+Vec3 Hierarchy::position(std::int32_t id) const {
+  if (!contains(id)) throw InvalidParameter("position(): there is no point with id " + std::to_string(id));
+  return impl_->raw[id];
+}
+
+LevelInfo Hierarchy::level(int i) const {
+  if (i < 0 || i >= levels())
+    throw InvalidParameter("level " + std::to_string(i) + " of a hierarchy with levels 0.." +
+                           std::to_string(levels() - 1));
+  const auto& level = impl_->levels[i];
+  LevelInfo info;
+  info.covering_radius = level.radius;
+  info.edge_threshold = level.threshold;
+  info.nodes = level.alive();
+  info.edges = i == 0 ? -1 : level.edges.entries() / 2;
+  for (std::int32_t k = 0; k < level.size(); ++k)
+    info.max_degree =
+        std::max<std::int64_t>(info.max_degree, static_cast<std::int64_t>(level.edges.row(k).size()));
+  return info;
+}
+
+int Hierarchy::top_level(std::int32_t id) const {
+  if (!contains(id)) throw InvalidParameter("top_level(): there is no point with id " + std::to_string(id));
+  int i = 0;
+  while (i < impl_->top() && impl_->node_of(id, i + 1) != kNone) ++i;
+  return i;
+}
+
+namespace {
+[[noreturn]] void throw_not_in_level(std::int32_t id, int i) {
+  throw InvalidParameter("point " + std::to_string(id) + " does not stand in level " + std::to_string(i));
+}
+}  // namespace
+
+std::int32_t Hierarchy::parent(std::int32_t id, int i) const {
+  const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
+  if (node == kNone) throw_not_in_level(id, i);
+  const std::int32_t above = impl_->levels[i].parent[node];
+  return above == kNone ? kNone : impl_->levels[i + 1].id[above];
+}
+
+std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
+  const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
+  if (node == kNone) throw_not_in_level(id, i);
+  std::vector<std::int32_t> ids;
+  if (i > 0) {
+    for (const std::int32_t k : impl_->levels[i].edges.row(node)) ids.push_back(impl_->levels[i].id[k]);
+  } else {
+    with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors_of_point(metric, node, ids); });
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->list(params, out); }
+std::string Hierarchy::validate() const { return impl_->validate(); }
+
+const SearchStats& Hierarchy::stats() const {
+  SearchStats& s = impl_->stats;
+  s.levels = levels();
+  s.memory_bytes = impl_->memory_bytes();
+  return s;
+}
+
+}  // namespace dch

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+//
+// Black-box repair after motion (thesis 5.5.3 with errata E2, E7 to E10). From the top level down, with all
+// levels above in order:
+//   1. cover: every node of the level finds a parent again, near its old one first, or is promoted;
+//   2. connect: edges are enumerated among children of equal or neighboring *new* parents, which
+//   Lemma 5.3.1(5)
+//      makes complete for any displacement;
+//   3. separate: of two nodes within R_{i-1} one is demoted, and its children are handed to the other, to be
+//   looked
+//      at when their own level's turn comes.
+// Settling the orphans one after the other, each promoted one with its edges at once, keeps the centers
+// separated.
+#include <algorithm>
+#include <chrono>
+
+#include "hierarchy_impl.hpp"
+#include "position_check.hpp"
+
+namespace dch {
+
+using detail::kNone;
+using detail::with_metric;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+constexpr double kMemory = 0.8;  // of the running mean of an orphan's cost: about five repairs deep
+constexpr double kForget =
+    0.95;  // a build chosen over a repair lets the estimate fade, so that repair is tried again
+
+// Share of the nodes that may lie away from their siblings before all are put in order again. In a melt the
+// order costs 7 % of a repair and list, and at this share the list takes about as much longer.
+constexpr double kStrayed = 0.1;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+}  // namespace
+
+void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
+  ++stats.updates;
+  const auto start = Clock::now();
+  try {
+    check_positions_of_points(positions, b);
+    detail::check_radius(params.radius, b);
+    const bool fresh = stats.builds == 0;
+    if (fresh || (params.policy == MaintenancePolicy::always_rebuild && free_ids.empty())) {
+      build(positions, b);
+    } else {
+      box = b;
+      with_metric(box, [&](const auto& metric) {
+        refresh_positions(positions);
+        const auto counting = Clock::now();
+        const std::int64_t orphans = count_orphans(metric);
+        const double check_seconds = seconds_since(counting);
+        if (params.policy != MaintenancePolicy::always_repair && free_ids.empty() && !repair_pays(orphans)) {
+          build(positions, b);
+          cost.orphan *= kForget;
+        } else {
+          repair(metric, check_seconds);
+        }
+      });
+    }
+  } catch (...) {
+    reset(Box());
+    throw;
+  }
+  stats.maintain_seconds += seconds_since(start);
+}
+
+void Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
+  if (free_ids.empty()) return detail::check_positions(positions, b);
+  std::vector<Vec3> live(positions.begin(), positions.end());
+  for (std::size_t id = 0; id < live.size(); ++id)
+    if (slot_of_id[id] == kNone) live[id] = b.origin();
+  detail::check_positions(live, b);
+}
+
+void Hierarchy::Impl::refresh_positions(Span<const Vec3> positions) {
+  for (std::size_t id = 0; id < raw.size(); ++id) {
+    const std::int32_t slot = slot_of_id[id];
+    if (slot == kNone) continue;
+    raw[id] = positions[id];
+    levels[0].position[slot] = box.wrap(positions[id]);
+  }
+  for (int i = 1; i <= top(); ++i) {
+    Level& level = levels[i];
+    for (std::int32_t k = 0; k < level.size(); ++k)
+      if (level.is_alive(k)) level.position[k] = levels[i - 1].position[level.down[k]];
+  }
+}
+
+template <class Metric>
+std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
+  std::int64_t orphans = 0;
+  for (int i = 0; i < top(); ++i) {
+    const Level& level = levels[i];
+    for (std::int32_t k = 0; k < level.size(); ++k)
+      orphans += level.is_alive(k) &&
+                 metric.distance2(level.position[k], levels[i + 1].position[level.parent[k]]) > level.radius2;
+  }
+  return orphans;
+}
+
+// Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
+// of its repairs so far. Until both have been seen once, repair, which is what measures them.
+bool Hierarchy::Impl::repair_pays(std::int64_t orphans) const {
+  if (cost.build_per_point == 0 || cost.sweep_per_point == 0 || cost.orphan == 0) return true;
+  const auto n = static_cast<double>(raw.size());
+  return cost.sweep_per_point * n + cost.orphan * static_cast<double>(orphans) < cost.build_per_point * n;
+}
+
+template <class Metric>
+void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
+  const auto start = Clock::now();
+  const std::int64_t reparented_before = stats.reparented;
+  double cover_seconds = 0;
+  for (int i = top(); i >= 0; --i) {
+    const auto covering = Clock::now();
+    if (i < top()) cover_level(metric, i);
+    cover_seconds += seconds_since(covering);
+    if (i == 0) break;  // level 0 has no separation to keep, and its edges are the lists
+    connect_level(metric, i);
+    separate_level(i);
+  }
+  grow_top(metric);
+  trim_top();
+  ++stats.repairs;
+  strayed += stats.reparented - reparented_before;
+  if (static_cast<double>(strayed) > kStrayed * static_cast<double>(raw.size())) reorder();
+
+  const double n = static_cast<double>(std::max<std::size_t>(raw.size(), 1));
+  const double orphan_seconds = std::max(0.0, cover_seconds - check_seconds);
+  cost.sweep_per_point = (seconds_since(start) - orphan_seconds) / n;
+  const std::int64_t orphans = stats.reparented - reparented_before;
+  if (orphans > 0) {
+    const double now = orphan_seconds / static_cast<double>(orphans);
+    cost.orphan = cost.orphan == 0 ? now : kMemory * cost.orphan + (1 - kMemory) * now;
+  }
+}
+
+template <class Metric>
+void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
+  // Sizes are read anew on each turn: settling may grow the levels above, never this one.
+  for (std::int32_t k = 0; k < levels[i].size(); ++k) {
+    const Level& level = levels[i];
+    if (!level.is_alive(k) || level.up[k] != kNone) continue;
+    const std::int32_t parent = level.parent[k];
+    if (parent != kNone &&
+        metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2)
+      continue;
+    settle(metric, i, k, locate(metric, level.position[k], i + 1, parent));
+    ++stats.reparented;
+    grow_top(metric);
+  }
+}
+
+template <class Metric>
+void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
+  Level& level = levels[i];
+  level.edges.clear();
+  level.edges.resize(level.position.size());
+  too_close.clear();
+  const double separation2 = levels[i - 1].radius2;
+
+  const auto connect_node = [&](std::int32_t k) {
+    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.threshold2);
+    row.clear();
+    for (std::size_t h = 0; h < hits; ++h) {
+      const std::size_t c = candidates.hit(h);
+      const std::int32_t other = candidates.node(c);
+      if (other == k) continue;
+      row.push_back(other);
+      if (candidates.distance2(c) <= separation2 && k < other) too_close.push_back({k, other});
+    }
+    level.edges.assign(k, row.data(), static_cast<std::int32_t>(row.size()));
+  };
+
+  if (i == top()) {
+    candidates.clear();
+    for (std::int32_t k = 0; k < level.size(); ++k)
+      candidates.append_if(level.is_alive(k), level.position[k], k);
+    for (std::int32_t k = 0; k < level.size(); ++k)
+      if (level.is_alive(k)) connect_node(k);
+    return;
+  }
+  const Level& above = levels[i + 1];
+  const double reach = (level.threshold + level.radius) * kInflate;
+  for (std::int32_t parent = 0; parent < above.size(); ++parent) {
+    if (!above.is_alive(parent)) continue;
+    candidates.clear();
+    const Vec3 center = above.position[parent];
+    const auto gather = [&](std::int32_t cluster) {
+      for (std::int32_t k = above.first_child[cluster]; k != kNone; k = level.next_sibling[k])
+        candidates.append_if(metric.distance2(center, level.position[k]) <= reach * reach, level.position[k],
+                             k);
+    };
+    gather(parent);
+    for (const std::int32_t neighbor : above.edges.row(parent)) gather(neighbor);
+    for (std::int32_t k = above.first_child[parent]; k != kNone; k = level.next_sibling[k]) connect_node(k);
+  }
+}
+
+void Hierarchy::Impl::separate_level(int i) {
+  const Level& level = levels[i];
+  for (const auto& [a, b] : too_close) {
+    if (!level.is_alive(a) || !level.is_alive(b)) continue;
+    // At most one of them stands in the level above, whose nodes are farther apart than that.
+    const bool keep_a = level.up[a] != kNone || (level.up[b] == kNone && level.id[a] < level.id[b]);
+    demote(i, keep_a ? b : a, keep_a ? a : b);
+  }
+}
+
+void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
+  Level& level = levels[i];
+  levels[i - 1].up[level.down[node]] = kNone;
+  for (std::int32_t child = level.first_child[node]; child != kNone; child = level.first_child[node]) {
+    detach(i - 1, child);
+    attach(i - 1, child, heir);
+  }
+  detach(i, node);
+  disconnect(i, node);
+  level.retire(node);
+  ++stats.demotions;
+}
+
+#define DCH_INSTANTIATE(Metric)                                              \
+  template std::int64_t Hierarchy::Impl::count_orphans(const Metric&) const; \
+  template void Hierarchy::Impl::repair(const Metric&, double);
+DCH_INSTANTIATE(detail::OpenMetric)
+DCH_INSTANTIATE(detail::OrthorhombicMetric)
+DCH_INSTANTIATE(detail::LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch

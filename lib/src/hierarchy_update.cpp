@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// Insertion, removal and promotion of single points (thesis 5.4, errata E4, E8, E10).
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchy_impl.hpp"
+
+namespace dch {
+
+using detail::kNone;
+using detail::LatticeMetric;
+using detail::OpenMetric;
+using detail::OrthorhombicMetric;
+
+// A node s of level j with |ps| <= R_{j-1} has its ancestor of level l > j within
+// R_{j-1} + R_j + ... + R_{l-1} < R_l of p, so a descent that keeps all nodes within R_l of p misses no
+// parent. A hint a of level l replaces the descent's upper part: if |pa| <= rho_l - R_l, every node within
+// R_l of p is within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's
+// parent too, since rho_{l+1} - R_{l+1} >= rho_l - R_l + R_l for both edge rules.
+template <class Metric>
+Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, std::int32_t hint) {
+  if (target > top()) return {top() + 1, kNone};
+  if (near.size() < levels.size()) near.resize(levels.size());
+
+  const auto keep = [&](int level, std::int32_t node) {
+    const double d2 = metric.distance2(at, levels[level].position[node]);
+    if (d2 <= levels[level].radius2 * (kInflate * kInflate)) near[level].push_back({node, d2});
+  };
+  const auto look_around = [&](int level, std::int32_t node) {
+    near[level].clear();
+    if (level == top()) {
+      for (std::int32_t root = 0; root < levels[level].size(); ++root)
+        if (levels[level].is_alive(root)) keep(level, root);
+      return;
+    }
+    keep(level, node);
+    for (const std::int32_t neighbor : levels[level].edges.row(node)) keep(level, neighbor);
+  };
+
+  // Climb until the hint's surroundings are wide enough.
+  int start = hint == kNone ? top() : target;
+  std::int32_t guide = hint;
+  for (; start < top(); ++start) {
+    const double reach = levels[start].threshold - levels[start].radius;
+    if (metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= reach * reach) break;
+    guide = levels[start].parent[guide];
+  }
+  look_around(start, guide);
+  for (int level = start; level > target; --level) {
+    near[level - 1].clear();
+    for (const Near& kept : near[level])
+      for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
+           child = levels[level - 1].next_sibling[child])
+        keep(level - 1, child);
+  }
+
+  for (int level = target; level <= top(); ++level) {
+    if (level > start) {
+      guide = levels[level - 1].parent[guide];
+      look_around(level, guide);
+    }
+    const double limit2 = levels[level - 1].radius2;
+    const Near* best = nullptr;
+    for (const Near& kept : near[level])
+      if (kept.distance2 <= limit2 && (!best || kept.distance2 < best->distance2)) best = &kept;
+    if (best) return {level, best->node};
+  }
+  return {top() + 1, kNone};
+}
+
+template <class Metric>
+void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
+  Level& at = levels[level];
+  const Vec3 position = at.position[node];
+  const auto join = [&](std::int32_t other) {
+    if (other == node || metric.distance2(position, at.position[other]) > at.threshold2) return;
+    at.edges.push(node, other);
+    at.edges.push(other, node);
+  };
+  if (level == top()) {
+    for (std::int32_t root = 0; root < at.size(); ++root)
+      if (at.is_alive(root)) join(root);
+    return;
+  }
+  const Level& above = levels[level + 1];
+  const auto join_children = [&](std::int32_t parent) {
+    for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
+      join(child);
+  };
+  const std::int32_t parent = at.parent[node];
+  join_children(parent);
+  for (const std::int32_t neighbor : above.edges.row(parent)) join_children(neighbor);
+}
+
+template <class Metric>
+void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node, Cover cover) {
+  const std::int32_t point = levels[level].id[node];
+  const Vec3 position = levels[level].position[node];
+  std::int32_t above = cover.parent;
+  bool above_is_own = false;
+  // From the top down, since a node's edges are found among the children of its parent's neighbors.
+  for (int i = cover.level - 1; i > level; --i) {
+    const std::int32_t lifted = levels[i].add(point, position);
+    if (above != kNone) attach(i, lifted, above);
+    if (above_is_own) {
+      levels[i].up[lifted] = above;
+      levels[i + 1].down[above] = lifted;
+    }
+    connect(metric, i, lifted);
+    ++stats.promotions;
+    above = lifted;
+    above_is_own = true;
+  }
+  detach(level, node);
+  if (above == kNone) return;  // a root
+  attach(level, node, above);
+  if (above_is_own) {
+    levels[level].up[node] = above;
+    levels[level + 1].down[above] = node;
+  }
+}
+
+template <class Metric>
+void Hierarchy::Impl::grow_top(const Metric& metric) {
+  while (levels.back().alive() > params.max_roots) {
+    push_level();
+    const int i = top() - 1;
+    for (std::int32_t node = 0; node < levels[i].size(); ++node) {
+      if (!levels[i].is_alive(node)) continue;
+      settle(metric, i, node, locate(metric, levels[i].position[node], i + 1, kNone));
+    }
+  }
+}
+
+template <class Metric>
+std::int32_t Hierarchy::Impl::insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot) {
+  const Vec3 wrapped = box.wrap(at);
+  const std::int32_t hint = hint_slot == kNone ? kNone : levels[0].parent[hint_slot];
+  const std::int32_t node = levels[0].add(id, wrapped);
+  slot_of_id[id] = node;
+  raw[id] = at;
+  settle(metric, 0, node, locate(metric, wrapped, 1, hint));
+  grow_top(metric);
+  return node;
+}
+
+template <class Metric>
+void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
+  // Take the point out of every level first; the children it leaves behind are settled from the top down.
+  std::vector<std::vector<std::int32_t>> orphans(levels.size());
+  std::vector<std::int32_t> hint(levels.size() + 1, kNone);  // by level: a neighbor of the point there
+  std::int32_t node = slot_of_id[id];
+  for (int level = 0; node != kNone; ++level) {
+    Level& at = levels[level];
+    if (level > 0) {
+      for (std::int32_t child = at.first_child[node]; child != kNone; child = at.first_child[node]) {
+        detach(level - 1, child);
+        orphans[level - 1].push_back(child);
+      }
+    }
+    detach(level, node);
+    if (!at.edges.row(node).empty()) hint[level] = at.edges.row(node)[0];
+    disconnect(level, node);
+    const std::int32_t own_above = at.up[node];
+    at.retire(node);
+    if (own_above != kNone) levels[level + 1].down[own_above] = kNone;
+    node = own_above;
+  }
+  while (top() > 0 && levels.back().alive() == 0) pop_level();
+  for (int level = top(); level >= 0; --level)
+    for (const std::int32_t orphan : orphans[level])
+      settle(metric, level, orphan,
+             locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
+  slot_of_id[id] = kNone;
+  grow_top(metric);
+  trim_top();
+}
+
+void Hierarchy::Impl::trim_top() {
+  while (top() > 0 && levels[top() - 1].alive() <= params.max_roots) pop_level();
+}
+
+#define DCH_INSTANTIATE(Metric)                                                                    \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, std::int32_t); \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                  \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                        \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                          \
+  template std::int32_t Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t);  \
+  template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch
