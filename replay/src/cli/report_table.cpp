@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <vector>
+
+#include "number_text.hpp"
+#include "replay_report.hpp"
+#include "report_rows.hpp"
+
+namespace dch::cli {
+namespace {
+
+std::string levels_text(const ReplayReport& report) {
+  std::vector<std::string> sizes;
+  for (const LevelInfo& level : report.levels) sizes.push_back(grouped(level.nodes));
+  return fmt::format("{} (nodes after the last frame: {})", report.levels.size(), fmt::join(sizes, ", "));
+}
+
+std::string box_text(const ReplayReport& report) {
+  std::string text = fmt::format("{}", fmt::join(report.box_kinds, "; "));
+  if (std::isfinite(report.smallest_height)) {
+    text += fmt::format(", smallest height {} {} (frame {})", readable(report.smallest_height), unit_suffix(report.unit),
+                        report.smallest_height_frame);
+  }
+  return text;
+}
+
+std::string exclusion_text(const ExclusionRecord& exclusions) {
+  const std::string bonds = fmt::format("{} bonds from {}", grouped(exclusions.bonds), exclusions.source);
+  if (exclusions.rule.empty()) return fmt::format("none ({})", bonds);
+  return fmt::format("{} {} pairs ({})", grouped(exclusions.pairs), exclusions.rule, bonds);
+}
+
+std::string verify_text(const VerifyResult& verify) {
+  const auto frames = static_cast<std::int64_t>(verify.frames.size());
+  switch (verify.mode) {
+    case VerifyMode::all: {
+      std::string text = fmt::format("all pairs of {} frames", grouped(frames));
+      if (verify.structure_checks > 0) text += fmt::format(", hierarchy of {}", grouped(verify.structure_checks));
+      return text;
+    }
+    case VerifyMode::sample:
+      return fmt::format("{} atoms in {} frames (seed {})", grouped(verify.rows), grouped(frames), verify.seed);
+    case VerifyMode::none:
+      break;
+  }
+  return "none (--verify sample or --verify all compares the lists with all pairs)";
+}
+
+std::string mismatch_text(const VerifyResult& verify) {
+  return verify.mode == VerifyMode::none ? "not looked for" : grouped(verify.mismatches);
+}
+
+std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
+  const auto frames = static_cast<double>(report.frames.size());
+  return fmt::format("read {}, maintain {}, list {}", readable(totals.read_ms / frames),
+                     readable(totals.maintain_ms / frames), readable(totals.list_ms / frames));
+}
+
+}  // namespace
+
+std::string unit_suffix(const std::string& unit) { return unit.find(' ') == std::string::npos ? unit : "[" + unit + "]"; }
+
+std::string engine_text(const EngineOptions& engine) {
+  switch (engine.kind) {
+    case EngineKind::cell:
+      return "cell list, built at every update";
+    case EngineKind::allpairs:
+      return "all pairs, no structure";
+    case EngineKind::dch:
+      break;
+  }
+  return fmt::format("dch, c = {}, policy {}", engine.c, to_string(engine.policy));
+}
+
+std::string list_text(const ReplayReport& report) {
+  return fmt::format("{}, cutoff {}{} {}", to_string(report.list_kind), report.cutoff,
+                     report.skin > 0 ? fmt::format(" + skin {}", report.skin) : "", unit_suffix(report.unit));
+}
+
+std::vector<Row> report_rows(const ReplayReport& report) {
+  const ReplayTotals totals = report.totals();
+  std::vector<Row> rows{
+      {"file", fmt::format("{} ({})", report.file, report.format)},
+      {"unit of length", report.unit},
+      {"engine", engine_text(report.engine)},
+      {"list", list_text(report)},
+      {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
+      {"atoms", grouped(report.atoms)},
+      {"box", box_text(report)}};
+  if (!report.exclusions.source.empty()) rows.push_back({"excluded", exclusion_text(report.exclusions)});
+  rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
+                                               readable(totals.pairs_mean), grouped(totals.pairs_max))});
+  rows.push_back({"list rebuilds", grouped(totals.list_rebuilds)});
+  rows.push_back({"structure", fmt::format("{} repairs, {} rebuilds", grouped(totals.repairs), grouped(totals.rebuilds))});
+  if (!report.levels.empty()) {
+    rows.push_back({"promotions", grouped(totals.promotions)});
+    rows.push_back({"demotions", grouped(totals.demotions)});
+    rows.push_back({"levels", levels_text(report)});
+  }
+  rows.push_back({"ms a frame", cost_text(report, totals)});
+  rows.push_back({"verified", verify_text(report.verify)});
+  rows.push_back({"mismatches", mismatch_text(report.verify)});
+  return rows;
+}
+
+std::string render_table(const ReplayReport& report) {
+  std::string table;
+  for (const Row& row : report_rows(report)) table += fmt::format("  {:<16}{}\n", row.name, row.value);
+  return table;
+}
+
+}  // namespace dch::cli
