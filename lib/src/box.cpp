@@ -7,9 +7,13 @@
 #include <dch/error.hpp>
 
 #include "describe.hpp"
+#include "dual_basis.hpp"
 
 namespace dch {
 namespace {
+
+using detail::describe;
+using detail::dual_basis;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinLength = 1e-100;  ///< shorter cell vectors would underflow when squared and multiplied
@@ -47,25 +51,6 @@ void check_length(double length, const std::string& what) {
     throw InvalidBox(what + " is " + describe(length) + " long; it must be between " + describe(kMinLength) +
                      " and " + describe(kMaxCoordinate) + " (use Box::none() for open boundaries)");
   }
-}
-
-/// Vectors g with g[i] . v[j] = delta_ij in the span of the first `rank` vectors of v.
-std::array<Vec3, 3> dual_basis(const std::array<Vec3, 3>& v, int rank) {
-  std::array<Vec3, 3> dual{};
-  if (rank == 1) {
-    dual[0] = (1 / norm2(v[0])) * v[0];
-  } else if (rank == 2) {
-    const Vec3 normal = cross(v[0], v[1]);
-    const double scale = 1 / norm2(normal);
-    dual[0] = scale * cross(v[1], normal);
-    dual[1] = scale * cross(normal, v[0]);
-  } else if (rank == 3) {
-    const double scale = 1 / dot(v[0], cross(v[1], v[2]));
-    dual[0] = scale * cross(v[1], v[2]);
-    dual[1] = scale * cross(v[2], v[0]);
-    dual[2] = scale * cross(v[0], v[1]);
-  }
-  return dual;
 }
 
 /// A lattice vector together with its integer coordinates in the vectors it was made from, so that its value

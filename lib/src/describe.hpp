@@ -7,7 +7,7 @@
 
 #include <dch/vec3.hpp>
 
-namespace dch {
+namespace dch::detail {
 
 /// Numbers in error messages: the shortest text that reads back as the same double.
 inline std::string describe(double value) {
@@ -20,4 +20,4 @@ inline std::string describe(Vec3 v) {
   return "(" + describe(v.x) + ", " + describe(v.y) + ", " + describe(v.z) + ")";
 }
 
-}  // namespace dch
+}  // namespace dch::detail

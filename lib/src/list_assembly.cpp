@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace dch {
+namespace dch::detail {
 namespace {
 
 /// Turns counts at [k + 1] into first positions: first[0] = 0, first[k + 1] = first[k] + count of k.
@@ -77,4 +77,4 @@ std::size_t ListAssembler::memory_bytes() const {
          (row_of_.capacity() + half_.j.capacity()) * sizeof(std::int32_t);
 }
 
-}  // namespace dch
+}  // namespace dch::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <dch/exclusions.hpp>
 #include <dch/neighbor_list.hpp>
 
-namespace dch {
+namespace dch::detail {
 
 /// Pairs that an engine found, each once, in any order; the engine keeps the buffer so that its memory is
 /// reused.
@@ -17,8 +17,7 @@ class PairBuffer {
   void clear() { pairs_.clear(); }
   /// Adds the pair of two distinct particles, in either order.
   void add(std::int32_t i, std::int32_t j) {
-    if (i > j) std::swap(i, j);
-    pairs_.push_back({i, j});
+    pairs_.push_back({std::min(i, j), std::max(i, j)});  // no branch: either order is as likely
   }
   /// The pairs, smaller index first.
   Span<const IndexPair> pairs() const { return pairs_; }
@@ -49,4 +48,4 @@ class ListAssembler {
   NeighborList half_;                       ///< upper triangle on the way to a full list
 };
 
-}  // namespace dch
+}  // namespace dch::detail

@@ -22,10 +22,8 @@ struct NeighborList {
 
   /// Number of rows (particles).
   std::size_t size() const { return first.size() - 1; }
-  /// Number of distinct pairs.
-  std::int64_t pairs() const {
-    return kind == ListKind::half ? first.back() : first.back() / 2;
-  }
+  /// Number of distinct pairs; O(1) for a half list, O(n lg degree) for a full one, whose rows of ghosts are empty.
+  std::int64_t pairs() const;
   Span<const std::int32_t> row(std::size_t i) const {
     return {j.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
   }

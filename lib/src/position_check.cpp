@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "position_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <dch/error.hpp>
+
+#include "describe.hpp"
+#include "dual_basis.hpp"
+
+namespace dch::detail {
+namespace {
+
+double norm(Vec3 v) { return std::sqrt(norm2(v)); }
+
+std::string position_text(std::size_t i, Vec3 p) {
+  return "position " + std::to_string(i) + " = " + describe(p);
+}
+
+bool in_range(double x) { return std::abs(x) <= kMaxCoordinate; }  // false for NaN
+
+void check_types(const ListParams& params, std::size_t n) {
+  const int types = params.cutoffs.types();
+  if (params.types.empty() && (types == 1 || n == 0)) return;
+  if (params.types.size() != n) {
+    throw InvalidParameter(std::to_string(params.types.size()) + " particle types given for " +
+                           std::to_string(n) + " particles; give one each");
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (params.types[i] < 0 || params.types[i] >= types) {
+      throw InvalidParameter("particle " + std::to_string(i) + " has type " +
+                             std::to_string(params.types[i]) + ", but the cutoffs are for types 0 to " +
+                             std::to_string(types - 1));
+    }
+  }
+}
+
+}  // namespace
+
+WrapError::WrapError(const Box& box) : origin_(box.origin()) {
+  const int rank = box.rank();
+  if (rank == 0) return;
+  std::array<Vec3, 3> cell{};
+  std::size_t periods = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!box.periodic(axis)) continue;
+    const Vec3 v = box.vector(axis);
+    cell[periods++] = v;
+    cell_size_ += norm(v);
+    for (std::size_t k = 0; k < 3; ++k) shifted_[k] = shifted_[k] || v[static_cast<int>(k)] != 0;
+  }
+  // A shift of length s is a sum of multiples of the cell vectors a_k, each at most s |a_k| / height_k long;
+  // products and sums of those round. The reduced vectors are such sums themselves and are multiplied once
+  // more in wrapping.
+  const auto dual = dual_basis(cell, rank);
+  double given = 1, reduced = 1;
+  for (std::size_t k = 0; k < periods; ++k) {
+    given += norm(cell[k]) * norm(dual[k]);
+    reduced += norm(box.reduced()[k]) * norm(box.reduced_dual()[k]);
+  }
+  constexpr double kRoundings =
+      8;  // a bound on their number, given that each of the two sums above is at least 2
+  amplification_ = kRoundings * std::numeric_limits<double>::epsilon() * given * reduced;
+}
+
+double WrapError::reach(Vec3 p) const {
+  const Vec3 d = p - origin_;
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (shifted_[k]) sum += std::abs(d[static_cast<int>(k)]);
+  }
+  return sum;
+}
+
+double WrapError::largest_reach(Span<const Vec3> positions) const {
+  double largest = 0;
+  for (const Vec3 p : positions) largest = std::max(largest, reach(p));
+  return largest;
+}
+
+void check_positions(Span<const Vec3> positions, const Box& box) {
+  if (positions.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw InvalidParameter(std::to_string(positions.size()) +
+                           " particles; particle indices are 32-bit, so at most " +
+                           std::to_string(std::numeric_limits<std::int32_t>::max()) + " are possible");
+  }
+  const WrapError error(box);
+  const double tolerance = box.any_periodic() ? 0.125 * box.min_height() : 1;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 p = positions[i];
+    if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
+      throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
+                            "; check the coordinates of this frame");
+    }
+    if (const double uncertain = error.bound(error.reach(p)); uncertain > tolerance) {
+      throw InvalidPosition(
+          position_text(i, p) +
+          " is so far outside the periodic box that rounding leaves its place there uncertain by " +
+          describe(uncertain) + "; at most " + describe(tolerance) +
+          " is allowed, wrap the coordinates first");
+    }
+  }
+}
+
+void check_radius(double radius, const Box& box) {
+  if (radius > box.max_cutoff()) {
+    throw CutoffTooLarge("cutoff + skin = " + describe(radius) + " exceeds " + describe(box.max_cutoff()) +
+                         ", half the smallest height of the periodic box (" + describe(box.min_height()) +
+                         "); lower the cutoff or the skin, or replicate the system");
+  }
+}
+
+void check_list_params(const ListParams& params, std::size_t n, double radius) {
+  if (!(std::isfinite(params.skin) && params.skin >= 0)) {
+    throw InvalidParameter("the skin is " + describe(params.skin) + "; it must be finite and not negative");
+  }
+  if (params.list_radius() > radius) {
+    throw InvalidParameter("cutoff + skin = " + describe(params.list_radius()) +
+                           " exceeds the search radius " + describe(radius) +
+                           " that the engine was made for; make it with a larger one");
+  }
+  check_types(params, n);
+  if (params.exclusions != nullptr && !params.exclusions->empty() && params.exclusions->size() != n) {
+    throw InvalidParameter("exclusions made for " + std::to_string(params.exclusions->size()) +
+                           " particles do not fit " + std::to_string(n) + " particles");
+  }
+  if (params.first_ghost >= 0 && static_cast<std::size_t>(params.first_ghost) > n) {
+    throw InvalidParameter("the first ghost is particle " + std::to_string(params.first_ghost) +
+                           ", but there are only " + std::to_string(n) + " particles");
+  }
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <dch/box.hpp>
+#include <dch/neighbor_list.hpp>
+#include <dch/span.hpp>
+
+namespace dch::detail {
+
+/// How far the distance of two points by their wrapped images can be from the pair distance that ListParams
+/// defines, which starts from the positions as given: shifts by many or by very skewed cell vectors round.
+/// Zero for points in an open box, about 1e-14 of the box for points near it, and about 1e-16 of the
+/// coordinate for points far outside.
+class WrapError {
+ public:
+  explicit WrapError(const Box& box);
+  /// Bound for pairs of points whose reach() is at most `reach` [length].
+  double bound(double reach) const { return amplification_ * (reach + cell_size_); }
+  /// How far out a point lies along the axes that shifts change [length].
+  double reach(Vec3 p) const;
+  double largest_reach(Span<const Vec3> positions) const;
+
+ private:
+  Vec3 origin_;
+  std::array<bool, 3> shifted_{};  ///< coordinates that lattice shifts change
+  double amplification_ = 0;
+  double cell_size_ = 0;
+};
+
+/// @throws InvalidParameter for more particles than 32-bit indices can name.
+/// @throws InvalidPosition naming index and value if a coordinate is not finite or beyond kMaxCoordinate, or
+/// so far
+///   outside a periodic box that rounding leaves its place in the box undetermined by an eighth of the box.
+void check_positions(Span<const Vec3> positions, const Box& box);
+
+/// @throws CutoffTooLarge if the radius (cutoff + skin) exceeds box.max_cutoff().
+void check_radius(double radius, const Box& box);
+
+/// Checks that params ask for something a structure of n particles and of the given search radius can answer.
+/// @throws InvalidParameter as PairSearch::list says.
+void check_list_params(const ListParams& params, std::size_t n, double radius);
+
+}  // namespace dch::detail
