@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/neighbor_list.hpp>
+#include <dch/span.hpp>
+
+namespace dch::detail {
+
+/// Decides whether a pair belongs in a list, exactly as ListParams defines it.
+///
+/// Engines find candidates by distances between wrapped images, which round differently. Outside a narrow
+/// band around the cutoff such a distance decides; inside it the pair distance is evaluated anew from the
+/// positions as given. So every engine writes the same list.
+class PairFilter {
+ public:
+  /// @param positions as given to the engine, not wrapped; they, params.types and params.exclusions must
+  /// outlive this.
+  /// @param wrap_error WrapError::bound for these positions [length].
+  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double wrap_error);
+
+  /// No pair at a larger squared distance of wrapped images is in the list, whatever its types [length^2].
+  double largest_distance2() const { return largest_; }
+
+  /// @param distance2 of the nearest wrapped images of i and j [length^2].
+  bool accept(std::int32_t i, std::int32_t j, double distance2) const {
+    const Band& band = one_type_ ? bands_.front() : band_of(i, j);
+    if (distance2 > band.out_above) return false;
+    if (restricted_ && !is_wanted(i, j)) return false;
+    return distance2 <= band.in_below || is_within(i, j, band.cutoff2);
+  }
+
+  /// The same for a pair whose distance is not known.
+  bool accept(std::int32_t i, std::int32_t j) const;
+
+ private:
+  /// Squared distances of wrapped images that settle the matter, and the limit for the others.
+  struct Band {
+    double in_below;
+    double out_above;
+    double cutoff2;
+  };
+  const Band& band_of(std::int32_t i, std::int32_t j) const {
+    return bands_[static_cast<std::size_t>(types_[i] * type_count_ + types_[j])];
+  }
+  bool is_wanted(std::int32_t i, std::int32_t j) const;
+  bool is_within(std::int32_t i, std::int32_t j, double cutoff2) const;
+
+  Span<const Vec3> positions_;
+  const Box& box_;
+  Span<const std::int32_t> types_;
+  const Exclusions* exclusions_;
+  std::int32_t first_ghost_;
+  int type_count_;
+  bool one_type_;
+  bool restricted_;  ///< by exclusions or ghosts
+  std::vector<Band> bands_;
+  double largest_ = -1;
+
+  std::array<Vec3, 3> cell_{};  ///< as given
+  std::array<Vec3, 3> dual_{};  ///< gives the integers of a lattice vector; zero along open axes
+  std::vector<Vec3>
+      other_images_;  ///< integers of the lattice vectors that may lead to another image as near
+};
+
+}  // namespace dch::detail
