@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <dch/all_pairs.hpp>
+#include <dch/error.hpp>
 
 #include "position_check.hpp"
 
