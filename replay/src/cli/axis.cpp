@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "axis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 #include "number_text.hpp"
@@ -40,7 +39,8 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
 std::string tick_label(double value) {
   const double size = std::abs(value);
   if (size >= 1e6 && size < 1e15) return fmt::format("{:.6g}M", value / 1e6);
-  if (size >= 1000 && size < 1e6 && value == std::floor(value)) return grouped(static_cast<std::int64_t>(value));
+  if (size >= 1000 && size < 1e6 && value == std::floor(value))
+    return grouped(static_cast<std::int64_t>(value));
   return fmt::format("{:.6g}", value);
 }
 

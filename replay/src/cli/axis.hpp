@@ -15,8 +15,8 @@ std::string tick_label(double value);
 
 /// Points in order merged into at most `limit` groups of neighbors, so that long runs can be drawn.
 struct Grouping {
-  std::size_t size = 0;        ///< number of points
-  std::size_t per_group = 1;   ///< points in each group; the last one may hold fewer
+  std::size_t size = 0;       ///< number of points
+  std::size_t per_group = 1;  ///< points in each group; the last one may hold fewer
 
   Grouping(std::size_t points, std::size_t limit);
   std::size_t groups() const { return (size + per_group - 1) / per_group; }

@@ -51,7 +51,9 @@ class AllPairsSearch final : public PairSearch {
     ++stats_.builds;
   }
   using PairSearch::list;
-  void list(const ListParams& params, NeighborList& out) override { out = all_pairs(positions_, box_, params); }
+  void list(const ListParams& params, NeighborList& out) override {
+    out = all_pairs(positions_, box_, params);
+  }
   const SearchStats& stats() const override { return stats_; }
   std::string name() const override { return "allpairs"; }
 

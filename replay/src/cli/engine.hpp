@@ -14,7 +14,7 @@ enum class EngineKind { dch, cell, allpairs };
 /// What a replay's engine is made from.
 struct EngineOptions {
   EngineKind kind = EngineKind::dch;
-  double c = 1.05;  ///< parameter of the hierarchy (dch only)
+  double c = 1.05;                                          ///< parameter of the hierarchy (dch only)
   MaintenancePolicy policy = MaintenancePolicy::automatic;  ///< repair or rebuild (dch only)
 };
 
@@ -23,8 +23,8 @@ std::string to_string(MaintenancePolicy policy);  ///< "auto", "repair", "rebuil
 
 /// An engine, with a view of its hierarchy where it keeps one.
 struct Engine {
-  std::unique_ptr<PairSearch> search;      ///< its times cover update() and list() of every kind alike
-  const Hierarchy* hierarchy = nullptr;    ///< owned by search; null for cell and allpairs
+  std::unique_ptr<PairSearch> search;    ///< its times cover update() and list() of every kind alike
+  const Hierarchy* hierarchy = nullptr;  ///< owned by search; null for cell and allpairs
 };
 
 /// @param radius cutoff + skin of the lists to come [length]

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame_stream.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 
 #include <dch/trajectory/file_error.hpp>
@@ -37,10 +36,13 @@ void note_frame(const trajectory::Frame& frame, std::int64_t index, Scan& scan) 
 void require_frames(const Scan& scan, const FrameRange& range) {
   if (scan.frames > 0) return;
   if (scan.frames_passed == 0) {
-    throw trajectory::FileError(fmt::format("{}: holds no frame; a trajectory needs at least one", scan.path));
+    throw trajectory::FileError(
+        fmt::format("{}: holds no frame; a trajectory needs at least one", scan.path));
   }
-  throw UsageError(fmt::format("--frames selects no frame of {}: it starts at frame {}, and the file's frames are 0 to "
-                               "{}; give a smaller first frame", scan.path, range.begin, scan.frames_passed - 1));
+  throw UsageError(
+      fmt::format("--frames selects no frame of {}: it starts at frame {}, and the file's frames are 0 to "
+                  "{}; give a smaller first frame",
+                  scan.path, range.begin, scan.frames_passed - 1));
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ class FrameStream {
   /// @throws trajectory::FileError as TrajectoryReader::read; Interrupted.
   bool next(trajectory::Frame& frame);
 
-  std::int64_t index() const { return passed_ - 1; }   ///< of the frame last read, from 0
-  std::int64_t passed() const { return passed_; }      ///< frames read so far, selected or not
+  std::int64_t index() const { return passed_ - 1; }  ///< of the frame last read, from 0
+  std::int64_t passed() const { return passed_; }     ///< frames read so far, selected or not
   const trajectory::TrajectoryReader& reader() const { return *reader_; }
 
  private:
@@ -39,20 +39,21 @@ struct Scan {
   std::string path;
   std::string format;
   std::string length_unit;
-  std::int64_t frames = 0;                ///< selected
-  std::int64_t frames_passed = 0;         ///< read; all the file's frames if the range is unbounded
-  std::vector<std::string> box_kinds;     ///< Box::description() in order of appearance, each once
-  double smallest_height = 0;             ///< over the selected frames [length]; infinity without a periodic box
-  std::int64_t smallest_height_frame = 0; ///< the first frame with it
+  std::int64_t frames = 0;             ///< selected
+  std::int64_t frames_passed = 0;      ///< read; all the file's frames if the range is unbounded
+  std::vector<std::string> box_kinds;  ///< Box::description() in order of appearance, each once
+  double smallest_height = 0;          ///< over the selected frames [length]; infinity without a periodic box
+  std::int64_t smallest_height_frame = 0;  ///< the first frame with it
   std::int64_t first_step = 0, last_step = 0;
   std::optional<double> first_time, last_time;
-  trajectory::Frame first_frame;          ///< the first selected frame
+  trajectory::Frame first_frame;  ///< the first selected frame
 
   std::size_t atoms() const { return first_frame.positions.size(); }
 };
 
 /// Reads all selected frames once: every broken frame is found here, before any work has been done.
-/// @throws trajectory::FileError if the file is broken or holds no frame; UsageError if the range selects none.
+/// @throws trajectory::FileError if the file is broken or holds no frame; UsageError if the range selects
+/// none.
 Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress);
 
 }  // namespace dch::cli

@@ -3,7 +3,8 @@
 
 namespace dch::cli {
 
-/// From here on SIGINT and SIGTERM only set a flag, so that a run can end by an exception and temporary files go away.
+/// From here on SIGINT and SIGTERM only set a flag, so that a run can end by an exception and temporary files
+/// go away.
 void catch_interrupts();
 
 /// @throws Interrupted if one of these signals has come.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "list_file.hpp"
 
-#include <fmt/format.h>
-#include <hdf5.h>
-
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
+#include <hdf5.h>
 #include <utility>
 
 #include <dch/trajectory/file_error.hpp>
@@ -15,7 +14,8 @@
 namespace dch::cli {
 namespace {
 
-constexpr hsize_t kChunkEntries = 1 << 18;  ///< of 4 or 8 bytes: about a megabyte, the size HDF5 caches by default
+constexpr hsize_t kChunkEntries =
+    1 << 18;  ///< of 4 or 8 bytes: about a megabyte, the size HDF5 caches by default
 constexpr unsigned kDeflateLevel = 1;
 
 /// Turns HDF5's own messages off: ours name file and remedy.
@@ -67,7 +67,8 @@ void write_attribute(hid_t object, const char* name, double value) {
 void write_vector(hid_t file, const char* name, const std::vector<std::int64_t>& values) {
   const hsize_t size = values.size();
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Handle data(H5Dcreate2(file, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle data(H5Dcreate2(file, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Dclose);
   require(H5Dwrite(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
 }
 

@@ -14,20 +14,21 @@ namespace dch::cli {
 
 /// What a file of lists says about itself.
 struct ListFileHeader {
-  std::string source;                ///< the trajectory's file name
-  std::string unit;                  ///< of cutoff and skin
+  std::string source;  ///< the trajectory's file name
+  std::string unit;    ///< of cutoff and skin
   std::string engine;
-  std::string exclusions;            ///< "none", "1-2", "1-3", "1-4"
-  double cutoff = 0, skin = 0;       ///< [length]
+  std::string exclusions;       ///< "none", "1-2", "1-3", "1-4"
+  double cutoff = 0, skin = 0;  ///< [length]
   ListKind kind = ListKind::half;
-  std::vector<std::int64_t> ids;     ///< of the atoms, in the order of the rows
+  std::vector<std::int64_t> ids;  ///< of the atoms, in the order of the rows
 };
 
 /// Writes neighbor lists to an HDF5 file, frame by frame: only the frame at hand is held in memory.
 ///
-/// Dataset `j` holds the neighbors of all frames one after the other; row k of `first` (frames x atoms + 1) holds where
-/// the rows of frame k begin in it: the neighbors of atom i in frame k are j[first[k, i] : first[k, i + 1]].
-/// A frame whose list was kept from the frame before points to the same entries. docs/cli.md describes the file.
+/// Dataset `j` holds the neighbors of all frames one after the other; row k of `first` (frames x atoms + 1)
+/// holds where the rows of frame k begin in it: the neighbors of atom i in frame k are j[first[k, i] :
+/// first[k, i + 1]]. A frame whose list was kept from the frame before points to the same entries.
+/// docs/cli.md describes the file.
 class ListFile {
  public:
   /// @throws trajectory::FileError if the file cannot be created.

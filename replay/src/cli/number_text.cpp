@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "number_text.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dch::cli {
 
 std::string grouped(std::int64_t value) {
-  std::string text = fmt::format("{}", value);
-  const std::size_t digits_begin = text.front() == '-' ? 1 : 0;
-  for (std::size_t end = text.size(); end > digits_begin + 3; end -= 3) text.insert(end - 3, ",");
+  const std::string digits = fmt::format("{}", value);
+  const std::size_t sign = digits.front() == '-' ? 1 : 0;
+  std::string text;
+  for (std::size_t k = 0; k < digits.size(); ++k) {
+    if (k > sign && (digits.size() - k) % 3 == 0) text += ',';
+    text += digits[k];
+  }
   return text;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "option_values.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -41,7 +40,8 @@ std::int64_t parse_range_part(const std::string& text, std::string_view part, st
   if (part.empty()) return otherwise;
   const auto value = parse_entire<std::int64_t>(part);
   if (!value || *value < 0) {
-    throw UsageError(fmt::format("--frames {}: '{}' is not a frame number of 0 or more; {}", text, part, kRangeHelp));
+    throw UsageError(
+        fmt::format("--frames {}: '{}' is not a frame number of 0 or more; {}", text, part, kRangeHelp));
   }
   return *value;
 }
@@ -58,8 +58,8 @@ bool same_file(const std::string& a, const std::string& b) {
 
 void require_distinct(const NamedPath& a, const NamedPath& b) {
   if (a.path.empty() || b.path.empty() || !same_file(a.path, b.path)) return;
-  throw UsageError(
-      fmt::format("{} and {} are the same file, {}; give the output another name", a.option, b.option, b.path));
+  throw UsageError(fmt::format("{} and {} are the same file, {}; give the output another name", a.option,
+                               b.option, b.path));
 }
 
 }  // namespace
@@ -72,7 +72,8 @@ FrameRange parse_frame_range(const std::string& text) {
   FrameRange range;
   range.begin = parse_range_part(text, parts[0], range.begin);
   if (parts.size() == 1) {
-    if (range.begin == range.end) throw UsageError(fmt::format("--frames {}: too large; {}", text, kRangeHelp));
+    if (range.begin == range.end)
+      throw UsageError(fmt::format("--frames {}: too large; {}", text, kRangeHelp));
     range.end = range.begin + 1;
     return range;
   }
@@ -82,8 +83,9 @@ FrameRange parse_frame_range(const std::string& text) {
     throw UsageError(fmt::format("--frames {}: the step is 0, but must be 1 or more; {}", text, kRangeHelp));
   }
   if (range.end <= range.begin) {
-    throw UsageError(fmt::format("--frames {}: selects no frame, since the end, {}, is not beyond the first, {}; {}",
-                                 text, range.end, range.begin, kRangeHelp));
+    throw UsageError(
+        fmt::format("--frames {}: selects no frame, since the end, {}, is not beyond the first, {}; {}", text,
+                    range.end, range.begin, kRangeHelp));
   }
   return range;
 }
@@ -91,8 +93,8 @@ FrameRange parse_frame_range(const std::string& text) {
 double parse_number(const std::string& option, const std::string& text, const NumberLimits& limits) {
   const auto value = parse_entire<double>(text);
   if (!value || !std::isfinite(*value)) {
-    throw UsageError(fmt::format("{} '{}': not a finite number; give {}, for example 2.5", option, text,
-                                 limits.meaning));
+    throw UsageError(
+        fmt::format("{} '{}': not a finite number; give {}, for example 2.5", option, text, limits.meaning));
   }
   const bool too_low = limits.lowest_is_open ? *value <= limits.lowest : *value < limits.lowest;
   if (too_low || *value > limits.highest) {
@@ -107,8 +109,8 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
                                 std::int64_t highest, const std::string& meaning) {
   const auto value = parse_entire<std::int64_t>(text);
   if (!value || *value < lowest || *value > highest) {
-    throw UsageError(
-        fmt::format("{} '{}': not a whole number from {} to {}; give {}", option, text, lowest, highest, meaning));
+    throw UsageError(fmt::format("{} '{}': not a whole number from {} to {}; give {}", option, text, lowest,
+                                 highest, meaning));
   }
   return *value;
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "output_file.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <dch/trajectory/file_error.hpp>
 
@@ -18,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const char* action, int error_number) {
-  throw trajectory::FileError(fmt::format("{}: cannot {}: {}; check the folder, its permissions and the free space",
-                                          path, action, std::strerror(error_number)));
+  throw trajectory::FileError(
+      fmt::format("{}: cannot {}: {}; check the folder, its permissions and the free space", path, action,
+                  std::strerror(error_number)));
 }
 
 /// The file a symbolic link names: renaming onto the link would replace the link.
@@ -36,9 +36,10 @@ OutputFile::OutputFile(const std::string& path) : path_(follow_link(path)) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw trajectory::FileError(fmt::format("{}: cannot be written, since it is {} and not a regular file; give the "
-                                            "name of a file", path,
-                                            fs::is_directory(status) ? "a folder" : "a device, pipe or socket"));
+    throw trajectory::FileError(
+        fmt::format("{}: cannot be written, since it is {} and not a regular file; give the "
+                    "name of a file",
+                    path, fs::is_directory(status) ? "a folder" : "a device, pipe or socket"));
   }
   const std::string name = fmt::format("{}.partial-{}", path_, ::getpid());
   const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

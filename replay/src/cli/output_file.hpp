@@ -6,11 +6,12 @@
 
 namespace dch::cli {
 
-/// A file that appears under its name only once it is complete: until commit() it is written beside it under a
-/// temporary name, which the destructor removes. A file that already has the name is then replaced.
+/// A file that appears under its name only once it is complete: until commit() it is written beside it under
+/// a temporary name, which the destructor removes. A file that already has the name is then replaced.
 class OutputFile {
  public:
-  /// Creates the temporary file, so that a path that cannot be written to is found out before any work is done.
+  /// Creates the temporary file, so that a path that cannot be written to is found out before any work is
+  /// done.
   /// @throws trajectory::FileError if that fails, or if something other than a regular file has the name.
   explicit OutputFile(const std::string& path);
   ~OutputFile();

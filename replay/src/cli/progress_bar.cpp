@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "progress_bar.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "number_text.hpp"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "replay.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -29,17 +28,18 @@ void require_cutoff_fits(const ReplayOptions& options, const Scan& scan) {
   const double radius = options.cutoff + options.skin;
   const double limit = 0.5 * scan.smallest_height;
   if (radius <= limit) return;
-  throw UsageError(fmt::format(
-      "{}: frame {}: cutoff + skin = {} exceeds half the smallest box height, {} ({}); give a cutoff and a skin that "
-      "sum up to at most {}, or leave the frame out with --frames",
-      scan.path, scan.smallest_height_frame, radius, limit, scan.length_unit, limit));
+  throw UsageError(
+      fmt::format("{}: frame {}: cutoff + skin = {} exceeds half the smallest box height, {} ({}); give a "
+                  "cutoff and a skin that "
+                  "sum up to at most {}, or leave the frame out with --frames",
+                  scan.path, scan.smallest_height_frame, radius, limit, scan.length_unit, limit));
 }
 
 /// The file changed on disk between the two passes.
 [[noreturn]] void fail_changed(const std::string& path) {
-  throw trajectory::FileError(
-      fmt::format("{}: changed while it was read; wait until it is complete, or select the frames there with --frames",
-                  path));
+  throw trajectory::FileError(fmt::format(
+      "{}: changed while it was read; wait until it is complete, or select the frames there with --frames",
+      path));
 }
 
 /// One run: what is found out beforehand, and the state that goes through the frames.
@@ -119,8 +119,9 @@ void Replay::scan() {
 void Replay::read_topology(const trajectory::Frame& first) {
   if (options_.topology.empty() && options_.exclude_depth == 0) return;
   if (options_.topology.empty() && first.molecules.empty()) {
-    throw UsageError(fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
-                                 exclusion_rule(options_.exclude_depth), options_.file));
+    throw UsageError(
+        fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
+                    exclusion_rule(options_.exclude_depth), options_.file));
   }
   const trajectory::Topology topology = options_.topology.empty()
                                             ? trajectory::topology_from_molecules(first, options_.file)
@@ -175,7 +176,8 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
   const double update_ms = watch.milliseconds();
   const SearchStats& after = list_->search().stats();
   record.list_ms = 1e3 * (after.list_seconds - before.list_seconds);
-  record.maintain_ms = std::max(0.0, update_ms - record.list_ms);  // the structure's upkeep and the stale test
+  record.maintain_ms =
+      std::max(0.0, update_ms - record.list_ms);  // the structure's upkeep and the stale test
   record.repairs = after.repairs - before.repairs;
   record.rebuilds = after.builds - before.builds;
   record.promotions = after.promotions - before.promotions;
@@ -223,7 +225,8 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
 
 void Replay::note_levels() {
   if (!hierarchy_) return;
-  for (int level = 0; level < hierarchy_->levels(); ++level) report_.levels.push_back(hierarchy_->level(level));
+  for (int level = 0; level < hierarchy_->levels(); ++level)
+    report_.levels.push_back(hierarchy_->level(level));
 }
 
 }  // namespace

@@ -16,20 +16,21 @@ namespace dch::cli {
 /// A replay as asked for on the command line, its numbers checked.
 struct ReplayOptions {
   std::string file;
-  std::string topology;        ///< empty: bonds come from the molecule column where needed
-  double cutoff = 0;           ///< > 0 [length]
-  double skin = 0;             ///< >= 0 [length]
+  std::string topology;  ///< empty: bonds come from the molecule column where needed
+  double cutoff = 0;     ///< > 0 [length]
+  double skin = 0;       ///< >= 0 [length]
   EngineOptions engine;
   FrameRange frames;
   VerifyMode verify = VerifyMode::none;
   ListKind kind = ListKind::half;
-  int exclude_depth = 0;       ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
-  std::string lists;           ///< lists.h5; empty: none
+  int exclude_depth = 0;  ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
+  std::string lists;      ///< lists.h5; empty: none
 };
 
-/// Reads the selected frames, keeps one structure and one list up through them, and verifies and writes the lists.
-/// lists.h5 is in place when this returns.
-/// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height, exclusions
+/// Reads the selected frames, keeps one structure and one list up through them, and verifies and writes the
+/// lists. lists.h5 is in place when this returns.
+/// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height,
+/// exclusions
 ///   without bonds); trajectory::FileError for files that cannot be read or written; Interrupted.
 ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress);
 

@@ -49,9 +49,9 @@ struct ReplayReport {
   std::int64_t frames_passed = 0;  ///< frames read, selected or not
   std::int64_t atoms = 0;
   std::vector<std::string> box_kinds;
-  double smallest_height = 0;      ///< infinity without a periodic box [length]
+  double smallest_height = 0;  ///< infinity without a periodic box [length]
   std::int64_t smallest_height_frame = 0;
-  double cutoff = 0, skin = 0;     ///< [length]
+  double cutoff = 0, skin = 0;  ///< [length]
   ListKind list_kind = ListKind::half;
   EngineOptions engine;
   ExclusionRecord exclusions;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // report.html: one page with its own style sheet and drawings, nothing from outside.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 
 #include "number_text.hpp"
 #include "page_style.hpp"
@@ -46,37 +45,45 @@ std::string pairs_card(const ReplayReport& report) {
   chart.series = {{"pairs", "blue", column(report, [](const FrameRecord& frame) { return frame.pairs; })}};
   const std::string radius = fmt::format("{} {}", report.cutoff + report.skin, unit_suffix(report.unit));
   const std::string text =
-      report.skin > 0 ? fmt::format("Pairs in the list: those within cutoff + skin = {} when it was built last. It was "
-                                    "built in {} of {} frames.",
-                                    radius, grouped(report.totals().list_rebuilds), grouped(static_cast<std::int64_t>(report.frames.size())))
-                      : fmt::format("Pairs of atoms within the cutoff of {}.", radius);
+      report.skin > 0
+          ? fmt::format(
+                "Pairs in the list: those within cutoff + skin = {} when it was built last. It was "
+                "built in {} of {} frames.",
+                radius, grouped(report.totals().list_rebuilds),
+                grouped(static_cast<std::int64_t>(report.frames.size())))
+          : fmt::format("Pairs of atoms within the cutoff of {}.", radius);
   return card("Pairs", explained(report, text), line_chart(chart));
 }
 
 std::string cost_card(const ReplayReport& report) {
   FrameChart chart = frame_chart(report, "ms");
-  chart.series = {{"read", "amber", column(report, [](const FrameRecord& frame) { return frame.read_ms; })},
-                  {"maintain", "blue", column(report, [](const FrameRecord& frame) { return frame.maintain_ms; })},
-                  {"list", "green", column(report, [](const FrameRecord& frame) { return frame.list_ms; })}};
+  chart.series = {
+      {"read", "amber", column(report, [](const FrameRecord& frame) { return frame.read_ms; })},
+      {"maintain", "blue", column(report, [](const FrameRecord& frame) { return frame.maintain_ms; })},
+      {"list", "green", column(report, [](const FrameRecord& frame) { return frame.list_ms; })}};
   return card("Cost of a frame",
-              explained(report, "Wall-clock time to read the frame, to bring the search structure up to date, and to "
-                                "write the list from it."),
+              explained(report,
+                        "Wall-clock time to read the frame, to bring the search structure up to date, and to "
+                        "write the list from it."),
               stacked_bars(chart));
 }
 
 std::string changes_card(const ReplayReport& report) {
   if (report.levels.empty()) return "";
   FrameChart chart = frame_chart(report, "nodes");
-  chart.series = {{"promoted", "blue", column(report, [](const FrameRecord& frame) { return frame.promotions; })},
-                  {"demoted", "amber", column(report, [](const FrameRecord& frame) { return frame.demotions; })}};
+  chart.series = {
+      {"promoted", "blue", column(report, [](const FrameRecord& frame) { return frame.promotions; })},
+      {"demoted", "amber", column(report, [](const FrameRecord& frame) { return frame.demotions; })}};
   for (const FrameRecord& frame : report.frames) chart.marked.push_back(frame.rebuilds > 0);
   chart.mark_name = "built anew";
   const ReplayTotals totals = report.totals();
-  return card("Repairs",
-              explained(report, fmt::format("Nodes of the hierarchy lifted (up) and removed from (down) a level as the "
-                                            "atoms moved: {} repairs, {} builds from scratch.",
-                                            grouped(totals.repairs), grouped(totals.rebuilds))),
-              up_down_bars(chart));
+  return card(
+      "Repairs",
+      explained(report,
+                fmt::format("Nodes of the hierarchy lifted (up) and removed from (down) a level as the "
+                            "atoms moved: {} repairs, {} builds from scratch.",
+                            grouped(totals.repairs), grouped(totals.rebuilds))),
+      up_down_bars(chart));
 }
 
 std::string levels_card(const ReplayReport& report) {
@@ -91,7 +98,8 @@ std::string levels_card(const ReplayReport& report) {
     bar.value = static_cast<double>(info.nodes);
     bars.push_back(bar);
   }
-  return card("Levels", "Nodes in each level of the hierarchy after the last frame. The edges of level 0 are the list.",
+  return card("Levels",
+              "Nodes in each level of the hierarchy after the last frame. The edges of level 0 are the list.",
               logarithmic_bars(bars, "nodes (logarithmic)"));
 }
 
@@ -104,13 +112,15 @@ std::string degree_card(const ReplayReport& report) {
   }
   if (atoms == 0) return "";
   std::vector<double> shares;
-  for (const std::int64_t count : report.degree_histogram) shares.push_back(100 * static_cast<double>(count) / atoms);
+  for (const std::int64_t count : report.degree_histogram)
+    shares.push_back(100 * static_cast<double>(count) / atoms);
   return card("Neighbors of an atom", "How many atoms have how many neighbors in the list, over all frames.",
               histogram(shares, neighbors / atoms, "neighbors", "% of atoms"));
 }
 
 std::string verdict(const VerifyResult& verify) {
-  if (verify.mode == VerifyMode::none) return "<p class=\"verdict plain\">lists not verified in this run</p>\n";
+  if (verify.mode == VerifyMode::none)
+    return "<p class=\"verdict plain\">lists not verified in this run</p>\n";
   if (verify.mismatches == 0) {
     return fmt::format("<p class=\"verdict good\">0 mismatches in {} verified {}</p>\n",
                        grouped(static_cast<std::int64_t>(verify.frames.size())),
@@ -125,9 +135,10 @@ std::string mismatch_list(const ReplayReport& report) {
   for (const Mismatch& mismatch : report.verify.first) {
     items += fmt::format("<li>{}</li>\n", escape_html(mismatch.message(report.unit)));
   }
-  return fmt::format("<section class=\"card wide\">\n<h2>Mismatches</h2>\n<p>The first {} of {}.</p>\n<ul>\n{}</ul>\n"
-                     "</section>\n",
-                     report.verify.first.size(), grouped(report.verify.mismatches), items);
+  return fmt::format(
+      "<section class=\"card wide\">\n<h2>Mismatches</h2>\n<p>The first {} of {}.</p>\n<ul>\n{}</ul>\n"
+      "</section>\n",
+      report.verify.first.size(), grouped(report.verify.mismatches), items);
 }
 
 std::string summary_table(const ReplayReport& report) {
@@ -144,12 +155,14 @@ std::string render_html(const ReplayReport& report) {
   const std::string name = escape_html(std::filesystem::path(report.file).filename().string());
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  page += fmt::format("<title>dch replay: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", name, kPageStyle);
+  page += fmt::format("<title>dch replay: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", name,
+                      kPageStyle);
   page += fmt::format("<header>\n<h1>Neighbor lists of {}</h1>\n{}</header>\n", name, verdict(report.verify));
   page += fmt::format("<section class=\"card wide\">\n{}</section>\n", summary_table(report));
   page += mismatch_list(report);
   page += "<div class=\"charts\">\n";
-  page += pairs_card(report) + cost_card(report) + changes_card(report) + levels_card(report) + degree_card(report);
+  page += pairs_card(report) + cost_card(report) + changes_card(report) + levels_card(report) +
+          degree_card(report);
   page += fmt::format("</div>\n<footer>dch {} replay. Hover over a drawing for values.</footer>\n", kVersion);
   page += "</main>\n</body>\n</html>\n";
   return page;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // report.json. docs/report-schema.md describes every key; change both together.
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "replay_report.hpp"
@@ -69,7 +68,8 @@ Json per_frame_json(const ReplayReport& report) {
   Json json;
   json["frame"] = column(report, [](const FrameRecord& f) { return f.frame; });
   json["step"] = column(report, [](const FrameRecord& f) { return f.step; });
-  json["time"] = column(report, [](const FrameRecord& f) { return f.time ? number_or_null(*f.time) : Json(nullptr); });
+  json["time"] =
+      column(report, [](const FrameRecord& f) { return f.time ? number_or_null(*f.time) : Json(nullptr); });
   json["list_rebuilt"] = column(report, [](const FrameRecord& f) { return f.list_rebuilt; });
   json["repairs"] = column(report, [](const FrameRecord& f) { return f.repairs; });
   json["rebuilds"] = column(report, [](const FrameRecord& f) { return f.rebuilds; });
@@ -120,8 +120,9 @@ std::string render_json(const ReplayReport& report) {
   json["level_sizes"] = levels_json(report);
   json["degree_histogram"] = report.degree_histogram;
   json["list_hash"] = fmt::format("{:016x}", report.list_hash);
-  json["timings_ms"] = {{"check_file", report.scan_ms}, {"read", totals.read_ms},     {"maintain", totals.maintain_ms},
-                        {"list", totals.list_ms},       {"write", report.write_ms},   {"verify", report.verify_ms},
+  json["timings_ms"] = {{"check_file", report.scan_ms},   {"read", totals.read_ms},
+                        {"maintain", totals.maintain_ms}, {"list", totals.list_ms},
+                        {"write", report.write_ms},       {"verify", report.verify_ms},
                         {"total", report.total_ms}};
   json["per_frame"] = per_frame_json(report);
   json["mismatches"] = report.verify.mismatches;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cmath>
 #include <vector>
 
 #include "number_text.hpp"
@@ -21,8 +20,8 @@ std::string levels_text(const ReplayReport& report) {
 std::string box_text(const ReplayReport& report) {
   std::string text = fmt::format("{}", fmt::join(report.box_kinds, "; "));
   if (std::isfinite(report.smallest_height)) {
-    text += fmt::format(", smallest height {} {} (frame {})", readable(report.smallest_height), unit_suffix(report.unit),
-                        report.smallest_height_frame);
+    text += fmt::format(", smallest height {} {} (frame {})", readable(report.smallest_height),
+                        unit_suffix(report.unit), report.smallest_height_frame);
   }
   return text;
 }
@@ -38,11 +37,13 @@ std::string verify_text(const VerifyResult& verify) {
   switch (verify.mode) {
     case VerifyMode::all: {
       std::string text = fmt::format("all pairs of {} frames", grouped(frames));
-      if (verify.structure_checks > 0) text += fmt::format(", hierarchy of {}", grouped(verify.structure_checks));
+      if (verify.structure_checks > 0)
+        text += fmt::format(", hierarchy of {}", grouped(verify.structure_checks));
       return text;
     }
     case VerifyMode::sample:
-      return fmt::format("{} atoms in {} frames (seed {})", grouped(verify.rows), grouped(frames), verify.seed);
+      return fmt::format("{} atoms in {} frames (seed {})", grouped(verify.rows), grouped(frames),
+                         verify.seed);
     case VerifyMode::none:
       break;
   }
@@ -61,7 +62,9 @@ std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
 
 }  // namespace
 
-std::string unit_suffix(const std::string& unit) { return unit.find(' ') == std::string::npos ? unit : "[" + unit + "]"; }
+std::string unit_suffix(const std::string& unit) {
+  return unit.find(' ') == std::string::npos ? unit : "[" + unit + "]";
+}
 
 std::string engine_text(const EngineOptions& engine) {
   switch (engine.kind) {
@@ -82,19 +85,19 @@ std::string list_text(const ReplayReport& report) {
 
 std::vector<Row> report_rows(const ReplayReport& report) {
   const ReplayTotals totals = report.totals();
-  std::vector<Row> rows{
-      {"file", fmt::format("{} ({})", report.file, report.format)},
-      {"unit of length", report.unit},
-      {"engine", engine_text(report.engine)},
-      {"list", list_text(report)},
-      {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
-      {"atoms", grouped(report.atoms)},
-      {"box", box_text(report)}};
+  std::vector<Row> rows{{"file", fmt::format("{} ({})", report.file, report.format)},
+                        {"unit of length", report.unit},
+                        {"engine", engine_text(report.engine)},
+                        {"list", list_text(report)},
+                        {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
+                        {"atoms", grouped(report.atoms)},
+                        {"box", box_text(report)}};
   if (!report.exclusions.source.empty()) rows.push_back({"excluded", exclusion_text(report.exclusions)});
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
                                                readable(totals.pairs_mean), grouped(totals.pairs_max))});
   rows.push_back({"list rebuilds", grouped(totals.list_rebuilds)});
-  rows.push_back({"structure", fmt::format("{} repairs, {} rebuilds", grouped(totals.repairs), grouped(totals.rebuilds))});
+  rows.push_back({"structure",
+                  fmt::format("{} repairs, {} rebuilds", grouped(totals.repairs), grouped(totals.rebuilds))});
   if (!report.levels.empty()) {
     rows.push_back({"promotions", grouped(totals.promotions)});
     rows.push_back({"demotions", grouped(totals.demotions)});

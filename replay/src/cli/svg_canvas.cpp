@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "svg_canvas.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 
 #include "axis.hpp"
 #include "svg_chart.hpp"
@@ -34,35 +33,39 @@ std::string escape_html(const std::string& text) {
 }
 
 void SvgCanvas::text(double x, double y, const std::string& text, const char* css_class) {
-  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, css_class, escape_html(text));
+  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, css_class,
+                       escape_html(text));
 }
 
 void SvgCanvas::line(double x1, double y1, double x2, double y2, const char* css_class) {
-  body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                       css_class);
+  body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1,
+                       y1, x2, y2, css_class);
 }
 
 void SvgCanvas::rect(double x, double y, double width, double height, const std::string& color,
                      const std::string& title) {
   body_ += fmt::format(
-      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" class=\"{}\"><title>{}</title></rect>\n", x, y,
-      width, height, color, escape_html(title));
+      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+      "class=\"{}\"><title>{}</title></rect>\n",
+      x, y, width, height, color, escape_html(title));
 }
 
 void SvgCanvas::dot(double x, double y, const std::string& color, const std::string& title) {
-  body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" class=\"{}\"><title>{}</title></circle>\n", x, y,
-                       color, escape_html(title));
+  body_ +=
+      fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" class=\"{}\"><title>{}</title></circle>\n",
+                  x, y, color, escape_html(title));
 }
 
-void SvgCanvas::polyline(const std::vector<double>& x, const std::vector<double>& y, const std::string& color) {
+void SvgCanvas::polyline(const std::vector<double>& x, const std::vector<double>& y,
+                         const std::string& color) {
   body_ += fmt::format("<polyline class=\"line-{}\" points=\"", color);
   for (std::size_t k = 0; k < x.size(); ++k) body_ += fmt::format("{:.1f},{:.1f} ", x[k], y[k]);
   body_ += "\"/>\n";
 }
 
 void SvgCanvas::mark(double x, double y, const std::string& title) {
-  body_ += fmt::format("<path d=\"M{:.1f} {:.1f} l-4 -7 h8 z\" class=\"mark\"><title>{}</title></path>\n", x, y,
-                       escape_html(title));
+  body_ += fmt::format("<path d=\"M{:.1f} {:.1f} l-4 -7 h8 z\" class=\"mark\"><title>{}</title></path>\n", x,
+                       y, escape_html(title));
 }
 
 Scale SvgCanvas::vertical_axis(const std::vector<double>& ticks, const std::string& label) {
@@ -75,7 +78,8 @@ Scale SvgCanvas::vertical_axis(const std::vector<double>& ticks, const std::stri
   return scale;
 }
 
-Scale SvgCanvas::horizontal_axis(double low, double high, const std::vector<double>& ticks, const std::string& label) {
+Scale SvgCanvas::horizontal_axis(double low, double high, const std::vector<double>& ticks,
+                                 const std::string& label) {
   const Scale scale{low, high, kLeft, kRight};
   for (const double tick : ticks) {
     if (tick < low || tick > high) continue;
@@ -104,8 +108,8 @@ void SvgCanvas::legend(const std::vector<std::pair<std::string, std::string>>& c
 }
 
 std::string SvgCanvas::finish(const std::string& description) const {
-  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", kWidth, height_,
-                     escape_html(description), body_);
+  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", kWidth,
+                     height_, escape_html(description), body_);
 }
 
 }  // namespace dch::cli

@@ -28,7 +28,8 @@ class SvgCanvas {
   void text(double x, double y, const std::string& text, const char* css_class);
   void line(double x1, double y1, double x2, double y2, const char* css_class);
   /// `title` is shown on hovering.
-  void rect(double x, double y, double width, double height, const std::string& color, const std::string& title);
+  void rect(double x, double y, double width, double height, const std::string& color,
+            const std::string& title);
   void dot(double x, double y, const std::string& color, const std::string& title);
   void polyline(const std::vector<double>& x, const std::vector<double>& y, const std::string& color);
   /// A small triangle that points down at (x, y).

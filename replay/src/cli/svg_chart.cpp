@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "svg_chart.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "axis.hpp"
 #include "number_text.hpp"
@@ -24,24 +23,29 @@ struct Drawn {
   std::vector<double> x;
   std::vector<std::vector<double>> y;
 
-  explicit Drawn(const FrameChart& chart) : grouping(chart.x.size(), kMostGroups), x(grouping.means(chart.x)) {
+  explicit Drawn(const FrameChart& chart)
+      : grouping(chart.x.size(), kMostGroups), x(grouping.means(chart.x)) {
     for (const Series& series : chart.series) y.push_back(grouping.means(series.y));
   }
   /// Distance of two points along x; 1 if there is only one.
-  double pitch() const { return x.size() < 2 ? 1 : (x.back() - x.front()) / static_cast<double>(x.size() - 1); }
+  double pitch() const {
+    return x.size() < 2 ? 1 : (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+  }
 };
 
 std::vector<double> frame_ticks(double low, double high) {
   std::vector<double> ticks = round_ticks(low, high, kFrameTicks);
-  ticks.erase(std::remove_if(ticks.begin(), ticks.end(), [](double tick) { return tick != std::floor(tick); }),
-              ticks.end());
+  ticks.erase(
+      std::remove_if(ticks.begin(), ticks.end(), [](double tick) { return tick != std::floor(tick); }),
+      ticks.end());
   return ticks;
 }
 
 Scale frame_axis(SvgCanvas& canvas, const FrameChart& chart, const Drawn& drawn) {
   const double low = drawn.x.front() - 0.5 * drawn.pitch();
   const double high = drawn.x.back() + 0.5 * drawn.pitch();
-  const auto ticks = drawn.x.size() == 1 ? std::vector<double>{drawn.x.front()} : frame_ticks(chart.x.front(), chart.x.back());
+  const auto ticks = drawn.x.size() == 1 ? std::vector<double>{drawn.x.front()}
+                                         : frame_ticks(chart.x.front(), chart.x.back());
   return canvas.horizontal_axis(low, high, ticks, chart.x_label);
 }
 
@@ -65,7 +69,8 @@ void draw_marks(SvgCanvas& canvas, const FrameChart& chart, const Drawn& drawn, 
   for (std::size_t frame = 0; frame < chart.marked.size(); ++frame) {
     const std::size_t group = frame / drawn.grouping.per_group;
     if (!chart.marked[frame] || group == last) continue;
-    canvas.mark(x(drawn.x[group]), SvgCanvas::kTop - 1, fmt::format("frame {}: {}", chart.x[frame], chart.mark_name));
+    canvas.mark(x(drawn.x[group]), SvgCanvas::kTop - 1,
+                fmt::format("frame {}: {}", chart.x[frame], chart.mark_name));
     last = group;
   }
 }
@@ -116,8 +121,8 @@ std::string stacked_bars(const FrameChart& chart) {
     for (std::size_t k = 0; k < total.size(); ++k) total[k] += values[k];
   }
   SvgCanvas canvas;
-  const Scale y =
-      canvas.vertical_axis(round_ticks(0, *std::max_element(total.begin(), total.end()), kTicks), chart.y_label);
+  const Scale y = canvas.vertical_axis(round_ticks(0, *std::max_element(total.begin(), total.end()), kTicks),
+                                       chart.y_label);
   const Scale x = frame_axis(canvas, chart, drawn);
   const double width = bar_width(x, drawn.pitch());
   std::vector<double> base(drawn.x.size(), 0.0);
@@ -176,16 +181,20 @@ std::string logarithmic_bars(const std::vector<LabelledBar>& bars, const std::st
 
 std::string histogram(const std::vector<double>& shares, double mean, const std::string& x_label,
                       const std::string& y_label) {
+  const Grouping grouping(shares.size(), kMostGroups);
+  const std::vector<double> heights = grouping.means(shares);
   SvgCanvas canvas;
-  const double largest = *std::max_element(shares.begin(), shares.end());
+  const double largest = *std::max_element(heights.begin(), heights.end());
   const Scale y = canvas.vertical_axis(round_ticks(0, largest, kTicks), y_label);
   const double last = static_cast<double>(shares.size()) - 1;
   const Scale x = canvas.horizontal_axis(-0.5, last + 0.5, frame_ticks(0, std::max(1.0, last)), x_label);
-  const double width = bar_width(x, 1);
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    if (shares[k] <= 0) continue;
-    canvas.rect(x(static_cast<double>(k)) - 0.5 * width, y(shares[k]), width, y(0) - y(shares[k]), "blue",
-                fmt::format("{} neighbors: {} % of the atoms", k, readable(shares[k])));
+  const auto pitch = static_cast<double>(grouping.per_group);
+  const double width = bar_width(x, pitch);
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (heights[k] <= 0) continue;
+    const double center = pitch * static_cast<double>(k) + 0.5 * (pitch - 1);
+    canvas.rect(x(center) - 0.5 * width, y(heights[k]), width, y(0) - y(heights[k]), "blue",
+                fmt::format("{} neighbors: {} % of the atoms", readable(center), readable(heights[k])));
   }
   canvas.line(x(mean), SvgCanvas::kTop - 6, x(mean), canvas.bottom(), "mean");
   const bool label_left = x(mean) > 0.5 * (SvgCanvas::kLeft + SvgCanvas::kRight);

@@ -9,7 +9,8 @@ namespace dch::cli {
 /// Text with the characters that mean something in HTML replaced, and control characters dropped.
 std::string escape_html(const std::string& text);
 
-/// One series of a chart: its class names the color (see the page's style sheet: "blue", "green", "amber", "red").
+/// One series of a chart: its class names the color (see the page's style sheet: "blue", "green", "amber",
+/// "red").
 struct Series {
   std::string name;
   std::string color;
@@ -19,10 +20,10 @@ struct Series {
 /// Values over the frames. All series are as long as x.
 struct FrameChart {
   std::string x_label, y_label;
-  std::vector<double> x;         ///< ascending frame numbers
+  std::vector<double> x;  ///< ascending frame numbers
   std::vector<Series> series;
-  std::vector<bool> marked;      ///< frames that carry a mark at the top; may be empty
-  std::string mark_name;         ///< what a mark says
+  std::vector<bool> marked;  ///< frames that carry a mark at the top; may be empty
+  std::string mark_name;     ///< what a mark says
 };
 
 /// One bar with a label in front and a note behind.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verifier.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -15,12 +14,15 @@ namespace dch::cli {
 namespace {
 
 /// Rows of both directions for some atoms, gathered from a half or full list.
-std::vector<std::vector<std::int32_t>> full_rows(const NeighborList& list, const std::vector<std::int32_t>& atoms) {
+std::vector<std::vector<std::int32_t>> full_rows(const NeighborList& list,
+                                                 const std::vector<std::int32_t>& atoms) {
   std::vector<std::int32_t> slot(list.size(), -1);
-  for (std::size_t k = 0; k < atoms.size(); ++k) slot[static_cast<std::size_t>(atoms[k])] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < atoms.size(); ++k)
+    slot[static_cast<std::size_t>(atoms[k])] = static_cast<std::int32_t>(k);
   std::vector<std::vector<std::int32_t>> rows(atoms.size());
   const bool mirror = list.kind == ListKind::half;
-  for (std::size_t i = 0; i < list.size(); ++i) {  // rows ascend, so mirrored entries arrive in order, before the own row
+  for (std::size_t i = 0; i < list.size();
+       ++i) {  // rows ascend, so mirrored entries arrive in order, before the own row
     for (const std::int32_t j : list.row(i)) {
       if (slot[i] >= 0) rows[static_cast<std::size_t>(slot[i])].push_back(j);
       const std::int32_t other = slot[static_cast<std::size_t>(j)];
@@ -52,9 +54,11 @@ std::string to_string(VerifyMode mode) {
 
 std::string Mismatch::message(const std::string& unit) const {
   if (what == "structure") return fmt::format("frame {}: the hierarchy is broken: {}", frame, detail);
-  if (what == "order") return fmt::format("frame {}: the neighbors of atom {} are not in ascending order", frame, atom_a);
-  return fmt::format("frame {}: pair of atoms {} and {} at distance {} ({}) is {}", frame, atom_a, atom_b, distance, unit,
-                     what == "missing" ? "missing from the list" : "in the list but beyond its radius or excluded");
+  if (what == "order")
+    return fmt::format("frame {}: the neighbors of atom {} are not in ascending order", frame, atom_a);
+  return fmt::format(
+      "frame {}: pair of atoms {} and {} at distance {} ({}) is {}", frame, atom_a, atom_b, distance, unit,
+      what == "missing" ? "missing from the list" : "in the list but beyond its radius or excluded");
 }
 
 std::set<std::int64_t> spread_evenly(std::int64_t frames, std::int64_t wanted) {
@@ -126,11 +130,13 @@ void Verifier::compare_row(const Subject& subject, std::int32_t i, Span<const st
     report(std::move(mismatch));
   }
   std::vector<std::int32_t> difference;
-  std::set_difference(expected.begin(), expected.end(), row.begin(), row.end(), std::back_inserter(difference));
+  std::set_difference(expected.begin(), expected.end(), row.begin(), row.end(),
+                      std::back_inserter(difference));
   for (const std::int32_t j : difference) report_pair(subject, "missing", i, j);
   if (!subject.list_is_new) return;
   difference.clear();
-  std::set_difference(row.begin(), row.end(), expected.begin(), expected.end(), std::back_inserter(difference));
+  std::set_difference(row.begin(), row.end(), expected.begin(), expected.end(),
+                      std::back_inserter(difference));
   for (const std::int32_t j : difference) report_pair(subject, "extra", i, j);
 }
 
@@ -156,7 +162,8 @@ std::vector<std::int32_t> Verifier::sample_atoms(std::size_t n) {
   std::vector<std::int32_t> atoms(n);
   std::iota(atoms.begin(), atoms.end(), 0);
   if (n <= kSampledAtoms) return atoms;
-  for (std::size_t k = 0; k < kSampledAtoms; ++k) {  // the modulus is the same on every platform; its bias is below 1e-9
+  for (std::size_t k = 0; k < kSampledAtoms;
+       ++k) {  // the modulus is the same on every platform; its bias is below 1e-9
     std::swap(atoms[k], atoms[k + static_cast<std::size_t>(random_() % (n - k))]);
   }
   atoms.resize(kSampledAtoms);

@@ -19,11 +19,11 @@ std::string to_string(VerifyMode mode);
 
 /// What differs from the oracle.
 struct Mismatch {
-  std::int64_t frame = 0;   ///< index in the file, from 0
-  std::string what;         ///< "missing", "extra", "order", "structure"
+  std::int64_t frame = 0;               ///< index in the file, from 0
+  std::string what;                     ///< "missing", "extra", "order", "structure"
   std::int64_t atom_a = 0, atom_b = 0;  ///< ids of the file; 0 where there is no pair
-  double distance = 0;      ///< of the pair [length]
-  std::string detail;       ///< for "structure": the invariant that fails
+  double distance = 0;                  ///< of the pair [length]
+  std::string detail;                   ///< for "structure": the invariant that fails
 
   std::string message(const std::string& unit) const;
 };
@@ -31,19 +31,19 @@ struct Mismatch {
 /// The result of all checks of a run.
 struct VerifyResult {
   VerifyMode mode = VerifyMode::none;
-  std::uint64_t seed = 0;                ///< of the sampled atoms
-  std::vector<std::int64_t> frames;      ///< indices of the frames checked
-  std::int64_t rows = 0;                 ///< atoms whose neighbors were compared, summed over the frames
-  std::int64_t structure_checks = 0;     ///< frames whose hierarchy was checked by Hierarchy::validate()
-  std::int64_t mismatches = 0;           ///< rows' entries missing or extra, rows out of order, broken structures
-  std::vector<Mismatch> first;           ///< the first kMostReported of them
+  std::uint64_t seed = 0;             ///< of the sampled atoms
+  std::vector<std::int64_t> frames;   ///< indices of the frames checked
+  std::int64_t rows = 0;              ///< atoms whose neighbors were compared, summed over the frames
+  std::int64_t structure_checks = 0;  ///< frames whose hierarchy was checked by Hierarchy::validate()
+  std::int64_t mismatches = 0;  ///< rows' entries missing or extra, rows out of order, broken structures
+  std::vector<Mismatch> first;  ///< the first kMostReported of them
 };
 
 /// Compares lists with the all-pairs oracle.
 ///
-/// A list built at the frame in question must equal the oracle's at cutoff + skin exactly, order included: the library
-/// defines pairs at the cutoff to the last bit. A list kept from an earlier frame must hold every pair within the
-/// cutoff alone; what it holds beyond is the skin's.
+/// A list built at the frame in question must equal the oracle's at cutoff + skin exactly, order included:
+/// the library defines pairs at the cutoff to the last bit. A list kept from an earlier frame must hold every
+/// pair within the cutoff alone; what it holds beyond is the skin's.
 class Verifier {
  public:
   static constexpr std::size_t kMostReported = 20;

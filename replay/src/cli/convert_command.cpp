@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+#include <dch/trajectory/writer.hpp>
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "frame_stream.hpp"
+#include "number_text.hpp"
+#include "option_values.hpp"
+
+namespace dch::cli {
+namespace {
+
+struct ConvertWords {
+  std::string input, output, frames;
+  bool quiet = false;
+};
+
+int run(const ConvertWords& words) {
+  const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
+  require_distinct_files({{"IN", words.input}}, {{"OUT", words.output}});
+  ProgressBar progress(words.quiet);
+  const Scan scan = scan_trajectory(words.input, range, progress);
+  FrameStream stream(words.input, range);
+  const auto writer = trajectory::create_trajectory(words.output, scan.length_unit);
+  progress.start("converting", scan.frames);
+  trajectory::Frame frame;
+  std::int64_t done = 0;
+  while (stream.next(frame)) {
+    writer->write(frame);
+    progress.advance(++done);
+  }
+  writer->close();
+  progress.clear();
+  if (!words.quiet) {
+    fmt::print("{}: {} frames of {} atoms, lengths in {}\n", words.output, grouped(done),
+               grouped(static_cast<std::int64_t>(scan.atoms())), scan.length_unit);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("convert", "Write a trajectory in another format; lengths stay in their unit");
+  const auto words = std::make_shared<ConvertWords>();
+  command->add_option("IN", words->input, "Trajectory, see dch replay --help")->required();
+  command
+      ->add_option("OUT", words->output,
+                   "File to write: H5MD (.h5, .h5md) or LAMMPS dump (.lammpstrj, .dump)")
+      ->required();
+  command->add_option("--frames", words->frames, "Frames to convert, first:end:step. Default: all");
+  command->add_flag("--quiet", words->quiet, "No progress bar and no message");
+  command->callback([words, &exit_code] { exit_code = run(*words); });
+}
+
+}  // namespace dch::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The dch command: sorts out which subcommand is meant and turns exceptions into exit statuses.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <new>
+
+#include <dch/necklace/melt.hpp>
+#include <dch/trajectory/file_error.hpp>
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+#include "version.hpp"
+
+namespace dch::cli {
+namespace {
+
+int fail(int exit_code, const char* message) {
+  fmt::print(stderr, "dch: {}\n", message);
+  return exit_code;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(
+      "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
+      "Try: dch info FILE, then: dch replay FILE --cutoff R --verify all --plot report.html\n"
+      "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or cannot be "
+      "read or "
+      "written.",
+      "dch");
+  app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
+  app.get_formatter()->column_width(34);
+  app.require_subcommand(1);
+  int exit_code = kOk;
+  add_replay_command(app, exit_code);
+  add_info_command(app, exit_code);
+  add_convert_command(app, exit_code);
+  add_generate_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+    return fail(kUsage, fmt::format("{}; see dch --help or dch SUBCOMMAND --help", error.what()).c_str());
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace dch::cli
+
+int main(int argc, char** argv) {
+  using namespace dch;
+  try {
+    cli::catch_interrupts();
+    return cli::parse_and_run(argc, argv);
+  } catch (const cli::UsageError& error) {
+    return cli::fail(cli::kUsage, error.what());
+  } catch (const cli::Interrupted& error) {
+    return cli::fail(cli::kInterrupted, error.what());
+  } catch (const trajectory::FileError& error) {
+    return cli::fail(cli::kBadFile, error.what());
+  } catch (const necklace::WriteError& error) {
+    return cli::fail(cli::kBadFile, error.what());
+  } catch (const Error& error) {  // the library refuses a parameter
+    return cli::fail(cli::kUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return cli::fail(cli::kUsage, "not enough memory; choose a smaller cutoff or a smaller input");
+  } catch (const std::exception& error) {
+    return cli::fail(cli::kBadFile, error.what());
+  }
+}
