@@ -89,7 +89,7 @@ void check_positions(Span<const Vec3> positions, const Box& box) {
                            std::to_string(std::numeric_limits<std::int32_t>::max()) + " are possible");
   }
   const WrapError error(box);
-  const double tolerance = box.any_periodic() ? 0.125 * box.min_height() : 1;
+  const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3 p = positions[i];
     if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {

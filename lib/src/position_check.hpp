@@ -33,7 +33,7 @@ class WrapError {
 /// @throws InvalidParameter for more particles than 32-bit indices can name.
 /// @throws InvalidPosition naming index and value if a coordinate is not finite or beyond kMaxCoordinate, or
 /// so far
-///   outside a periodic box that rounding leaves its place in the box undetermined by an eighth of the box.
+///   outside a periodic box that rounding leaves its place in the box uncertain by half the box.
 void check_positions(Span<const Vec3> positions, const Box& box);
 
 /// @throws CutoffTooLarge if the radius (cutoff + skin) exceeds box.max_cutoff().
