@@ -193,6 +193,8 @@ std::vector<std::string> read_string_attribute(hid_t object, const std::string& 
     return strings;
   }
   const std::size_t length = H5Tget_size(type.get());
+  constexpr std::size_t kLongest = 4096;
+  if (length > kLongest) return {};
   std::string raw(length * static_cast<std::size_t>(count), '\0');
   if (H5Aread(attribute.get(), type.get(), raw.data()) < 0) return {};
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {

@@ -7,6 +7,7 @@
 #include "dcd_reader.hpp"
 #include "file_name.hpp"
 #include "gromacs_reader.hpp"
+#include "h5md_reader.hpp"
 #include "lammps_dump_reader.hpp"
 #include "place.hpp"
 
@@ -34,6 +35,8 @@ constexpr Format kFormats[] = {
     {".xtc", make_xtc_reader},
     {".trr", make_trr_reader},
     {".gro", make_gro_reader},
+    {".h5", make_h5md_reader},
+    {".h5md", make_h5md_reader},
 };
 
 std::string known_endings() {
