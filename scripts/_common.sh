@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+# Shared by the scripts beside it; sourced by bash from the repository's root, never run.
+
+# Open MPI refuses to start as root, the usual user of a container, unless told twice; its binding of processes to
+# cores would put those of two tests that run side by side on the same core.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_rmaps_base_oversubscribe=1
+export OMP_NUM_THREADS=1
+
+die() {
+  printf '%s\n' "$*" >&2
+  exit 2
+}
+
+heading() { printf '\n== %s\n' "$*"; }
+
+wanted_packages() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' scripts/packages.txt; }
+
+missing_packages() {
+  local package
+  for package in $(wanted_packages); do
+    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
+      printf '%s\n' "$package"
+    fi
+  done
+}
+
+# Installs the Debian packages that are missing, after saying which. A user who is not root is told what to install.
+need_packages() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    printf 'This is no Debian system, so nothing is installed. Needed, by their names in Debian 12:\n'
+    wanted_packages | sed 's/^/  /'
+    return
+  fi
+  local missing
+  missing=$(missing_packages | paste -sd ' ')
+  [ -n "$missing" ] || return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    die "These Debian packages are missing. Install them as root, then run this again:
+  apt-get update && apt-get install --no-install-recommends $missing"
+  fi
+  printf 'Installing the Debian packages that are missing: %s\n' "$missing"
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update -qq </dev/null
+  # shellcheck disable=SC2086  # one word a package
+  apt-get install -y -qq --no-install-recommends $missing </dev/null >/dev/null
+}
+
+# configure_and_build PRESET [CMake options ...]: leaves the build in build/PRESET.
+configure_and_build() {
+  local preset=$1
+  shift
+  heading "Build $preset"
+  if command -v ccache >/dev/null; then
+    set -- -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+  fi
+  cmake --preset "$preset" "$@" >"build/$preset.configure.log" 2>&1 || {
+    cat "build/$preset.configure.log" >&2
+    return 1
+  }
+  cmake --build --preset "$preset" --parallel "$(nproc)"
+}
