@@ -33,8 +33,8 @@ int run(const MeltWords& words) {
   const necklace::Melt melt = necklace::make_melt(params);
   necklace::write_lammps_data(words.output, melt);
   if (!words.quiet) {
-    fmt::print("{}: {} chains of {} beads, density {}, seed {}, cubic box of {} bead diameters\n",
-               words.output, grouped(params.chains), grouped(params.beads_per_chain), params.density,
+    fmt::print("{}: {} of {}, density {}, seed {}, cubic box of {} bead diameters\n", words.output,
+               counted(params.chains, "chain"), counted(params.beads_per_chain, "bead"), params.density,
                params.seed, readable(melt.box.vector(0).x));
     fmt::print("Beads overlap: push them apart with a soft potential before dynamics.\n");
   }

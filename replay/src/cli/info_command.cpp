@@ -47,7 +47,7 @@ std::string types_text(const trajectory::Frame& frame) {
       parts.push_back("...");
       break;
     }
-    parts.push_back(fmt::format("{}: {} atoms", type, grouped(count)));
+    parts.push_back(fmt::format("{}: {}", type, counted(count, "atom")));
   }
   return fmt::format("{} ({})", counts.size(), fmt::join(parts, ", "));
 }

@@ -17,6 +17,10 @@ std::string grouped(std::int64_t value) {
   return text;
 }
 
+std::string counted(std::int64_t number, const std::string& thing) {
+  return grouped(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
 std::string readable(double value) {
   const double size = std::abs(value);
   if (!std::isfinite(value) || (size > 0 && size < 1e-3) || size >= 1e15) return fmt::format("{:.4g}", value);

@@ -9,6 +9,9 @@ namespace dch::cli {
 /// A whole number with separators of thousands: 1,234,567.
 std::string grouped(std::int64_t value);
 
+/// A number of things: 1 frame, 1,234 frames.
+std::string counted(std::int64_t number, const std::string& thing);
+
 /// About four significant digits for a person to read: 12,346  1,235  12.35  0.01235  1.235e-07.
 std::string readable(double value);
 

@@ -48,9 +48,9 @@ std::string pairs_card(const ReplayReport& report) {
       report.skin > 0
           ? fmt::format(
                 "Pairs in the list: those within cutoff + skin = {} when it was built last. It was "
-                "built in {} of {} frames.",
+                "built in {} of {}.",
                 radius, grouped(report.totals().list_rebuilds),
-                grouped(static_cast<std::int64_t>(report.frames.size())))
+                counted(static_cast<std::int64_t>(report.frames.size()), "frame"))
           : fmt::format("Pairs of atoms within the cutoff of {}.", radius);
   return card("Pairs", explained(report, text), line_chart(chart));
 }
@@ -81,8 +81,8 @@ std::string changes_card(const ReplayReport& report) {
       "Repairs",
       explained(report,
                 fmt::format("Nodes of the hierarchy lifted (up) and removed from (down) a level as the "
-                            "atoms moved: {} repairs, {} builds from scratch.",
-                            grouped(totals.repairs), grouped(totals.rebuilds))),
+                            "atoms moved: {}, {} from scratch.",
+                            counted(totals.repairs, "repair"), counted(totals.rebuilds, "build"))),
       up_down_bars(chart));
 }
 
@@ -93,8 +93,8 @@ std::string levels_card(const ReplayReport& report) {
     const LevelInfo& info = report.levels[level];
     LabelledBar bar;
     bar.label = fmt::format("level {}", level);
-    bar.note = grouped(info.nodes) + (info.nodes == 1 ? " node" : " nodes");
-    if (info.edges >= 0) bar.note += fmt::format(", {} edges", grouped(info.edges));
+    bar.note = counted(info.nodes, "node");
+    if (info.edges >= 0) bar.note += ", " + counted(info.edges, "edge");
     bar.value = static_cast<double>(info.nodes);
     bars.push_back(bar);
   }
@@ -122,11 +122,11 @@ std::string verdict(const VerifyResult& verify) {
   if (verify.mode == VerifyMode::none)
     return "<p class=\"verdict plain\">lists not verified in this run</p>\n";
   if (verify.mismatches == 0) {
-    return fmt::format("<p class=\"verdict good\">0 mismatches in {} verified {}</p>\n",
-                       grouped(static_cast<std::int64_t>(verify.frames.size())),
-                       verify.frames.size() == 1 ? "frame" : "frames");
+    return fmt::format("<p class=\"verdict good\">0 mismatches in {} verified</p>\n",
+                       counted(static_cast<std::int64_t>(verify.frames.size()), "frame"));
   }
-  return fmt::format("<p class=\"verdict bad\">{} mismatches</p>\n", grouped(verify.mismatches));
+  return fmt::format("<p class=\"verdict bad\">{}</p>\n",
+                     verify.mismatches == 1 ? "1 mismatch" : grouped(verify.mismatches) + " mismatches");
 }
 
 std::string mismatch_list(const ReplayReport& report) {
@@ -161,8 +161,8 @@ std::string render_html(const ReplayReport& report) {
   page += fmt::format("<section class=\"card wide\">\n{}</section>\n", summary_table(report));
   page += mismatch_list(report);
   page += "<div class=\"charts\">\n";
-  page += pairs_card(report) + cost_card(report) + changes_card(report) + levels_card(report) +
-          degree_card(report);
+  page += pairs_card(report) + cost_card(report) + changes_card(report) + degree_card(report) +
+          levels_card(report);
   page += fmt::format("</div>\n<footer>dch {} replay. Hover over a drawing for values.</footer>\n", kVersion);
   page += "</main>\n</body>\n</html>\n";
   return page;

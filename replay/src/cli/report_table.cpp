@@ -27,22 +27,23 @@ std::string box_text(const ReplayReport& report) {
 }
 
 std::string exclusion_text(const ExclusionRecord& exclusions) {
-  const std::string bonds = fmt::format("{} bonds from {}", grouped(exclusions.bonds), exclusions.source);
+  const std::string bonds = fmt::format("{} from {}", counted(exclusions.bonds, "bond"), exclusions.source);
   if (exclusions.rule.empty()) return fmt::format("none ({})", bonds);
-  return fmt::format("{} {} pairs ({})", grouped(exclusions.pairs), exclusions.rule, bonds);
+  return fmt::format("{}: {} ({})", exclusions.rule == "1-2" ? exclusions.rule : "1-2 to " + exclusions.rule,
+                     counted(exclusions.pairs, "pair"), bonds);
 }
 
 std::string verify_text(const VerifyResult& verify) {
   const auto frames = static_cast<std::int64_t>(verify.frames.size());
   switch (verify.mode) {
     case VerifyMode::all: {
-      std::string text = fmt::format("all pairs of {} frames", grouped(frames));
+      std::string text = fmt::format("all pairs of {}", counted(frames, "frame"));
       if (verify.structure_checks > 0)
         text += fmt::format(", hierarchy of {}", grouped(verify.structure_checks));
       return text;
     }
     case VerifyMode::sample:
-      return fmt::format("{} atoms in {} frames (seed {})", grouped(verify.rows), grouped(frames),
+      return fmt::format("{} in {} (seed {})", counted(verify.rows, "atom"), counted(frames, "frame"),
                          verify.seed);
     case VerifyMode::none:
       break;
@@ -96,8 +97,8 @@ std::vector<Row> report_rows(const ReplayReport& report) {
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
                                                readable(totals.pairs_mean), grouped(totals.pairs_max))});
   rows.push_back({"list rebuilds", grouped(totals.list_rebuilds)});
-  rows.push_back({"structure",
-                  fmt::format("{} repairs, {} rebuilds", grouped(totals.repairs), grouped(totals.rebuilds))});
+  rows.push_back({"structure", fmt::format("{}, {}", counted(totals.repairs, "repair"),
+                                           counted(totals.rebuilds, "rebuild"))});
   if (!report.levels.empty()) {
     rows.push_back({"promotions", grouped(totals.promotions)});
     rows.push_back({"demotions", grouped(totals.demotions)});

@@ -72,7 +72,7 @@ Scale SvgCanvas::vertical_axis(const std::vector<double>& ticks, const std::stri
   const Scale scale{ticks.front(), ticks.back(), bottom(), kTop};
   for (const double tick : ticks) {
     line(kLeft, scale(tick), kRight, scale(tick), tick == 0 ? "zero" : "grid");
-    text(kLeft - 8, scale(tick) + 4, tick_label(tick), "y-tick");
+    text(kLeft - 8, scale(tick) + 4, tick_label(std::abs(tick)), "y-tick");
   }
   text(kLeft - 8, 16, label, "y-label");
   return scale;

@@ -35,7 +35,7 @@ class SvgCanvas {
   /// A small triangle that points down at (x, y).
   void mark(double x, double y, const std::string& title);
 
-  /// Grid lines and labels; returns the scale.
+  /// Grid lines and labels, downwards from zero without a sign; returns the scale.
   Scale vertical_axis(const std::vector<double>& ticks, const std::string& label);
   Scale horizontal_axis(double low, double high, const std::vector<double>& ticks, const std::string& label);
   /// Colored squares with names, right-aligned above the plot area.
