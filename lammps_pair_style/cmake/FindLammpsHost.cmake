@@ -24,8 +24,9 @@ find_package_handle_standard_args(
 -DLAMMPS_LIBRARY= and -DDCH_LAMMPS_VERSION=, or leave the LAMMPS adapter out with -DDCH_BUILD_LAMMPS=OFF.")
 
 if(LammpsHost_FOUND AND NOT TARGET Lammps::host)
+  set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # the tests use these targets as well
   find_package(MPI REQUIRED COMPONENTS CXX)
-  add_library(Lammps::host INTERFACE IMPORTED)
+  add_library(Lammps::host INTERFACE IMPORTED GLOBAL)
   target_include_directories(Lammps::host SYSTEM INTERFACE ${LAMMPS_INCLUDE_DIR}/lammps)
   if(NOT EXISTS ${LAMMPS_INCLUDE_DIR}/lammps/fmt/format.h)
     target_include_directories(Lammps::host SYSTEM INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../shim)

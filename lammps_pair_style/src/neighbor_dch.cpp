@@ -178,15 +178,16 @@ std::string NeighborDCH::list_name(const NeighList& list) const {
     owner = std::string("compute ") + static_cast<Compute*>(list.requestor)->style;
   }
   const int mask = pairmasks[list.pair_method - 1];
-  if (mask & NP_FULL) return owner + (list.ghost ? ", full with ghosts" : ", full");
-  return owner + (list.ghost ? ", half with ghosts" : ", half") +
-         (mask & NP_NEWTOFF ? ", newton off" : ", newton on");
+  const bool full = (mask & NP_FULL) != 0;
+  if (full && (mask & NP_HALF)) return owner;  // a builder of derived lists, which takes either kind
+  const std::string kind = full ? ", full" : mask & NP_NEWTOFF ? ", half, newton off" : ", half, newton on";
+  return owner + kind + (list.ghost ? ", with ghost rows" : "");
 }
 
 std::string NeighborDCH::derivation(const NeighList& list) const {
-  if (list.listcopy) return "copied from list " + std::to_string(list.listcopy->index + 1);
-  if (list.listfull) return "half of list " + std::to_string(list.listfull->index + 1);
-  if (list.listskip) return "part of list " + std::to_string(list.listskip->index + 1);
+  if (list.listcopy) return "a copy of list " + std::to_string(list.listcopy->index + 1);
+  if (list.listfull) return "the half of list " + std::to_string(list.listfull->index + 1);
+  if (list.listskip) return "a part of list " + std::to_string(list.listskip->index + 1);
   return {};
 }
 

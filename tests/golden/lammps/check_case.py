@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One script, native and with DCH lists: same lists, same energies, verified at every rebuild.
+
+The lists at step 0 are compared here, from dumps through LAMMPS's C interface; those of every rebuild by `dch verify`.
+"""
+
+import argparse
+import re
+import sys
+from collections import Counter
+
+from lammps_run import SCRIPTS, Host, largest_relative_difference, thermo_tables
+
+STEP_0_TOLERANCE = 1e-12
+LAST_STEP_TOLERANCE = 1e-6  # the order of additions differs, and trajectories are chaotic
+
+
+def require(condition, message, output=""):
+    if not condition:
+        sys.exit(f"FAILED: {message}\n{output}")
+
+
+def read_dump(prefix, ranks):
+    """Pairs of every list, each as (list, low ID, high ID, box vectors between them, special bits), with their counts."""
+    box, positions, pairs = None, {}, []
+    for rank in range(ranks):
+        with open(f"{prefix}.{rank}", encoding="ascii") as lines:
+            for line in lines:
+                kind, *words = line.split()
+                if kind == "box":
+                    box = list(map(float, words))
+                elif kind == "atom":
+                    positions[int(words[0])] = tuple(map(float, words[1:]))
+                else:
+                    pairs.append((int(words[0]), int(words[1]), int(words[2]), tuple(map(float, words[3:6])), words[6]))
+    return Counter(canonical(pair, box, positions) for pair in pairs)
+
+
+def canonical(pair, box, positions):
+    number, i, j, displacement, special = pair
+    plain = [b - a for a, b in zip(positions[i], positions[j])]
+    image = box_vectors([d - p for d, p in zip(displacement, plain)], box)
+    reverse = tuple(-n for n in image)
+    if i > j or (i == j and reverse > image):
+        i, j, image = j, i, reverse
+    return number, i, j, image, special
+
+
+def box_vectors(shift, box):
+    """Whole numbers of box vectors that the shift consists of."""
+    xlo, ylo, zlo, xhi, yhi, zhi, xy, yz, xz = box
+    c = round(shift[2] / (zhi - zlo))
+    b = round((shift[1] - c * yz) / (yhi - ylo))
+    a = round((shift[0] - c * xz - b * xy) / (xhi - xlo))
+    return a, b, c
+
+
+def check_lists_at_start(host, case, ranks, variables):
+    dumps = []
+    for lists in ("stock", "dch"):
+        prefix = host.work / f"dump.{lists}"
+        code, output = host.run(ranks, [host.tools / "list_dump", prefix, case],
+                                {**variables, "lists": lists, "load": host.loader, "steps": 0})
+        require(code == 0, f"list_dump of the {lists} lists ended with {code}", output)
+        dumps.append(read_dump(prefix, ranks))
+    native, ours = dumps
+    require(native, "the native lists are empty: the case tests nothing")
+    require(native == ours, f"lists differ at step 0: {len(native - ours)} pairs only native, {len(ours - native)} only "
+            f"DCH, for example {next(iter((native - ours) + (ours - native)), None)}")
+    return sum(native.values())
+
+
+def check_run(host, case, ranks, variables, expected_list):
+    outputs = []
+    for lists, load in (("stock", "/dev/null"), ("dch", host.loader)):
+        code, output = host.run(ranks, [host.lmp, "-in", case], {**variables, "lists": lists, "load": load})
+        require(code == 0, f"the {lists} run ended with {code}", output)
+        outputs.append(output)
+    native, ours = (thermo_tables(output)[-1] for output in outputs)
+    first = largest_relative_difference(native[0], ours[0])
+    last = largest_relative_difference(native[-1], ours[-1])
+    require(first <= STEP_0_TOLERANCE, f"thermo output at step 0 differs by {first:.3g}", outputs[1])
+    require(last <= LAST_STEP_TOLERANCE, f"thermo output after the run differs by {last:.3g}", outputs[1])
+
+    builds = [int(re.findall(r"Neighbor list builds = (\d+)", output)[-1]) for output in outputs]
+    require(builds[0] == builds[1], f"{builds[0]} native builds but {builds[1]} with DCH lists", outputs[1])
+    verified = re.search(r"verified +(\d+) builds, (\d+) pairs, all equal", outputs[1])
+    require(verified, "dch stats does not say that builds were verified", outputs[1])
+    require(int(verified[1]) == builds[1] + 1 and int(verified[1]) > 3,
+            f"{verified[1]} of {builds[1] + 1} builds were verified; at least 4 are needed", outputs[1])
+    require(int(verified[2]) > 0, "no pair was compared", outputs[1])
+    require(f"{expected_list}: DCH" in outputs[1], f"no line '{expected_list}: DCH' in dch stats", outputs[1])
+    return first, verified
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    Host.add_arguments(parser)
+    parser.add_argument("--case", required=True)
+    parser.add_argument("--ranks", type=int, required=True)
+    parser.add_argument("--list", required=True, help="the list that dch stats has to show as ours")
+    parser.add_argument("--var", nargs=2, action="append", default=[])
+    arguments = parser.parse_args()
+    host = Host(arguments)
+    case = SCRIPTS / f"in.{arguments.case}"
+    variables = dict(arguments.var)
+    pairs = check_lists_at_start(host, case, arguments.ranks, variables)
+    difference, verified = check_run(host, case, arguments.ranks, variables, arguments.list)
+    print(f"{pairs} pairs equal at step 0, energies to {difference:.2g}; {verified[0]}")
+
+
+if __name__ == "__main__":
+    main()

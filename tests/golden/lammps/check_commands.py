@@ -1,0 +1,267 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command `dch` and the ways to load it, in a real LAMMPS."""
+
+import argparse
+import sys
+import unittest
+
+from lammps_run import Host, largest_relative_difference, thermo_tables
+
+MELT = """
+units lj
+atom_style atomic
+lattice fcc 0.8442
+region box block 0 6 0 6 0 6
+create_box 1 box
+create_atoms 1 box
+mass 1 1.0
+velocity all create 1.44 87287 loop geom
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neighbor 0.3 bin
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+thermo 20
+thermo_modify format float %.15g
+"""
+
+host = None
+
+
+def run(text, **options):
+    code, output = host.run_text(text, **options)
+    if code != 0:
+        raise AssertionError(f"exit code {code}\n{output}")
+    return output
+
+
+class Loading(unittest.TestCase):
+    def test_include_in_stock_lammps_leaves_lists_alone(self):
+        stock = run(MELT + "run 20\n")
+        loaded = run("include ${load}\n" + MELT + "run 20\n")
+        self.assertEqual(thermo_tables(stock), thermo_tables(loaded))
+
+    def test_include_twice_and_in_the_launcher_does_no_harm(self):
+        script = "include ${load}\ninclude ${load}\n" + MELT + "dch on\nrun 20\ndch stats\n"
+        for executable in (host.lmp, host.lmp_dch):
+            self.assertIn("half, newton on: DCH", run(script, executable=executable))
+
+    def test_launcher_needs_no_include_and_agrees_with_stock(self):
+        loaded = run("include ${load}\n" + MELT + "dch on\nrun 20\n")
+        launched = run(MELT + "dch on\nrun 20\n", executable=host.lmp_dch)
+        self.assertEqual(thermo_tables(loaded), thermo_tables(launched))
+
+    def test_without_the_include_the_command_is_unknown(self):
+        code, output = host.run_text("dch on\n")
+        self.assertNotEqual(code, 0)
+        self.assertIn("Unknown command: dch", output)
+
+    def test_missing_library_is_named(self):
+        loader = host.work / "broken.lmp"
+        loader.write_text(host.loader.read_text().replace("libdch_lammps.so", "libdch_absent.so"))
+        code, output = host.run_text("include ${load}\n", variables={"load": loader})
+        self.assertNotEqual(code, 0)
+        self.assertIn("libdch_absent.so: cannot open shared object file", output)
+
+
+class Errors(unittest.TestCase):
+    def test_words_that_mean_nothing(self):
+        for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats' or 'dch verify yes|no|every N'"),
+                              ("of", "unknown keyword 'of'"),
+                              ("off now", "'now' after 'dch off' has no meaning"),
+                              ("on c", "for example 'dch on c 1.2'"),
+                              ("on c 1.01", "c is '1.01' but has to be a number from 1.05"),
+                              ("on fast", "unknown option 'fast'"),
+                              ("verify", "give 'dch verify yes'"),
+                              ("verify maybe", "does not know 'maybe'"),
+                              ("verify every 0", "the interval is '0' but has to be a whole number from 1 up")):
+            with self.subTest(words=words):
+                code, output = host.run_text(f"include ${{load}}\ndch {words}\n")
+                self.assertNotEqual(code, 0)
+                self.assertIn("ERROR: Illegal dch command: ", output)
+                self.assertIn(remedy, output)
+
+    def test_template_molecules_are_refused(self):
+        molecule = host.work / "dimer.mol"
+        molecule.write_text("# dimer\n\n2 atoms\n1 bonds\n\nCoords\n\n1 0 0 0\n2 1 0 0\n\nTypes\n\n1 1\n2 1\n\n"
+                            "Bonds\n\n1 1 1 2\n")
+        code, output = host.run_text(f"""
+include ${{load}}
+units lj
+molecule dimer {molecule}
+atom_style template dimer
+region box block 0 10 0 10 0 10
+create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
+create_atoms 0 single 2 2 2 mol dimer 777
+mass 1 1.0
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+bond_style harmonic
+bond_coeff 1 100 1
+dch on
+run 0
+""")
+        self.assertNotEqual(code, 0)
+        self.assertIn("do not know the bonds of atom_style template", output)
+
+
+class Settings(unittest.TestCase):
+    def test_on_and_off_between_runs(self):
+        stock = run(MELT + "run 20\n" * 5)
+        output = run("include ${load}\n" + MELT + """
+run 20
+dch on
+dch verify yes
+run 20
+dch stats
+dch off
+run 20
+dch stats
+dch on c 1.3
+run 20
+dch stats
+run 20
+""")
+        self.assertEqual(output.count("DCH neighbor lists: on, verified at every build"), 2)
+        self.assertEqual(output.count("DCH neighbor lists: off, verified at every build"), 1)
+        self.assertEqual(output.count("verified                5 builds"), 2)
+        self.assertIn("c 1.3,", output)
+        for native, ours in zip(thermo_tables(stock), thermo_tables(output)):
+            self.assertLess(largest_relative_difference(native[-1], ours[-1]), 1e-9)
+
+    def test_on_and_off_without_a_new_setup(self):
+        stock = run(MELT + "run 20\n" + "run 20 pre no\n" * 4)
+        output = run("include ${load}\n" + MELT + """
+run 20
+dch on
+dch verify yes
+run 20 pre no
+dch off
+run 20 pre no
+dch on
+run 20 pre no
+dch off
+run 20 pre no
+""")
+        for native, ours in zip(thermo_tables(stock), thermo_tables(output)):
+            self.assertLess(largest_relative_difference(native[-1], ours[-1]), 1e-9)
+
+    def test_off_takes_effect_without_a_new_setup(self):
+        output = run("include ${load}\n" + MELT + """
+dch on
+run 20
+dch stats
+dch off
+run 20 pre no
+dch stats
+dch on
+run 20 pre no
+dch stats
+""")
+        self.assertEqual(output.count("builds in the last run  5"), 2)
+        self.assertIn("builds in the last run  9", output)
+
+    def test_verify_at_every_nth_build(self):
+        output = run("include ${load}\n" + MELT + "dch on\ndch verify every 3\nrun 40\ndch stats\n")
+        self.assertIn("verified at every 3th build", output)
+        self.assertIn("builds in the last run  9", output)
+        self.assertIn("verified                3 builds", output)
+
+    def test_clear_restores_stock_lists(self):
+        stock = run(MELT + "run 20\n")
+        output = run("include ${load}\n" + MELT + "dch on\nrun 20\nclear\n" + MELT + "run 20\ndch stats\nclear\n" + MELT +
+                     "dch on\nrun 20\ndch stats\n")
+        tables = thermo_tables(output)
+        self.assertEqual(tables[1], thermo_tables(stock)[0])
+        self.assertEqual(output.count("DCH neighbor lists: off"), 1)
+        self.assertEqual(output.count("half, newton on: DCH"), 1)
+
+    def test_stats_before_any_run(self):
+        output = run("include ${load}\ndch stats\n")
+        self.assertIn("DCH neighbor lists: off", output)
+        self.assertIn("they are assigned when a run begins", output)
+
+    def test_minimization_and_changing_cutoffs(self):
+        output = run("include ${load}\n" + MELT + """
+dch on
+dch verify yes
+minimize 0 0 30 100
+pair_coeff 1 1 1.0 1.0 1.8
+run 20
+neighbor 0.6 bin
+run 20
+dch stats
+""")
+        self.assertIn("radius 2.4,", output)
+
+
+class NativeLists(unittest.TestCase):
+    def check_reason(self, script, reason):
+        self.assertIn(reason, run("include ${load}\n" + script + "dch stats\n"))
+
+    def test_atoms_without_ids(self):
+        script = MELT.replace("atom_style atomic", "atom_style atomic\natom_modify id no")
+        self.check_reason(script + "dch on\nrun 20\n", "native, atoms have no IDs (atom_modify id no)")
+
+    def test_lists_of_computes_are_built_on_demand(self):
+        self.check_reason(MELT + "compute cn all coord/atom cutoff 1.5\ncompute most all reduce max c_cn\n"
+                          "thermo_style custom step temp c_most\ndch on\ndch verify yes\nrun 20\n",
+                          "compute coord/atom, full: native, built on demand only")
+
+    def test_granular_lists(self):
+        self.check_reason("""
+units si
+atom_style sphere
+comm_modify vel yes
+region box block 0 10 0 10 0 10
+create_box 1 box
+lattice sc 1.0
+create_atoms 1 box
+set type 1 diameter 1.0
+set type 1 density 1.0
+pair_style gran/hooke 2000 NULL 50 NULL 0.5 0
+pair_coeff * *
+timestep 0.001
+fix 1 all nve/sphere
+dch on
+run 10
+""", "native, granular: cutoffs by radius")
+
+
+class Faults(unittest.TestCase):
+    """A search that makes one mistake at its third list, which is at step 10."""
+
+    def run_faulty(self, kind, ranks):
+        script = host.work / "in.faulty"
+        script.write_text(MELT + "dch on\ndch verify yes\nrun 20\n")
+        return host.run(ranks, [host.tools / "lmp_faulty", kind, "-in", script])
+
+    def test_a_good_search_passes(self):
+        code, output = self.run_faulty("none", 1)
+        self.assertEqual(code, 0, output)
+
+    def test_a_missing_pair_is_found(self):
+        for ranks in (1, 2):
+            code, output = self.run_faulty("drop", ranks)
+            self.assertNotEqual(code, 0, output)
+            self.assertRegex(output, r"dch verify: at step 10 .*pair lj/cut, half, newton on.*: [12] pairs differ, the "
+                             r"first: pair of atoms \d+ and \d+ at distance [12]\.\d+, special bits 0: in the native list")
+
+    def test_a_repeated_pair_is_found(self):
+        code, output = self.run_faulty("repeat", 1)
+        self.assertNotEqual(code, 0, output)
+        self.assertRegex(output, r"dch verify: at step 10 .* 2 pairs differ, .*list only")
+
+
+def main():
+    global host
+    parser = argparse.ArgumentParser(description=__doc__)
+    Host.add_arguments(parser)
+    arguments, rest = parser.parse_known_args()
+    host = Host(arguments)
+    unittest.main(argv=[sys.argv[0]] + rest, verbosity=2)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs LAMMPS executables for the golden tests and reads what they print."""
+
+import os
+import subprocess
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SCRIPTS = HERE / "scripts"
+
+
+class Host:
+    """The LAMMPS installation and the build under test, from the command line of a test."""
+
+    @staticmethod
+    def add_arguments(parser):
+        parser.add_argument("--lmp", required=True, help="stock LAMMPS executable")
+        parser.add_argument("--mpirun", required=True)
+        parser.add_argument("--build", required=True, type=Path, help="folder with dch.lmp and lmp-dch")
+        parser.add_argument("--tools", required=True, type=Path, help="folder with this folder's executables")
+        parser.add_argument("--examples", required=True, type=Path, help="LAMMPS's examples")
+        parser.add_argument("--potentials", required=True, type=Path, help="LAMMPS's potential files")
+        parser.add_argument("--melt", required=True, type=Path, help="data file made by make_melt_data")
+        parser.add_argument("--work", required=True, type=Path, help="folder to write to")
+
+    def __init__(self, arguments):
+        self.lmp = arguments.lmp
+        self.mpirun = arguments.mpirun
+        self.loader = arguments.build / "dch.lmp"
+        self.lmp_dch = arguments.build / "lmp-dch"
+        self.tools = arguments.tools
+        self.work = arguments.work
+        for needed in (arguments.examples, arguments.potentials, self.loader, self.lmp_dch, arguments.melt):
+            if not needed.exists():
+                raise SystemExit(f"{needed} does not exist; install lammps-examples and build the LAMMPS adapter")
+        self.work.mkdir(parents=True, exist_ok=True)
+        self.variables = {"here": SCRIPTS, "examples": arguments.examples, "data": arguments.melt}
+        self.environment = dict(os.environ, LAMMPS_POTENTIALS=str(arguments.potentials), OMP_NUM_THREADS="1")
+
+    def run(self, ranks, command, variables=(), timeout=280):
+        """Runs command (a list) on `ranks` processes with LAMMPS variables; returns exit code and all output."""
+        words = [str(word) for word in command]
+        if ranks > 1:
+            words = [self.mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)] + words
+        words += ["-log", "none"]
+        for name, value in {**self.variables, **dict(variables)}.items():
+            words += ["-var", name, str(value)]
+        done = subprocess.run(words, cwd=self.work, env=self.environment, timeout=timeout, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return done.returncode, done.stdout
+
+    def run_text(self, text, ranks=1, executable=None, variables=()):
+        """Runs the lines as a script, by default in stock LAMMPS with the loader's path in `load`."""
+        script = self.work / "in.text"
+        script.write_text(text)
+        return self.run(ranks, [executable or self.lmp, "-in", script], {"load": self.loader, **dict(variables)})
+
+
+def thermo_tables(output):
+    """Every thermo table of the output: a list of {column: value} for each of its lines."""
+    tables = []
+    columns = None
+    for line in output.splitlines():
+        words = line.split()
+        if words and words[0] == "Step":
+            columns = words
+            tables.append([])
+        elif columns and len(words) == len(columns) and is_number(words[0]):
+            tables[-1].append(dict(zip(columns, map(float, words))))
+        elif line.startswith("Loop time"):
+            columns = None
+    return tables
+
+
+def is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def largest_relative_difference(first, second):
+    """Over the columns of two thermo lines; differences relative to the larger magnitude."""
+    assert first.keys() == second.keys(), (first, second)
+    worst = 0.0
+    for column, a in first.items():
+        b = second[column]
+        scale = max(abs(a), abs(b))
+        if scale > 0:
+            worst = max(worst, abs(a - b) / scale)
+    return worst
