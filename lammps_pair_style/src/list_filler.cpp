@@ -67,26 +67,27 @@ int ListFiller::special_kind(int i, int j) const {
   return 0;
 }
 
-int ListFiller::fill_row(int i, dch::Span<const std::int32_t> candidates, const std::vector<int>& atoms,
+int ListFiller::fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
                          bool newton, int* out) const {
   const int owned = atom->nlocal;
+  const int i = points.atoms()[row];
   const bool ghost_row = i >= owned;
   const bool molecular = atom->molecular != Atom::ATOMIC && !ghost_row;
   const double* cutsq = (ghost_row ? neighbor->cutneighghostsq : neighbor->cutneighsq)[atom->type[i]];
-  const double* xi = atom->x[i];
+  const dch::Vec3 xi = points.positions()[row];
   int n = 0;
-  for (const std::int32_t q : candidates) {
-    const int j = atoms[static_cast<std::size_t>(q)];
-    const double* xj = atom->x[j];
-    const double delx = xi[0] - xj[0], dely = xi[1] - xj[1], delz = xi[2] - xj[2];
-    if (delx * delx + dely * dely + delz * delz > cutsq[atom->type[j]]) continue;
+  for (const std::int32_t candidate : candidates) {
+    const auto q = static_cast<std::size_t>(candidate);
+    const int j = points.atoms()[q];
+    const dch::Vec3 del = xi - points.positions()[q];
+    if (norm2(del) > cutsq[atom->type[j]]) continue;
     if (newton && j >= owned && !stored_here(i, j)) continue;
     if (exclusions_.any() && exclusions_.excluded(i, j)) continue;
     int entry = j;
     if (molecular) {
       const int kind = special_kind(i, j);
       // A bonded atom's far image is no bonded atom: LAMMPS stores it as an ordinary neighbor.
-      if (kind != 0 && !domain->minimum_image_check(delx, dely, delz)) {
+      if (kind != 0 && !domain->minimum_image_check(del.x, del.y, del.z)) {
         if (kind < 0) continue;
         entry ^= kind << SBBITS;
       }
@@ -96,23 +97,23 @@ int ListFiller::fill_row(int i, dch::Span<const std::int32_t> candidates, const 
   return n;
 }
 
-void ListFiller::fill(const dch::NeighborList& candidates, const std::vector<int>& atoms, int owned,
-                      ServedList& served, NeighList& list) const {
-  const int rows = served.ghost ? static_cast<int>(atoms.size()) : owned;
-  const std::int64_t bound = candidates.first[static_cast<std::size_t>(rows)];
-  if (served.storage.size() < static_cast<std::size_t>(bound))
-    served.storage.resize(static_cast<std::size_t>(bound));
+void ListFiller::fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
+                      NeighList& list) const {
+  const std::size_t owned = static_cast<std::size_t>(points.owned());
+  const std::size_t rows = served.ghost ? points.atoms().size() : owned;
+  const auto bound = static_cast<std::size_t>(candidates.first[rows]);
+  if (served.storage.size() < bound) served.storage.resize(bound);
   int* out = served.storage.data();
-  for (int row = 0; row < rows; ++row) {
-    const int i = atoms[static_cast<std::size_t>(row)];
-    const int n = fill_row(i, candidates.row(static_cast<std::size_t>(row)), atoms, served.newton, out);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const int i = points.atoms()[row];
+    const int n = fill_row(row, candidates.row(row), points, served.newton, out);
     list.ilist[row] = i;
     list.firstneigh[i] = out;
     list.numneigh[i] = n;
     out += n;
   }
-  list.inum = owned;
-  list.gnum = rows - owned;
+  list.inum = static_cast<int>(owned);
+  list.gnum = static_cast<int>(rows - owned);
   served.pairs = out - served.storage.data();
 }
 

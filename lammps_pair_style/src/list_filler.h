@@ -7,6 +7,8 @@
 
 #include <dch/neighbor_list.hpp>
 
+#include "atom_points.h"
+
 namespace LAMMPS_NS {
 
 class NeighList;
@@ -54,14 +56,12 @@ class ListFiller : protected Pointers {
 
   void copy_settings() { exclusions_.copy_settings(); }
 
-  /// Fills `list` from `candidates`, whose particle k is LAMMPS's atom atoms[k], ascending; the first `owned`
-  /// of them are owned atoms. The candidates hold all pairs within the cutoffs and may hold more; they are
-  /// half or full, with or without pairs of ghosts, as `served` is.
-  void fill(const dch::NeighborList& candidates, const std::vector<int>& atoms, int owned, ServedList& served,
-            NeighList& list) const;
+  /// Fills `list` from `candidates`, whose particles are the points. They hold all pairs within the cutoffs and
+  /// may hold more; they are half or full, with or without pairs of ghosts, as `served` is.
+  void fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served, NeighList& list) const;
 
  private:
-  int fill_row(int i, dch::Span<const std::int32_t> candidates, const std::vector<int>& atoms, bool newton,
+  int fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points, bool newton,
                int* out) const;
   bool stored_here(int i, int ghost) const;
   int special_kind(int i, int j) const;

@@ -281,7 +281,7 @@ void NeighborDCH::build_ours() {
       const dch::NeighborList& rows = candidates_.rows(list_params(served));
       run_.rows_seconds += seconds_since(clock);
       list.grow(atom->nlocal, atom->nlocal + atom->nghost);
-      filler_.fill(rows, points_.atoms(), points_.owned(), served, list);
+      filler_.fill(rows, points_, served, list);
       run_.entries += served.pairs;
       run_.fill_seconds += seconds_since(clock);
     }

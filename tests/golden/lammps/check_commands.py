@@ -85,7 +85,8 @@ class Errors(unittest.TestCase):
     def test_template_molecules_are_refused(self):
         molecule = host.work / "dimer.mol"
         molecule.write_text("# dimer\n\n2 atoms\n1 bonds\n\nCoords\n\n1 0 0 0\n2 1 0 0\n\nTypes\n\n1 1\n2 1\n\n"
-                            "Bonds\n\n1 1 1 2\n")
+                            "Bonds\n\n1 1 1 2\n\nSpecial Bond Counts\n\n1 1 0 0\n2 1 0 0\n\n"
+                            "Special Bonds\n\n1 2\n2 1\n")
         code, output = host.run_text(f"""
 include ${{load}}
 units lj
