@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <dch/all_pairs.hpp>
+#include <dch/error.hpp>
+
+#include "list_compare.hpp"
+#include "small_scene.hpp"
+
+namespace dch::cli {
+namespace {
+
+class Engines : public testing::TestWithParam<EngineKind> {
+ protected:
+  Engine engine(double radius) const {
+    EngineOptions options;
+    options.kind = GetParam();
+    return make_engine(options, radius);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Engines,
+                         testing::Values(EngineKind::dch, EngineKind::cell, EngineKind::allpairs),
+                         [](const auto& scene) { return to_string(scene.param); });
+
+TEST_P(Engines, FollowMotionAndGiveTheOraclesLists) {
+  const Engine engine = this->engine(2.5);
+  EXPECT_EQ(engine.search->name(), to_string(GetParam()));
+  EXPECT_EQ(engine.hierarchy != nullptr, GetParam() == EngineKind::dch);
+  ListParams params;
+  params.cutoffs = TypeCutoffs(2.5);
+  trajectory::Frame frame = random_frame(300);
+  scenes::Random random(5);
+  for (int step = 0; step < 5; ++step) {
+    engine.search->update(frame.positions, frame.box);
+    EXPECT_EQ(first_difference(engine.search->list(params), all_pairs(frame.positions, frame.box, params)),
+              "");
+    for (Vec3& position : frame.positions) position = position + random.in_ball(0.3);
+  }
+  const SearchStats& stats = engine.search->stats();
+  EXPECT_EQ(stats.builds + stats.repairs, 5);
+  EXPECT_GT(stats.list_seconds, 0);
+  EXPECT_GT(stats.maintain_seconds, 0);
+}
+
+TEST_P(Engines, TakeAnotherNumberOfAtomsAndNoneAtAll) {
+  const Engine engine = this->engine(1);
+  for (const std::size_t n : {20, 50, 0, 10}) {
+    const trajectory::Frame frame = random_frame(n);
+    engine.search->update(frame.positions, frame.box);
+    EXPECT_EQ(engine.search->list(ListParams()).size(), n);
+  }
+}
+
+TEST_P(Engines, RefuseACutoffBeyondHalfTheBox) {
+  const Engine engine = this->engine(6);
+  const trajectory::Frame frame = random_frame(20);
+  ListParams params;
+  params.cutoffs = TypeCutoffs(6);
+  EXPECT_THROW(
+      {
+        engine.search->update(frame.positions, frame.box);
+        engine.search->list(params);
+      },
+      CutoffTooLarge);
+}
+
+}  // namespace
+}  // namespace dch::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "list_file.hpp"
+
+#include <gmock/gmock.h>
+#include <hdf5.h>
+
+#include <dch/trajectory/file_error.hpp>
+
+#include "expect_error.hpp"
+#include "temporary_folder.hpp"
+
+namespace dch::cli {
+namespace {
+
+using testing::ElementsAre;
+
+class ListFileTest : public TemporaryFolder {
+ protected:
+  static ListFileHeader header() {
+    ListFileHeader header;
+    header.source = "a.xtc";
+    header.unit = "nm";
+    header.engine = "dch";
+    header.exclusions = "none";
+    header.cutoff = 1.5;
+    header.skin = 0.25;
+    header.kind = ListKind::half;
+    header.ids = {11, 12, 13};
+    return header;
+  }
+
+  static std::vector<std::int64_t> read(hid_t file, const char* name) {
+    const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t space = H5Dget_space(data);
+    std::vector<std::int64_t> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    EXPECT_GE(H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    H5Sclose(space);
+    H5Dclose(data);
+    return values;
+  }
+
+  static double read_number(hid_t file, const char* name) {
+    double value = 0;
+    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), 0);
+    H5Aclose(attribute);
+    return value;
+  }
+};
+
+TEST_F(ListFileTest, HoldsRowsOfEveryFrameAndSharesThoseOfKeptLists) {
+  const NeighborList two_pairs{ListKind::half, {0, 2, 2, 2}, {1, 2}};
+  const NeighborList no_pair{ListKind::half, {0, 0, 0, 0}, {}};
+  const NeighborList one_pair{ListKind::half, {0, 0, 1, 1}, {2}};
+  ListFile lists(path("lists.h5"), header());
+  lists.append(0, 100, two_pairs, true);
+  lists.append(2, 200, two_pairs, false);
+  lists.append(4, 300, no_pair, true);
+  lists.append(6, 400, one_pair, true);
+  EXPECT_FALSE(std::filesystem::exists(path("lists.h5")));
+  lists.commit();
+  EXPECT_EQ(files(), 1u);
+
+  const hid_t file = H5Fopen(path("lists.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_THAT(read(file, "ids"), ElementsAre(11, 12, 13));
+  EXPECT_THAT(read(file, "frame"), ElementsAre(0, 2, 4, 6));
+  EXPECT_THAT(read(file, "step"), ElementsAre(100, 200, 300, 400));
+  EXPECT_THAT(read(file, "j"), ElementsAre(1, 2, 2));
+  EXPECT_THAT(read(file, "first"), ElementsAre(0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3));
+  EXPECT_EQ(read_number(file, "cutoff"), 1.5);
+  EXPECT_EQ(read_number(file, "skin"), 0.25);
+  H5Fclose(file);
+}
+
+TEST_F(ListFileTest, TakesNoAtoms) {
+  ListFileHeader empty = header();
+  empty.ids.clear();
+  ListFile lists(path("lists.h5"), empty);
+  lists.append(0, 0, NeighborList(), true);
+  lists.commit();
+  EXPECT_TRUE(std::filesystem::exists(path("lists.h5")));
+}
+
+TEST_F(ListFileTest, LeavesNothingBehindIfNotCompleted) {
+  {
+    ListFile lists(path("lists.h5"), header());
+    lists.append(0, 0, {ListKind::half, {0, 1, 1, 1}, {1}}, true);
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(ListFileTest, RefusesAFolderThatIsNotThere) {
+  expect_error<trajectory::FileError>([&] { ListFile(path("no/lists.h5"), header()); }, {"no/lists.h5"});
+}
+
+}  // namespace
+}  // namespace dch::cli
