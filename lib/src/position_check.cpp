@@ -114,10 +114,14 @@ void check_radius(double radius, const Box& box) {
   }
 }
 
-void check_list_params(const ListParams& params, std::size_t n, double radius) {
-  if (!(std::isfinite(params.skin) && params.skin >= 0)) {
-    throw InvalidParameter("the skin is " + describe(params.skin) + "; it must be finite and not negative");
+void check_skin(double skin) {
+  if (!(std::isfinite(skin) && skin >= 0)) {
+    throw InvalidParameter("the skin is " + describe(skin) + "; it must be finite and not negative");
   }
+}
+
+void check_list_params(const ListParams& params, std::size_t n, double radius) {
+  check_skin(params.skin);
   if (params.list_radius() > radius) {
     throw InvalidParameter("cutoff + skin = " + describe(params.list_radius()) +
                            " exceeds the search radius " + describe(radius) +

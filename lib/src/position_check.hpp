@@ -39,6 +39,9 @@ void check_positions(Span<const Vec3> positions, const Box& box);
 /// @throws CutoffTooLarge if the radius (cutoff + skin) exceeds box.max_cutoff().
 void check_radius(double radius, const Box& box);
 
+/// @throws InvalidParameter if the skin is negative or not finite.
+void check_skin(double skin);
+
 /// Checks that params ask for something a structure of n particles and of the given search radius can answer.
 /// @throws InvalidParameter as PairSearch::list says.
 void check_list_params(const ListParams& params, std::size_t n, double radius);
