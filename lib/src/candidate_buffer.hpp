@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,13 +17,14 @@ class CandidateBuffer {
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
   std::int32_t node(std::size_t k) const { return node_[k]; }
-  Vec3 position(std::size_t k) const { return {x_[k], y_[k], z_[k]}; }
+  Vec3 position(std::size_t k) const { return {data_[k], data_[k + capacity_], data_[k + 2 * capacity_]}; }
 
   void append_if(bool keep, Vec3 p, std::int32_t node) {
-    if (size_ == node_.size()) grow();
-    x_[size_] = p.x;
-    y_[size_] = p.y;
-    z_[size_] = p.z;
+    if (size_ == capacity_) grow();
+    double* at = data_.data() + size_;
+    at[0] = p.x;
+    at[capacity_] = p.y;
+    at[2 * capacity_] = p.z;
     node_[size_] = node;
     size_ += keep;
   }
@@ -31,7 +33,7 @@ class CandidateBuffer {
   /// distance2(hit(h)) tell which and how far.
   template <class Metric>
   std::size_t select(const Metric& metric, Vec3 p, std::size_t first, double limit2) {
-    const double *x = x_.data(), *y = y_.data(), *z = z_.data();
+    const double *x = data_.data(), *y = x + capacity_, *z = y + capacity_;
     double* d2 = distance2_.data();
     std::int32_t* hit = hit_.data();
     for (std::size_t k = first; k < size_; ++k) d2[k] = metric.distance2(p, Vec3{x[k], y[k], z[k]});
@@ -47,13 +49,20 @@ class CandidateBuffer {
 
  private:
   void grow() {
-    const std::size_t n = 2 * size_ + 64;
-    for (auto* array : {&x_, &y_, &z_, &distance2_}) array->resize(n);
-    for (auto* array : {&node_, &hit_}) array->resize(n);
+    const std::size_t wider = 2 * capacity_ + 64;
+    std::vector<double> data(3 * wider);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::copy_n(data_.data() + axis * capacity_, size_, data.data() + axis * wider);
+    data_.swap(data);
+    capacity_ = wider;
+    distance2_.resize(wider);
+    node_.resize(wider);
+    hit_.resize(wider);
   }
 
-  std::size_t size_ = 0;
-  std::vector<double> x_, y_, z_, distance2_;
+  std::size_t size_ = 0, capacity_ = 0;
+  std::vector<double> data_;  ///< x of all, then y, then z
+  std::vector<double> distance2_;
   std::vector<std::int32_t> node_, hit_;
 };
 

@@ -244,12 +244,16 @@ std::int32_t Hierarchy::parent(std::int32_t id, int i) const {
 std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
   const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
   if (node == kNone) throw_not_in_level(id, i);
-  std::vector<std::int32_t> ids;
+  std::vector<std::int32_t> nodes;
   if (i > 0) {
-    for (const std::int32_t k : impl_->levels[i].edges.row(node)) ids.push_back(impl_->levels[i].id[k]);
+    const auto row = impl_->levels[i].edges.row(node);
+    nodes.assign(row.begin(), row.end());
   } else {
-    with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors_of_point(metric, node, ids); });
+    with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors_of_point(metric, node, nodes); });
   }
+  std::vector<std::int32_t> ids(nodes.size());
+  std::transform(nodes.begin(), nodes.end(), ids.begin(),
+                 [&](std::int32_t k) { return impl_->levels[i].id[k]; });
   std::sort(ids.begin(), ids.end());
   return ids;
 }

@@ -102,8 +102,9 @@ struct Hierarchy::Impl {
   void reorder();
 
   // hierarchy_list.cpp
+  /// Appends the level-0 nodes within the threshold of one of them.
   template <class Metric>
-  void neighbors_of_point(const Metric& metric, std::int32_t slot, std::vector<std::int32_t>& ids) const;
+  void neighbors_of_point(const Metric& metric, std::int32_t slot, std::vector<std::int32_t>& slots) const;
   void list(const ListParams& request, NeighborList& out);
 
   // hierarchy_validate.cpp

@@ -2,7 +2,9 @@
 //
 // Neighbor lists: the level-0 edges of the conflict graph, enumerated among the children of equal or
 // neighboring parents (Lemma 5.3.1(5)).
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <type_traits>
 
 #include "candidate_buffer.hpp"
@@ -35,24 +37,31 @@ class PairCollector {
   /// Each cluster with itself and with its neighbors of higher index. Where a ball of r_list + R_0 around a
   /// center meets no point twice, positions relative to the center spare every test its nearest image; what
   /// they add in rounding, a few eps of the box, is well within the band that the filter looks at again.
-  void from_clusters(const Level& points, const Level& centers, double list_radius, double max_cutoff) {
-    const double reach = (list_radius + points.radius) * kInflate;
-    const bool relative = !std::is_same_v<Metric, OpenMetric> && reach < max_cutoff;
-    const double reach2 = reach * reach;
+  void from_clusters(const Level& points, const Level& centers, const ListParams& request,
+                     double max_cutoff) {
+    const double list_radius = request.list_radius();
+    const bool relative =
+        !std::is_same_v<Metric, OpenMetric> && (list_radius + points.radius) * kInflate < max_cutoff;
+    measure_clusters(points, centers, request.first_ghost);
     for (std::int32_t center = 0; center < centers.size(); ++center) {
       if (!centers.is_alive(center)) continue;
-      near_.clear();
       const Vec3 origin = centers.position[center];
+      const double reach = (list_radius + extent_[center]) * kInflate;
+      near_.clear();
       const auto gather = [&](std::int32_t cluster) {
         for (std::int32_t k = centers.first_child[cluster]; k != kNone; k = points.next_sibling[k]) {
           const Vec3 offset = metric_.displacement(origin, points.position[k]);
-          near_.append_if(norm2(offset) <= reach2, relative ? offset : points.position[k], points.id[k]);
+          near_.append_if(norm2(offset) <= reach * reach, relative ? offset : points.position[k],
+                          points.id[k]);
         }
       };
       gather(center);
       const std::size_t own_count = near_.size();
-      for (const std::int32_t neighbor : centers.edges.row(center))
-        if (neighbor > center) gather(neighbor);
+      for (const std::int32_t neighbor : centers.edges.row(center)) {
+        if (neighbor < center || !(owned_[center] || owned_[neighbor])) continue;
+        const double limit = reach + extent_[neighbor] * kInflate;
+        if (metric_.distance2(origin, centers.position[neighbor]) <= limit * limit) gather(neighbor);
+      }
       if (relative) {
         test_all(OpenMetric(Box::none()), own_count);
       } else {
@@ -62,6 +71,20 @@ class PairCollector {
   }
 
  private:
+  /// How far each cluster really reaches, which is less than R_0, and whether any of it is not a ghost.
+  void measure_clusters(const Level& points, const Level& centers, std::int32_t first_ghost) {
+    extent_.assign(centers.position.size(), 0);
+    owned_.assign(centers.position.size(), first_ghost < 0);
+    for (std::int32_t center = 0; center < centers.size(); ++center) {
+      double extent2 = 0;
+      for (std::int32_t k = centers.first_child[center]; k != kNone; k = points.next_sibling[k]) {
+        extent2 = std::max(extent2, metric_.distance2(centers.position[center], points.position[k]));
+        if (points.id[k] < first_ghost) owned_[center] = true;
+      }
+      extent_[center] = std::sqrt(extent2);
+    }
+  }
+
   /// The first `own_count` points with each other and with all that follow.
   template <class PairMetric>
   void test_all(const PairMetric& metric, std::size_t own_count) {
@@ -78,6 +101,8 @@ class PairCollector {
   const Metric& metric_;
   const detail::PairFilter& filter_;
   detail::PairBuffer& pairs_;
+  std::vector<double> extent_;    ///< by center: distance of the farthest child [length]
+  std::vector<char> owned_;       ///< by center: whether a child is not a ghost
   detail::CandidateBuffer near_;  ///< ids: the cluster's own points, then the candidates around it
 };
 
@@ -94,7 +119,7 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
     if (top() == 0) {
       collector.from_roots(levels[0]);
     } else {
-      collector.from_clusters(levels[0], levels[1], request.list_radius(), box.max_cutoff());
+      collector.from_clusters(levels[0], levels[1], request, box.max_cutoff());
     }
   });
   assembler.assemble(raw.size(), request.kind, request.first_ghost, pairs, out);
@@ -103,11 +128,11 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
 
 template <class Metric>
 void Hierarchy::Impl::neighbors_of_point(const Metric& metric, std::int32_t slot,
-                                         std::vector<std::int32_t>& ids) const {
+                                         std::vector<std::int32_t>& slots) const {
   const Level& points = levels[0];
   const auto look_at = [&](std::int32_t other) {
     if (other != slot && metric.distance2(points.position[slot], points.position[other]) <= points.threshold2)
-      ids.push_back(points.id[other]);
+      slots.push_back(other);
   };
   if (top() == 0) {
     for (std::int32_t k = 0; k < points.size(); ++k)

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numeric>
+
+#include <dch/all_pairs.hpp>
+#include <dch/error.hpp>
+#include <dch/hierarchy.hpp>
+
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+HierarchyParams with_radius(double radius) {
+  HierarchyParams params;
+  params.radius = radius;
+  return params;
+}
+
+ListParams list_of(double cutoff, ListKind kind = ListKind::half) {
+  ListParams params;
+  params.cutoffs = TypeCutoffs(cutoff);
+  params.kind = kind;
+  return params;
+}
+
+TEST(HierarchyTest, RefusesParametersOutOfRange) {
+  EXPECT_THROW(Hierarchy(with_radius(0)), InvalidParameter);
+  EXPECT_THROW(Hierarchy(with_radius(-1)), InvalidParameter);
+  EXPECT_THROW(Hierarchy(with_radius(std::numeric_limits<double>::quiet_NaN())), InvalidParameter);
+  EXPECT_THROW(Hierarchy(with_radius(std::numeric_limits<double>::infinity())), InvalidParameter);
+  HierarchyParams params = with_radius(1);
+  params.c = 1.04;
+  EXPECT_THROW(Hierarchy{params}, InvalidParameter);
+  params.c = 1.05;
+  EXPECT_NO_THROW(Hierarchy{params});
+  params.max_roots = 0;
+  EXPECT_THROW(Hierarchy{params}, InvalidParameter);
+}
+
+TEST(HierarchyTest, TheMessageNamesTheValue) {
+  try {
+    HierarchyParams params = with_radius(1);
+    params.c = 0.5;
+    Hierarchy{params};
+    FAIL() << "c = 0.5 was accepted";
+  } catch (const InvalidParameter& error) {
+    EXPECT_NE(std::string(error.what()).find("0.5"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("1.05"), std::string::npos) << error.what();
+  }
+}
+
+TEST(HierarchyTest, RefusesPositionsThatAreNotNumbersAndIsEmptyAfterwards) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e101}) {
+    std::vector<Vec3> points = scenes::uniform(50, {5, 5, 5}, 1);
+    Hierarchy h(with_radius(1));
+    h.build(points, Box::none());
+    points[20].y = bad;
+    EXPECT_THROW(h.update(points, Box::none()), InvalidPosition);
+    EXPECT_EQ(h.size(), 0u);
+    EXPECT_EQ(h.validate(), "");
+    EXPECT_THROW(h.build(points, Box::none()), InvalidPosition);
+    EXPECT_THROW(h.insert(points[20]), InvalidPosition);
+    points[20].y = 0;
+    h.build(points, Box::none());
+    EXPECT_EQ(h.validate(), "");
+  }
+}
+
+TEST(HierarchyTest, RefusesRadiiBeyondHalfTheBox) {
+  const std::vector<Vec3> points = scenes::uniform(50, {4, 4, 4}, 1);
+  Hierarchy h(with_radius(2.01));
+  EXPECT_THROW(h.build(points, Box::orthorhombic({4, 4, 4})), CutoffTooLarge);
+  EXPECT_NO_THROW(h.build(points, Box::orthorhombic({4, 4, 4}, {false, false, false})));
+  EXPECT_THROW(h.update(points, Box::orthorhombic({5, 5, 4})), CutoffTooLarge);
+}
+
+TEST(HierarchyTest, RefusesUnknownPointsAndLevels) {
+  Hierarchy h(with_radius(1));
+  h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
+  EXPECT_THROW(h.remove(100), InvalidParameter);
+  EXPECT_THROW(h.remove(-1), InvalidParameter);
+  EXPECT_THROW(h.position(100), InvalidParameter);
+  EXPECT_THROW(h.top_level(100), InvalidParameter);
+  EXPECT_THROW(h.level(h.levels()), InvalidParameter);
+  EXPECT_THROW(h.neighbors(0, h.levels()), InvalidParameter);
+  EXPECT_THROW(h.parent(0, -1), InvalidParameter);
+  EXPECT_THROW(h.insert({0, 0, 0}, 100), InvalidParameter);
+  EXPECT_THROW(h.update(scenes::uniform(99, {8, 8, 8}, 1), Box::none()), InvalidParameter);
+  h.remove(3);
+  EXPECT_THROW(h.remove(3), InvalidParameter);
+}
+
+TEST(HierarchyTest, RefusesListsBeyondItsRadius) {
+  Hierarchy h(with_radius(1));
+  h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
+  NeighborList list;
+  EXPECT_THROW(h.list(list_of(1.1), list), InvalidParameter);
+  ListParams params = list_of(0.9);
+  params.skin = 0.2;
+  EXPECT_THROW(h.list(params, list), InvalidParameter);
+  params.skin = 0.1;
+  EXPECT_NO_THROW(h.list(params, list));
+}
+
+TEST(HierarchyTest, EmptyAndTinySetsWork) {
+  for (const std::size_t n : {0u, 1u, 2u, 16u, 17u}) {
+    Hierarchy h(with_radius(1));
+    h.build(scenes::uniform(n, {2, 2, 2}, 1), Box::none());
+    EXPECT_EQ(h.size(), n);
+    EXPECT_EQ(h.validate(), "") << n;
+    NeighborList list;
+    h.list(list_of(1), list);
+    EXPECT_EQ(list.size(), n);
+  }
+}
+
+TEST(HierarchyTest, CoincidentPointsShareOneCenter) {
+  HierarchyParams params = with_radius(1);
+  params.max_roots = 1;
+  Hierarchy h(params);
+  const std::vector<Vec3> points(40, Vec3{1, 2, 3});
+  h.build(points, Box::none());
+  EXPECT_EQ(h.validate(), "");
+  ASSERT_EQ(h.levels(), 2);
+  EXPECT_EQ(h.level(1).nodes, 1);
+  NeighborList list;
+  h.list(list_of(1), list);
+  EXPECT_EQ(list.pairs(), 40 * 39 / 2);
+}
+
+// Lemma 5.3.1(6), corrected: at most ceil(lg alpha) + 2 levels, with the level scale r0 in the place of the
+// closest pair.
+TEST(HierarchyTest, LevelsStayWithinTheBoundOfTheAspectRatio) {
+  for (const double far : {1e3, 1e6, 1e12}) {
+    HierarchyParams params = with_radius(1);
+    params.max_roots = 1;
+    Hierarchy h(params);
+    h.build(std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {far, 0, 0}}, Box::none());
+    EXPECT_EQ(h.validate(), "");
+    const double r0 = params.radius / (2 * params.c);
+    EXPECT_LE(h.levels(), static_cast<int>(std::ceil(std::log2(far / r0))) + 2);
+    h.update(std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {1, 0, 0}}, Box::none());
+    EXPECT_EQ(h.validate(), "");
+    EXPECT_LE(h.levels(), 4) << "levels that are no longer needed must go";
+  }
+}
+
+// Lemma 5.3.4 with the thresholds in use: nodes of level i are more than R_{i-1} apart and neighbors within
+// rho_i.
+TEST(HierarchyTest, DegreesStayWithinThePackingBound) {
+  for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
+    HierarchyParams params = with_radius(1);
+    params.edge_rule = rule;
+    params.c = 1.5;
+    Hierarchy h(params);
+    h.build(scenes::uniform(4000, {8, 8, 8}, 5), Box::orthorhombic({8, 8, 8}));
+    for (int i = 1; i < h.levels(); ++i) {
+      const double separation = h.level(i - 1).covering_radius;
+      EXPECT_LE(h.level(i).max_degree, std::pow(2 * h.level(i).edge_threshold / separation + 1, 3) - 1) << i;
+    }
+  }
+}
+
+TEST(HierarchyTest, ThresholdsFollowTheRule) {
+  HierarchyParams params = with_radius(3);
+  params.c = 1.5;
+  params.max_roots = 1;
+  const std::vector<Vec3> points = scenes::uniform(300, {40, 40, 40}, 3);
+  Hierarchy additive(params);
+  additive.build(points, Box::none());
+  params.edge_rule = EdgeRule::thesis;
+  Hierarchy thesis(params);
+  thesis.build(points, Box::none());
+  ASSERT_GE(additive.levels(), 4);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(additive.level(i).covering_radius, std::ldexp(1.0, i));
+    EXPECT_DOUBLE_EQ(thesis.level(i).edge_threshold, 2 * 1.5 * std::ldexp(1.0, i));
+    if (i > 0) {
+      EXPECT_DOUBLE_EQ(additive.level(i).edge_threshold,
+                       additive.level(i - 1).edge_threshold + 2 * additive.level(i - 1).covering_radius);
+    }
+  }
+  EXPECT_LT(additive.level(1).edges, thesis.level(1).edges);
+}
+
+TEST(HierarchyTest, DistanceOfExactlyTheCoveringRadiusIsCoveredAndNotSeparated) {
+  HierarchyParams params = with_radius(3);
+  params.c = 1.5;  // r0 = 1
+  params.max_roots = 1;
+  Hierarchy h(params);
+  h.build(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none());
+  EXPECT_EQ(h.level(1).nodes, 1);
+  h.update(std::vector<Vec3>{{0, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}}, Box::none());
+  EXPECT_EQ(h.level(1).nodes, 2);
+  EXPECT_EQ(h.validate(), "");
+  h.update(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none());
+  EXPECT_EQ(h.level(1).nodes, 1);
+  EXPECT_EQ(h.validate(), "");
+}
+
+TEST(HierarchyTest, NeighborsOfLevelZeroAreTheFullList) {
+  const Box box = Box::orthorhombic({6, 6, 6});
+  const std::vector<Vec3> points = scenes::uniform(300, {6, 6, 6}, 11);
+  Hierarchy h(with_radius(1.3));
+  h.build(points, box);
+  NeighborList list;
+  h.list(list_of(1.3, ListKind::full), list);
+  for (std::int32_t i = 0; i < 300; ++i) {
+    const auto row = list.row(i);
+    EXPECT_EQ(h.neighbors(i, 0), std::vector<std::int32_t>(row.begin(), row.end())) << i;
+  }
+}
+
+TEST(HierarchyTest, ParentsLeadToARootInEveryLevel) {
+  Hierarchy h(with_radius(1));
+  h.build(scenes::uniform(500, {9, 9, 9}, 2), Box::none());
+  for (std::int32_t id = 0; id < 500; ++id) {
+    std::int32_t at = id;
+    for (int level = 0; level + 1 < h.levels(); ++level) {
+      const std::int32_t parent = h.parent(at, level);
+      ASSERT_GE(parent, 0);
+      EXPECT_EQ(parent == at, h.top_level(at) > level);
+      at = parent;
+    }
+    EXPECT_EQ(h.parent(at, h.levels() - 1), -1);
+  }
+}
+
+TEST(HierarchyTest, RenumberingKeepsTheStructure) {
+  std::vector<Vec3> points = scenes::uniform(200, {6, 6, 6}, 4);
+  Hierarchy h(with_radius(1));
+  h.build(points, Box::none());
+  std::vector<std::int32_t> reversed(200);
+  std::iota(reversed.rbegin(), reversed.rend(), 0);
+  h.renumber(reversed);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(h.validate(), "");
+  NeighborList list;
+  h.list(list_of(1), list);
+  EXPECT_EQ(list.j, all_pairs(points, Box::none(), list_of(1)).j);
+
+  reversed[7] = reversed[8];
+  EXPECT_THROW(h.renumber(reversed), InvalidParameter);
+  reversed.pop_back();
+  EXPECT_THROW(h.renumber(reversed), InvalidParameter);
+}
+
+TEST(HierarchyTest, IdsOfRemovedPointsAreUsedAgain) {
+  Hierarchy h(with_radius(1));
+  h.build(scenes::uniform(30, {3, 3, 3}, 4), Box::none());
+  h.remove(7);
+  h.remove(3);
+  EXPECT_FALSE(h.contains(3));
+  EXPECT_EQ(h.size(), 28u);
+  EXPECT_EQ(h.capacity(), 30u);
+  EXPECT_EQ(h.insert({1, 1, 1}), 3);
+  EXPECT_EQ(h.insert({1, 1, 2}), 7);
+  EXPECT_EQ(h.insert({1, 1, 2.5}), 30);
+  EXPECT_EQ(h.position(30), (Vec3{1, 1, 2.5}));
+  EXPECT_EQ(h.validate(), "");
+}
+
+TEST(HierarchyTest, PolicyIsObeyed) {
+  std::vector<Vec3> points = scenes::uniform(500, {8, 8, 8}, 6);
+  HierarchyParams params = with_radius(1);
+  params.policy = MaintenancePolicy::always_rebuild;
+  Hierarchy rebuilding(params);
+  params.policy = MaintenancePolicy::always_repair;
+  Hierarchy repairing(params);
+  for (Hierarchy* h : {&rebuilding, &repairing}) {
+    h->build(points, Box::none());
+    for (int step = 0; step < 5; ++step) h->update(points, Box::none());
+  }
+  EXPECT_EQ(rebuilding.stats().builds, 6);
+  EXPECT_EQ(rebuilding.stats().repairs, 0);
+  EXPECT_EQ(repairing.stats().builds, 1);
+  EXPECT_EQ(repairing.stats().repairs, 5);
+}
+
+TEST(HierarchyTest, AutomaticPolicyRepairsSmallMotionAndRebuildsAfterAScramble) {
+  Hierarchy h(with_radius(1));
+  h.build(scenes::uniform(4000, {14, 14, 14}, 6), Box::none());
+  std::vector<Vec3> points = scenes::uniform(4000, {14, 14, 14}, 6);
+  scenes::Random random(9);
+  for (int step = 0; step < 10; ++step) {
+    for (Vec3& p : points) p = p + random.in_cube(0.01);
+    h.update(points, Box::none());
+  }
+  EXPECT_EQ(h.stats().builds, 1) << "small motion must be repaired";
+  for (std::uint64_t step = 0; step < 10; ++step)
+    h.update(scenes::uniform(4000, {14, 14, 14}, 100 + step), Box::none());
+  EXPECT_GE(h.stats().builds, 6) << "points that all went elsewhere are cheaper to build anew";
+}
+
+}  // namespace
+}  // namespace dch
