@@ -10,7 +10,7 @@ namespace dch::trajectory {
 
 std::int32_t AtomIndex::parse(const LineReader& lines, std::string_view word) const {
   std::int64_t id = 0;
-  if (!parse_number(word, id)) lines.fail_here("expected the id of an atom, found " + quoted(word));
+  if (!parse_number(word, id)) lines.fail_here("expected the id of an atom, found " + in_quotes(word));
   return find(lines, id);
 }
 

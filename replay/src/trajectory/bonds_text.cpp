@@ -18,7 +18,7 @@ std::vector<IndexPair> read_bonds_text(const std::string& path, const AtomIndex&
     std::string_view rest = line.substr(0, line.find('#')), first, second;
     if (is_blank(rest)) continue;
     if (!next_word(rest, first) || !next_word(rest, second) || !is_blank(rest)) {
-      lines.fail_here("expected the ids of two atoms, found " + quoted(line));
+      lines.fail_here("expected the ids of two atoms, found " + in_quotes(line));
     }
     const std::int32_t a = atoms.parse(lines, first);
     bonds.push_back(make_bond(lines, a, atoms.parse(lines, second)));

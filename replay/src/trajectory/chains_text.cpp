@@ -18,7 +18,7 @@ void add_atoms(const LineReader& lines, const AtomIndex& atoms, std::string_view
   }
   std::int64_t first = 0, last = 0;
   if (!parse_number(word.substr(0, dash), first) || !parse_number(word.substr(dash + 1), last)) {
-    lines.fail_here("expected an id or a range of ids such as 7-12, found " + quoted(word));
+    lines.fail_here("expected an id or a range of ids such as 7-12, found " + in_quotes(word));
   }
   const std::int64_t step = first <= last ? 1 : -1;
   for (std::int64_t id = first; id != last; id += step) chain.push_back(atoms.find(lines, id));

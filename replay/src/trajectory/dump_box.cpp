@@ -56,7 +56,7 @@ Labels parse_labels(const LineReader& lines, std::string_view text) {
     good = parse_boundary(words[axis], labels.periodic[axis]);
   if (!good) {
     lines.fail_here("expected three pairs of the boundary letters p, f, s, m such as 'pp pp ff', found " +
-                    quoted(text));
+                    in_quotes(text));
   }
   return labels;
 }
@@ -67,12 +67,12 @@ Row read_row(LineReader& lines, std::size_t count) {
   const std::vector<std::string_view> words = split(line);
   if (words.size() != count) {
     lines.fail_here(
-        fmt::format("expected {} numbers in this line of the box, found {}", count, quoted(line)));
+        fmt::format("expected {} numbers in this line of the box, found {}", count, in_quotes(line)));
   }
   Row row{};
   for (std::size_t k = 0; k < count; ++k) {
     if (!parse_number(words[k], row[k]) || !is_valid_coordinate(row[k])) {
-      lines.fail_here("expected a finite number in the box, found " + quoted(words[k]));
+      lines.fail_here("expected a finite number in the box, found " + in_quotes(words[k]));
     }
   }
   return row;

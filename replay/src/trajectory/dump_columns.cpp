@@ -60,14 +60,14 @@ std::string parse_dump_columns(std::string_view names, DumpColumns& columns) {
   columns = DumpColumns();
   const ColumnNames have(names);
   if (const auto twice = have.repeated(); !twice.empty())
-    return "the column " + quoted(twice) + " appears twice";
+    return "the column " + in_quotes(twice) + " appears twice";
   columns.roles.assign(have.size(), Role::ignored);
 
   const auto* set = std::find_if(std::begin(kCoordinateSets), std::end(kCoordinateSets),
                                  [&](const CoordinateSet& s) { return have.has_all(s.names); });
   if (set == std::end(kCoordinateSets)) {
     return "no complete set of coordinate columns (x y z, xu yu zu, xs ys zs or xsu ysu zsu) in " +
-           quoted(names);
+           in_quotes(names);
   }
   columns.scaled = set->scaled;
   columns.unwrapped = set->unwrapped;

@@ -47,7 +47,7 @@ bool DumpHeaderReader::read(DumpHeader& header) {
     return false;
   }
   while (true) {
-    if (!take_prefix(line, kItem)) lines_.fail_here("expected 'ITEM: ...', found " + quoted(line));
+    if (!take_prefix(line, kItem)) lines_.fail_here("expected 'ITEM: ...', found " + in_quotes(line));
     read_item(trimmed(line), header);
     if (seen_.columns) {
       seen_ = Seen();
@@ -66,7 +66,7 @@ bool DumpHeaderReader::skip_blank_lines(std::string_view& line) {
 }
 
 void DumpHeaderReader::mark_seen(bool& seen, std::string_view item) const {
-  if (std::exchange(seen, true)) lines_.fail_here("a second " + quoted(item) + " in the same frame");
+  if (std::exchange(seen, true)) lines_.fail_here("a second " + in_quotes(item) + " in the same frame");
 }
 
 void DumpHeaderReader::read_item(std::string_view item, DumpHeader& header) {
@@ -75,13 +75,13 @@ void DumpHeaderReader::read_item(std::string_view item, DumpHeader& header) {
     mark_seen(seen_.step, item);
     const std::string_view value = value_line("time step");
     if (!parse_number(value, header.step))
-      lines_.fail_here("expected a time step (an integer), found " + quoted(value));
+      lines_.fail_here("expected a time step (an integer), found " + in_quotes(value));
   } else if (item == "TIME") {
     mark_seen(seen_.time, item);
     const std::string_view value = value_line("time");
     double time = 0;
     if (!parse_number(value, time) || !std::isfinite(time))
-      lines_.fail_here("expected a time (a number), found " + quoted(value));
+      lines_.fail_here("expected a time (a number), found " + in_quotes(value));
     header.time = time;
   } else if (item == "UNITS") {
     mark_seen(seen_.units, item);
@@ -92,7 +92,7 @@ void DumpHeaderReader::read_item(std::string_view item, DumpHeader& header) {
     header.atoms_line = lines_.number();
     if (!parse_number(value, header.atoms) || header.atoms < 0 ||
         header.atoms > std::numeric_limits<std::int32_t>::max()) {
-      lines_.fail_here("expected a number of atoms from 0 to 2147483647, found " + quoted(value));
+      lines_.fail_here("expected a number of atoms from 0 to 2147483647, found " + in_quotes(value));
     }
   } else if (take_prefix(rest, "BOX BOUNDS")) {
     mark_seen(seen_.box, "BOX BOUNDS");
@@ -101,7 +101,7 @@ void DumpHeaderReader::read_item(std::string_view item, DumpHeader& header) {
     seen_.columns = true;
     read_columns(rest, header);
   } else {
-    lines_.fail_here("unknown item " + quoted(item) +
+    lines_.fail_here("unknown item " + in_quotes(item) +
                      "; known are UNITS, TIME, TIMESTEP, NUMBER OF ATOMS, BOX BOUNDS, ATOMS");
   }
 }

@@ -57,7 +57,7 @@ class GroScanner final : public FrameScanner {
     const std::string_view line = line_of("the number of atoms");
     std::int32_t count = 0;
     if (!parse_number(without_blanks(line), count) || count <= 0) {
-      lines_.fail_here("expected a number of atoms above 0, found " + quoted(line));
+      lines_.fail_here("expected a number of atoms above 0, found " + in_quotes(line));
     }
     return count;
   }
@@ -75,7 +75,7 @@ class GroScanner final : public FrameScanner {
       double value = 0;
       if (!parse_number(without_blanks(field), value) || !is_valid_coordinate(value)) {
         lines_.fail_here(fmt::format("expected the coordinate {} in the columns {} to {}, found {}",
-                                     "xyz"[axis], begin + 1, begin + width_, quoted(line)));
+                                     "xyz"[axis], begin + 1, begin + width_, in_quotes(line)));
       }
     }
   }
@@ -85,7 +85,7 @@ class GroScanner final : public FrameScanner {
     const std::size_t first = line.find('.', kCoordinatesBegin);
     const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);
     if (second == std::string_view::npos) {
-      lines_.fail_here("expected an atom with three coordinates from column 21 on, found " + quoted(line));
+      lines_.fail_here("expected an atom with three coordinates from column 21 on, found " + in_quotes(line));
     }
     return second - first;
   }
@@ -97,11 +97,12 @@ class GroScanner final : public FrameScanner {
     for (std::string_view word; next_word(rest, word); ++count) {
       double value = 0;
       if (!parse_number(word, value) || !is_valid_coordinate(value)) {
-        lines_.fail_here("expected a number in the box, found " + quoted(word));
+        lines_.fail_here("expected a number in the box, found " + in_quotes(word));
       }
     }
     if (count != 3 && count != 9) {
-      lines_.fail_here(fmt::format("expected 3 or 9 numbers for the box, found {}: {}", count, quoted(line)));
+      lines_.fail_here(
+          fmt::format("expected 3 or 9 numbers for the box, found {}: {}", count, in_quotes(line)));
     }
   }
 

@@ -52,7 +52,7 @@ std::vector<IndexPair> read_lammps_data_bonds(const std::string& path, const Ato
           fmt::format("the file ends without the section 'Bonds' of its {} bonds", count));
     }
     if (count < 0 && is_bond_count(words, count) && count < 0) {
-      lines.reader().fail_here("expected a number of bonds, found " + quoted(words[0]));
+      lines.reader().fail_here("expected a number of bonds, found " + in_quotes(words[0]));
     }
     if (words.size() == 1 && words[0] == "Bonds") break;
   }

@@ -122,7 +122,8 @@ void LammpsDumpReader::read_atom(std::string_view line, Frame& frame) {
 
 template <class T>
 void LammpsDumpReader::read_field(std::string_view word, const char* what, T& value) const {
-  if (!parse_number(word, value)) lines_.fail_here(fmt::format("expected {}, found {}", what, quoted(word)));
+  if (!parse_number(word, value))
+    lines_.fail_here(fmt::format("expected {}, found {}", what, in_quotes(word)));
 }
 
 void LammpsDumpReader::fail_for_field_count(std::string_view line) const {
@@ -131,7 +132,7 @@ void LammpsDumpReader::fail_for_field_count(std::string_view line) const {
                                  lines_.number() - first_atom_line_, header_.atoms));
   }
   lines_.fail_here(fmt::format("expected {} fields, one for each column of 'ITEM: ATOMS', found {}",
-                               header_.columns.roles.size(), quoted(line)));
+                               header_.columns.roles.size(), in_quotes(line)));
 }
 
 Vec3 LammpsDumpReader::unscaled(Vec3 p) const {

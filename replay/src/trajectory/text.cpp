@@ -3,7 +3,7 @@
 
 namespace dch::trajectory {
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t kShown = 60;
   std::string out = "'";
   for (const char c : word.substr(0, kShown)) out += c >= ' ' && c <= '~' ? c : '?';

@@ -32,6 +32,6 @@ bool parse_number(std::string_view word, T& value) {
 }
 
 /// A word in quotes for a message, shortened, with unprintable bytes replaced.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace dch::trajectory

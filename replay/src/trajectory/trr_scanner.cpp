@@ -76,7 +76,7 @@ class TrrScanner final : public FrameScanner {
     const std::int32_t without_end = cursor_.read_int("the length of the version");
     if (without_end != length) cursor_.fail_here(fmt::format("expected {}, found {}", length, without_end));
     const std::string version = cursor_.read_bytes("the version", length);
-    if (version != kVersion) cursor_.fail_here("expected 'GMX_trn_file', found " + quoted(version));
+    if (version != kVersion) cursor_.fail_here("expected 'GMX_trn_file', found " + in_quotes(version));
   }
 
   /// Bytes a number: the first block that is there tells.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scratch_folder.hpp"
+
+namespace dch::trajectory::test {
+
+/// A small file of one format.
+struct SmallFile {
+  std::string name;
+  std::string bytes;
+  /// Offsets where whole frames end: a file cut at the k-th is a file of k + 1 frames.
+  std::vector<std::size_t> frame_ends;
+};
+
+/// One of every format that can be read, of two or three frames.
+std::vector<SmallFile> small_files(const ScratchFolder& folder);
+
+}  // namespace dch::trajectory::test
