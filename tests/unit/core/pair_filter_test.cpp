@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "pair_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include <dch/all_pairs.hpp>
+
+#include "position_check.hpp"
+#include "scenes.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// Compares every decision of the filter, with and without a distance, with the oracle's list.
+void expect_agreement(const std::vector<Vec3>& points, const Box& box, const ListParams& params,
+                      const std::string& scene) {
+  const WrapError error(box);
+  const PairFilter filter(points, box, params, error.bound(error.largest_reach(points)));
+  const NeighborList expected = all_pairs(points, box, params);
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(points.size()); ++i) {
+    const auto row = expected.row(static_cast<std::size_t>(i));
+    for (std::int32_t j = i + 1; j < static_cast<std::int32_t>(points.size()); ++j) {
+      const bool in_list = std::binary_search(row.begin(), row.end(), j);
+      const double distance2 = box.distance2(box.wrap(points[i]), box.wrap(points[j]));
+      ASSERT_EQ(filter.accept(i, j), in_list) << scene << ", pair " << i << ", " << j;
+      ASSERT_EQ(filter.accept(j, i), in_list) << scene << ", pair " << j << ", " << i;
+      ASSERT_EQ(filter.accept(i, j, distance2), in_list) << scene << ", pair " << i << ", " << j;
+      ASSERT_EQ(filter.accept(j, i, distance2), in_list) << scene << ", pair " << j << ", " << i;
+      ASSERT_TRUE(!in_list || distance2 <= filter.largest_distance2()) << scene;
+    }
+  }
+}
+
+TEST(PairFilter, EqualsTheOracleInEveryScene) {
+  for (const auto& [box_name, box] : scenes::all_boxes(5)) {
+    for (const auto& [set_name, points] : scenes::hard_point_sets(box, 120, 0.5)) {
+      // 0.5 and its multiples are distances of the fcc and of the collinear set.
+      for (const double reach : {0.5, 1.0, std::min(2.5, box.max_cutoff())}) {
+        ListParams params;
+        params.cutoffs = TypeCutoffs(reach);
+        expect_agreement(points, box, params, box_name + ", " + set_name);
+      }
+    }
+  }
+}
+
+TEST(PairFilter, DistancesAtTheCutoffInSpiteOfWrapping) {
+  // Sites of a cubic lattice whose spacing is not a binary fraction, each moved by whole boxes: the wrapped
+  // images round, and nearly every pair of neighbors is a tie.
+  const double spacing = 0.1 * std::sqrt(2.0);
+  for (const Box& box : {Box::orthorhombic({6 * spacing, 6 * spacing, 6 * spacing}),
+                         Box::triclinic({6 * spacing, 0, 0}, {12 * spacing, 6 * spacing, 0},
+                                        {3 * spacing, 0, 6 * spacing}, {true, true, true}, {1, 2, 3})}) {
+    scenes::Random random(1);
+    std::vector<Vec3> points;
+    for (int k = 0; k < 216; ++k) {
+      Vec3 p{spacing * (k % 6), spacing * (k / 6 % 6), spacing * (k / 36)};
+      for (int axis = 0; axis < 3; ++axis) p = p + std::nearbyint(random.uniform(-30, 30)) * box.vector(axis);
+      points.push_back(p);
+    }
+    for (const double factor : {1.0, std::sqrt(2.0), 2.0, 2.5}) {
+      ListParams params;
+      params.cutoffs = TypeCutoffs(std::min(factor * spacing, box.max_cutoff()));
+      expect_agreement(points, box, params, box.description());
+    }
+  }
+}
+
+TEST(PairFilter, ImagesOnBothSidesAtHalfTheBox) {
+  // Each pair is half a period apart along one or more axes, give or take rounding.
+  const Box box = Box::triclinic({1.4, 0, 0}, {0, 1.4, 0}, {0.7, 0.7, 1.1});
+  std::vector<Vec3> points;
+  for (int k = 0; k < 16; ++k) {
+    const double nudge = 1e-16 * (k / 8);
+    points.push_back((k & 1) * 0.5 * box.vector(0) + (k & 2) * 0.25 * box.vector(1) +
+                     (k & 4) * 0.125 * box.vector(2) + Vec3{nudge, -nudge, 10 * nudge});
+  }
+  ListParams params;
+  params.cutoffs = TypeCutoffs(box.max_cutoff());
+  expect_agreement(points, box, params, "halves");
+}
+
+TEST(PairFilter, TypesExclusionsAndGhosts) {
+  const Box box = Box::orthorhombic({5, 5, 5});
+  auto points = scenes::uniform_in(box, 150, 3);
+  points[1] = points[0];  // coincident, of types whose cutoff is 0
+  std::vector<std::int32_t> types(points.size());
+  for (std::size_t i = 2; i < types.size(); ++i) types[i] = static_cast<std::int32_t>(i % 3);
+  std::vector<IndexPair> bonds;
+  for (std::int32_t i = 2; i + 1 < 150; ++i) bonds.push_back({i, i + 1});
+  const auto exclusions = Exclusions::from_bonds(points.size(), bonds, 3);
+  ListParams params;
+  params.cutoffs = TypeCutoffs(3, {0, 1, 2, 1, 1.5, 0, 2, 0, 0.5});
+  params.skin = 0.25;
+  params.types = types;
+  params.exclusions = &exclusions;
+  params.first_ghost = 100;
+  expect_agreement(points, box, params, "types, exclusions, ghosts");
+}
+
+}  // namespace
+}  // namespace dch::detail

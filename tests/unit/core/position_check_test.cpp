@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "position_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+#include <dch/error.hpp>
+
+namespace dch::detail {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(CheckPositions, NamesIndexAndValue) {
+  const auto check = [](Vec3 p) {
+    return [p] { check_positions(std::vector<Vec3>{{0, 0, 0}, p}, Box::none()); };
+  };
+  EXPECT_THAT(check({1, kNaN, 2}), ThrowsMessage<InvalidPosition>(HasSubstr("position 1 = (1, nan, 2)")));
+  EXPECT_THAT(check({1, 2, -kInfinity}), ThrowsMessage<InvalidPosition>(HasSubstr("(1, 2, -inf)")));
+  EXPECT_THAT(check({1e101, 0, 0}), ThrowsMessage<InvalidPosition>(HasSubstr("beyond 1e+100")));
+  EXPECT_NO_THROW(check({1e100, -1e100, 0})());
+}
+
+TEST(CheckPositions, RefusesWhatRoundingLosesInAPeriodicBox) {
+  const Box box = Box::orthorhombic({10, 10, 10}, {true, true, false});
+  const auto check = [&](Vec3 p) { return [&box, p] { check_positions(std::vector<Vec3>{p}, box); }; };
+  EXPECT_NO_THROW(check({1e12, -1e12, 0})());
+  EXPECT_NO_THROW(check({0, 0, 1e100})()) << "the axis is open";
+  EXPECT_THAT(check({0, 1e16, 0}),
+              ThrowsMessage<InvalidPosition>(AllOf(HasSubstr("position 0"), HasSubstr("wrap"))));
+}
+
+TEST(CheckPositions, RefusesMoreParticlesThanIndices) {
+  const Vec3 p;
+  const Span<const Vec3> too_many(&p, std::size_t{1} << 31);  // refused before it is read
+  EXPECT_THROW(check_positions(too_many, Box::none()), InvalidParameter);
+}
+
+TEST(CheckRadius, NamesLimitAndRemedy) {
+  const Box box = Box::orthorhombic({10, 20, 20});
+  EXPECT_NO_THROW(check_radius(5, box));
+  EXPECT_NO_THROW(check_radius(1e10, Box::none()));
+  EXPECT_THAT(
+      [&] { check_radius(5.125, box); },
+      ThrowsMessage<CutoffTooLarge>(AllOf(HasSubstr("5.125"), HasSubstr("exceeds 5,"), HasSubstr("lower"))));
+}
+
+TEST(CheckListParams, RefusesWhatDoesNotFit) {
+  ListParams params;
+  params.cutoffs = TypeCutoffs(2.0);
+  params.skin = 0.5;
+  EXPECT_NO_THROW(check_list_params(params, 4, 2.5));
+  EXPECT_THAT([&] { check_list_params(params, 4, 2.25); },
+              ThrowsMessage<InvalidParameter>(AllOf(HasSubstr("2.5"), HasSubstr("2.25"))));
+  for (const double skin : {-0.1, kNaN, kInfinity}) {
+    ListParams bad = params;
+    bad.skin = skin;
+    EXPECT_THROW(check_list_params(bad, 4, 2.5), InvalidParameter) << skin;
+  }
+
+  const std::vector<std::int32_t> types{0, 1, 1, 0}, wrong_type{0, 2, 1, 0}, negative{0, -1, 1, 0};
+  ListParams typed = params;
+  typed.cutoffs = TypeCutoffs(2, {1, 2, 2, 1});
+  EXPECT_THROW(check_list_params(typed, 4, 2.5), InvalidParameter) << "types are missing";
+  EXPECT_NO_THROW(check_list_params(typed, 0, 2.5));
+  typed.types = types;
+  EXPECT_NO_THROW(check_list_params(typed, 4, 2.5));
+  EXPECT_THROW(check_list_params(typed, 5, 2.5), InvalidParameter);
+  typed.types = wrong_type;
+  EXPECT_THAT([&] { check_list_params(typed, 4, 2.5); },
+              ThrowsMessage<InvalidParameter>(HasSubstr("particle 1 has type 2")));
+  typed.types = negative;
+  EXPECT_THROW(check_list_params(typed, 4, 2.5), InvalidParameter);
+
+  const auto exclusions = Exclusions::from_pairs(4, std::vector<IndexPair>{{0, 1}});
+  ListParams excluding = params;
+  excluding.exclusions = &exclusions;
+  EXPECT_NO_THROW(check_list_params(excluding, 4, 2.5));
+  EXPECT_THROW(check_list_params(excluding, 3, 2.5), InvalidParameter);
+
+  ListParams ghosts = params;
+  ghosts.first_ghost = 4;
+  EXPECT_NO_THROW(check_list_params(ghosts, 4, 2.5));
+  EXPECT_THROW(check_list_params(ghosts, 3, 2.5), InvalidParameter);
+}
+
+TEST(WrapError, IsZeroWhereNothingIsWrapped) {
+  EXPECT_EQ(WrapError(Box::none()).bound(1e12), 0);
+  const WrapError slab(Box::orthorhombic({10, 10, 10}, {true, true, false}));
+  EXPECT_EQ(slab.reach({3, -4, 1e12}), 7);
+  EXPECT_GT(slab.bound(7), 0);
+  EXPECT_LT(slab.bound(7), 1e-11);
+}
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <dch/all_pairs.hpp>
+#include <dch/error.hpp>
+#include <dch/verlet_list.hpp>
+
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+ListParams with_skin(double cutoff, double skin) {
+  ListParams params;
+  params.cutoffs = TypeCutoffs(cutoff);
+  params.skin = skin;
+  return params;
+}
+
+VerletList verlet_list(double cutoff, double skin) {
+  return {make_cell_search(cutoff + skin), with_skin(cutoff, skin)};
+}
+
+/// The first pair within the cutoff that the list lacks.
+std::string missing_pair(const VerletList& verlet, const std::vector<Vec3>& points, const Box& box,
+                         double cutoff) {
+  const NeighborList near = all_pairs(points, box, with_skin(cutoff, 0));
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto row = verlet.list().row(i);
+    for (const std::int32_t j : near.row(i)) {
+      if (!std::binary_search(row.begin(), row.end(), j)) return std::to_string(i) + ", " + std::to_string(j);
+    }
+  }
+  return {};
+}
+
+TEST(VerletList, StaleBeyondHalfTheSkin) {
+  const Box box = Box::orthorhombic({10, 10, 10});
+  std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}, {5, 5, 5}};
+  auto verlet = verlet_list(2, 0.5);
+  EXPECT_TRUE(verlet.is_stale(points, box)) << "not built yet";
+  EXPECT_TRUE(verlet.update(points, box));
+  EXPECT_FALSE(verlet.update(points, box));
+  EXPECT_EQ(verlet.rebuilds(), 1);
+
+  points[1] = {9.25, 9, 9};
+  EXPECT_FALSE(verlet.is_stale(points, box)) << "exactly half the skin";
+  points[1] = {9.25 + 1e-9, 9, 9};
+  EXPECT_TRUE(verlet.is_stale(points, box));
+  points[1] = {9.25 - 30, 9, 19};
+  EXPECT_FALSE(verlet.is_stale(points, box)) << "images are the same point";
+  points[1] = {9, 9, 9.3};
+  EXPECT_TRUE(verlet.update(points, box));
+  EXPECT_FALSE(verlet.is_stale(points, box));
+  EXPECT_EQ(verlet.rebuilds(), 2);
+}
+
+TEST(VerletList, WithoutSkinAnyMotionIsStale) {
+  const std::vector<Vec3> points{{1, 1, 1}, {2, 2, 2}};
+  auto verlet = verlet_list(2, 0);
+  verlet.update(points, Box::none());
+  EXPECT_FALSE(verlet.is_stale(points, Box::none()));
+  EXPECT_TRUE(verlet.is_stale(std::vector<Vec3>{{1, 1, 1}, {2, 2, 2.0000001}}, Box::none()));
+}
+
+TEST(VerletList, BoxChangeTakesFromTheSkin) {
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.5);
+  const auto box = [](double x) { return Box::orthorhombic({x, 10, 10}); };
+  verlet.update(points, box(10));
+  EXPECT_FALSE(verlet.is_stale(points, box(10.5))) << "the whole skin";
+  EXPECT_FALSE(verlet.is_stale(points, box(9.5)));
+  EXPECT_TRUE(verlet.is_stale(points, box(10.5 + 1e-9)));
+  EXPECT_TRUE(verlet.is_stale(points, box(9.5 - 1e-9)));
+
+  std::vector<Vec3> moved = points;
+  moved[0].y += 0.125;
+  EXPECT_FALSE(verlet.is_stale(moved, box(10.25)));
+  EXPECT_TRUE(verlet.is_stale(moved, box(10.25 + 1e-9)));
+
+  // Shear: with both signs of n the vectors add up in the worst way.
+  const auto sheared = [](double xy, double xz) {
+    return Box::triclinic({10, 0, 0}, {xy, 10, 0}, {xz, 0, 10});
+  };
+  EXPECT_FALSE(verlet.is_stale(points, sheared(0.25, -0.25)));
+  EXPECT_TRUE(verlet.is_stale(points, sheared(0.25, -0.25 - 1e-9)));
+}
+
+TEST(VerletList, StrainIsThatOfTheReducedCell) {
+  // The long vectors of a skewed cell change by four times what the lattice's short ones do.
+  const auto skewed = [](double a) { return Box::triclinic({a, 0, 0}, {4 * a, 10, 0}, {0, 0, 10}); };
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.5);
+  verlet.update(points, skewed(10));
+  EXPECT_FALSE(verlet.is_stale(points, skewed(10.5)));
+  EXPECT_TRUE(verlet.is_stale(points, skewed(10.5 + 1e-9)));
+}
+
+TEST(VerletList, WhatIsAlwaysStaleAndWhatNever) {
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.5);
+  verlet.update(points, Box::orthorhombic({10, 10, 10}, {true, true, false}));
+  EXPECT_TRUE(verlet.is_stale(points, Box::orthorhombic({10, 10, 10})));
+  EXPECT_TRUE(verlet.is_stale(points, Box::none()));
+  EXPECT_TRUE(
+      verlet.is_stale(std::vector<Vec3>{{1, 1, 1}}, Box::orthorhombic({10, 10, 10}, {true, true, false})));
+  EXPECT_FALSE(verlet.is_stale(points, Box::orthorhombic({10, 10, 77}, {true, true, false}, {3, 2, 1})))
+      << "open axes and the origin move no pair";
+  EXPECT_TRUE(verlet.is_stale(std::vector<Vec3>{{1, 1, 1}, {9, 9, std::numeric_limits<double>::quiet_NaN()}},
+                              Box::orthorhombic({10, 10, 10}, {true, true, false})));
+}
+
+TEST(VerletList, StaleAfterAThrow) {
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  const std::vector<Vec3> nan{{1, 1, std::numeric_limits<double>::quiet_NaN()}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.5);
+  verlet.update(points, Box::none());
+  EXPECT_THROW(verlet.update(nan, Box::none()), InvalidPosition);
+  EXPECT_TRUE(verlet.is_stale(points, Box::none()));
+  EXPECT_THROW(verlet.update(points, Box::orthorhombic({4, 4, 4})), CutoffTooLarge);
+  EXPECT_TRUE(verlet.update(points, Box::none()));
+}
+
+TEST(VerletList, BadParametersAreRefused) {
+  EXPECT_THROW(VerletList(nullptr, with_skin(1, 0)), InvalidParameter);
+  EXPECT_THROW(VerletList(make_cell_search(1), with_skin(1, -0.1)), InvalidParameter);
+  EXPECT_THROW(VerletList(make_cell_search(1), with_skin(1, std::numeric_limits<double>::infinity())),
+               InvalidParameter);
+  VerletList too_large(make_cell_search(1), with_skin(1, 0.1));
+  EXPECT_THROW(too_large.update({}, Box::none()), InvalidParameter);
+}
+
+/// The cell with every component changed by up to `largest`.
+Box strained(const Box& box, double largest, scenes::Random& random) {
+  const Box::Periodic periodic{box.periodic(0), box.periodic(1), box.periodic(2)};
+  // Strain the lattice, not the long vectors of a skewed cell.
+  const Vec3 shift[3] = {random.in_cube(largest), random.in_cube(largest), random.in_cube(largest)};
+  Vec3 cell[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    cell[axis] = box.vector(axis);
+    for (int k = 0; k < box.rank(); ++k) {
+      cell[axis] = cell[axis] + std::nearbyint(dot(box.reduced_dual()[k], box.vector(axis))) * shift[k];
+    }
+  }
+  return Box::triclinic(cell[0], cell[1], cell[2], periodic, box.origin());
+}
+
+// Motion and strain of any size: as long as the list says that it is good, it holds every pair.
+TEST(VerletList, NeverMissesAPairBetweenRebuilds) {
+  const double cutoff = 1.2, skin = 0.5;
+  for (const auto& [name, box] : scenes::all_boxes(5)) {
+    scenes::Random random(17);
+    int fresh = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      const auto points = scenes::uniform_in(box, 80, 1000 + static_cast<std::uint64_t>(trial));
+      auto verlet = verlet_list(cutoff, skin);
+      verlet.update(points, box);
+      const double strain = box.any_periodic() ? random.uniform(0, 0.2) : 0;
+      const Box now = strain > 0 ? strained(box, strain, random) : box;
+      const double step = random.uniform(0, 0.5 * skin);
+      auto moved = points;
+      for (Vec3& p : moved) {
+        // With the box or not, to another image or not.
+        p = p + random.in_ball(step);
+        if (now.any_periodic()) p = p + std::nearbyint(random.uniform(-3, 3)) * now.reduced()[0];
+      }
+      if (now.max_cutoff() < cutoff || verlet.is_stale(moved, now)) continue;
+      ++fresh;
+      ASSERT_EQ(missing_pair(verlet, moved, now, cutoff), "") << name << ", trial " << trial;
+    }
+    EXPECT_GT(fresh, 30) << name << ": the test says little if nearly all lists are stale";
+  }
+}
+
+// The worst motion: every pair just outside the list heads straight for each other.
+TEST(VerletList, NeverMissesAPairThatClosesInHeadOn) {
+  const double cutoff = 1.2, skin = 0.5;
+  for (const auto& [name, box] : scenes::all_boxes(5)) {
+    scenes::Random random(18);
+    for (int trial = 0; trial < 200; ++trial) {
+      const Vec3 p = random.in_cube(20);
+      const Vec3 outward = random.in_ball(1);
+      const Vec3 unit = (1 / std::sqrt(norm2(outward))) * outward;
+      const std::vector<Vec3> start{p, p + (cutoff + skin + 1e-9) * unit};
+      auto verlet = verlet_list(cutoff, skin);
+      verlet.update(start, box);
+      ASSERT_EQ(verlet.list().pairs(), 0);
+      const std::vector<Vec3> still_good{start[0] + (0.5 * skin - 1e-12) * unit,
+                                         start[1] - (0.5 * skin - 1e-12) * unit};
+      ASSERT_FALSE(verlet.is_stale(still_good, box)) << name;
+      ASSERT_EQ(all_pairs(still_good, box, with_skin(cutoff, 0)).pairs(), 0) << name;
+      const std::vector<Vec3> in_reach{start[0] + (0.5 * skin + 1e-9) * unit,
+                                       start[1] - (0.5 * skin + 1e-9) * unit};
+      ASSERT_EQ(all_pairs(in_reach, box, with_skin(cutoff, 0)).pairs(), 1) << name;
+      ASSERT_TRUE(verlet.is_stale(in_reach, box)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dch
