@@ -13,8 +13,9 @@ namespace {
 LAMMPS_NS::Command* create_command(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::DchCommand(lmp); }
 
 void complain(const char* format, int wanted, int found) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  int rank = 0, initialized = 0;
+  MPI_Initialized(&initialized);
+  if (initialized) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) std::fprintf(stderr, format, wanted, found);
 }
 

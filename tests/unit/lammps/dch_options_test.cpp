@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dch_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <dch/error.hpp>
+
+namespace dch::lammps {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string message_of(const Words& words) {
+  try {
+    parse_request(words);
+  } catch (const InvalidParameter& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(DchOptions, On) {
+  const Request request = parse_request({"on"});
+  EXPECT_EQ(request.action, Request::Action::on);
+  EXPECT_EQ(request.c, 1.05);
+  EXPECT_EQ(parse_request({"on", "c", "1.3"}).c, 1.3);
+}
+
+TEST(DchOptions, OffAndStats) {
+  EXPECT_EQ(parse_request({"off"}).action, Request::Action::off);
+  EXPECT_EQ(parse_request({"stats"}).action, Request::Action::stats);
+}
+
+TEST(DchOptions, Verify) {
+  EXPECT_EQ(parse_request({"verify", "yes"}).action, Request::Action::verify);
+  EXPECT_EQ(parse_request({"verify", "yes"}).verify_every, 1);
+  EXPECT_EQ(parse_request({"verify", "no"}).verify_every, 0);
+  EXPECT_EQ(parse_request({"verify", "every", "25"}).verify_every, 25);
+}
+
+TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
+  const std::string grammar = "give 'dch on', 'dch off', 'dch stats' or 'dch verify yes|no|every N'";
+  const std::vector<std::pair<Words, std::string>> cases{
+      {{}, grammar},
+      {{""}, grammar},
+      {{"up"}, "unknown keyword 'up'; " + grammar},
+      {{"off", "now"}, "'now' after 'dch off' has no meaning; remove it"},
+      {{"on", "d"}, "unknown option 'd' of 'dch on'; the only one is 'c', as in 'dch on c 1.2'"},
+      {{"on", "c"}, "lacks its value; for example 'dch on c 1.2'"},
+      {{"on", "c", "1"}, "c is '1' but has to be a number from 1.05 to 1e6"},
+      {{"on", "c", "1.2x"}, "c is '1.2x'"},
+      {{"on", "c", "nan"}, "c is 'nan'"},
+      {{"on", "c", ""}, "c is ''"},
+      {{"on", "c", "1.2", "c"}, "'c' after 'dch 1.2'"},
+      {{"verify"},
+       "'dch verify' lacks its value; give 'dch verify yes', 'dch verify no' or 'dch verify every N'"},
+      {{"verify", "often"}, "does not know 'often'"},
+      {{"verify", "yes", "please"}, "'please' after"},
+      {{"verify", "every"}, "lacks its interval"},
+      {{"verify", "every", "0"}, "the interval is '0' but has to be a whole number from 1 up"},
+      {{"verify", "every", "2.5"}, "the interval is '2.5'"},
+      {{"verify", "every", "99999999999999999999"}, "the interval is '99999999999999999999'"},
+  };
+  for (const auto& [words, message] : cases) {
+    EXPECT_THAT(message_of(words), testing::StartsWith("Illegal dch command: "));
+    EXPECT_THAT(message_of(words), testing::HasSubstr(message));
+  }
+}
+
+}  // namespace
+}  // namespace dch::lammps

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dch_register.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+TEST(DchRegister, RefusesAnythingButTheVersionItWasBuiltFor) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(dch_register(nullptr), 1);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("were built for LAMMPS version " + std::to_string(DCH_LAMMPS_VERSION) +
+                                 ", but this is version 0; build them against the headers of this LAMMPS"));
+}
+
+}  // namespace

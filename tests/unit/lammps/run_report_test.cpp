@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dch::lammps {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+RunReport example() {
+  RunReport r;
+  r.enabled = true;
+  r.radius = 2.8;
+  r.c = 1.05;
+  r.counters.builds = 4;
+  r.counters.entries = 3000;
+  r.counters.structure_seconds = 0.008;
+  r.counters.fill_seconds = 0.004;
+  r.atoms = 100;
+  r.structures_built = 1;
+  r.repairs = 3;
+  r.promotions = 17;
+  r.demotions = 19;
+  r.memory_bytes = 3 << 20;
+  r.lists = {{1, "pair lj/cut, half, newton on", ""},
+             {2, "compute coord/atom, full", "built on demand only"}};
+  return r;
+}
+
+TEST(RunReport, SaysWhoseEachListIsAndWhy) {
+  const std::string text = format_report(example());
+  EXPECT_THAT(text, HasSubstr("DCH neighbor lists: on\n"));
+  EXPECT_THAT(text, HasSubstr("list 1, pair lj/cut, half, newton on: DCH\n"));
+  EXPECT_THAT(text, HasSubstr("list 2, compute coord/atom, full: native, built on demand only\n"));
+}
+
+TEST(RunReport, GivesCountsAndMeans) {
+  const std::string text = format_report(example());
+  EXPECT_THAT(text, HasSubstr("built 1 times, repaired 3 times"));
+  EXPECT_THAT(text, HasSubstr("promotions, demotions   17, 19"));
+  EXPECT_THAT(text, HasSubstr("3000 (30 an atom)"));
+  EXPECT_THAT(text, HasSubstr("3 ms: points 0, structure 2, rows 0, lists 1"));
+  EXPECT_THAT(text, HasSubstr("3 Mbytes"));
+}
+
+TEST(RunReport, GivesTheRatioToNativeWhereBuildsWereVerified) {
+  RunReport r = example();
+  EXPECT_THAT(format_report(r), HasSubstr("no build of the last run; see 'dch verify'"));
+  r.verify_every = 2;
+  r.counters.verified_builds = 2;
+  r.counters.verified_entries = 6000;
+  r.counters.verified_native_seconds = 0.02;
+  r.counters.verified_dch_seconds = 0.005;
+  EXPECT_THAT(format_report(r),
+              HasSubstr("2 builds, 6000 pairs, all equal; native 10 ms a build, DCH/native 0.25"));
+}
+
+TEST(RunReport, BeforeTheFirstRunThereIsNothingToCount) {
+  const std::string text = format_report({});
+  EXPECT_THAT(text, HasSubstr("DCH neighbor lists: off\n"));
+  EXPECT_THAT(text, HasSubstr("no build of a DCH list yet"));
+  EXPECT_THAT(text, Not(HasSubstr("promotions")));
+}
+
+}  // namespace
+}  // namespace dch::lammps
