@@ -46,17 +46,18 @@ need_packages() {
   apt-get install -y -qq --no-install-recommends $missing </dev/null >/dev/null
 }
 
-# configure_and_build PRESET [CMake options ...]: leaves the build in build/PRESET.
+# configure_and_build PRESET [arguments of cmake --build ...]: leaves the build in build/PRESET.
 configure_and_build() {
-  local preset=$1
+  local preset=$1 launcher=()
   shift
   heading "Build $preset"
   if command -v ccache >/dev/null; then
-    set -- -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+    launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
-  cmake --preset "$preset" "$@" >"build/$preset.configure.log" 2>&1 || {
+  mkdir -p build
+  if ! cmake --preset "$preset" "${launcher[@]}" >"build/$preset.configure.log" 2>&1; then
     cat "build/$preset.configure.log" >&2
     return 1
-  }
-  cmake --build --preset "$preset" --parallel "$(nproc)"
+  fi
+  cmake --build --preset "$preset" --parallel "$(nproc)" "$@" </dev/null
 }
