@@ -37,12 +37,12 @@ class Host:
         self.variables = {"here": SCRIPTS, "examples": arguments.examples, "data": arguments.melt}
         self.environment = dict(os.environ, LAMMPS_POTENTIALS=str(arguments.potentials), OMP_NUM_THREADS="1")
 
-    def run(self, ranks, command, variables=(), timeout=280):
+    def run(self, ranks, command, variables=(), log="none", timeout=280):
         """Runs command (a list) on `ranks` processes with LAMMPS variables; returns exit code and all output."""
         words = [str(word) for word in command]
         if ranks > 1:
             words = [self.mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)] + words
-        words += ["-log", "none"]
+        words += ["-log", log]
         for name, value in {**self.variables, **dict(variables)}.items():
             words += ["-var", name, str(value)]
         done = subprocess.run(words, cwd=self.work, env=self.environment, timeout=timeout, check=False,
