@@ -48,6 +48,7 @@ class DchSearch final : public PairSearch {
     return stats_;
   }
   std::string name() const override { return "dch"; }
+  const Hierarchy& hierarchy() const { return hierarchy_; }
 
  private:
   enum class State { empty, indexed, keyed };
@@ -141,6 +142,11 @@ std::unique_ptr<PairSearch> make_dch_search(double radius) {
   HierarchyParams params;
   params.radius = radius;
   return make_dch_search(params);
+}
+
+const Hierarchy* hierarchy_of(const PairSearch& search) {
+  const auto* engine = dynamic_cast<const DchSearch*>(&search);
+  return engine ? &engine->hierarchy() : nullptr;
 }
 
 }  // namespace dch

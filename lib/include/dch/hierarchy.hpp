@@ -139,4 +139,8 @@ class Hierarchy {
 std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params);
 std::unique_ptr<PairSearch> make_dch_search(double radius);
 
+/// The hierarchy that an engine of make_dch_search() keeps, for statistics and validate(); null for other engines.
+/// It lives as long as the engine; after a successful update() ids are indices.
+const Hierarchy* hierarchy_of(const PairSearch& search);
+
 }  // namespace dch
