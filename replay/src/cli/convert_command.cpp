@@ -36,8 +36,8 @@ int run(const ConvertWords& words) {
   writer->close();
   progress.clear();
   if (!words.quiet) {
-    fmt::print("{}: {} of {}, lengths in {}\n", words.output, counted(done, "frame"),
-               counted(static_cast<std::int64_t>(scan.atoms()), "atom"), scan.length_unit);
+    fmt::print("{}: {} of {} atoms, lengths in {}\n", words.output, counted(done, "frame"),
+               count_text(scan.fewest_atoms, scan.most_atoms), scan.length_unit);
   }
   return kOk;
 }

@@ -12,39 +12,10 @@
 namespace dch::cli {
 namespace {
 
-/// Frames of one trajectory name their atoms by index: nothing here needs keys.
-void refuse_keys(Span<const std::uint64_t> keys) {
-  if (!keys.empty()) throw InvalidParameter("a replay names its particles by index; give no keys");
-}
-
-/// A hierarchy as an engine that lets validate() and the levels be seen from outside.
-class HierarchySearch final : public PairSearch {
- public:
-  explicit HierarchySearch(const HierarchyParams& params) : hierarchy_(params) {}
-
-  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override {
-    refuse_keys(keys);
-    if (hierarchy_.capacity() == positions.size() && hierarchy_.stats().builds > 0) {
-      hierarchy_.update(positions, box);
-    } else {
-      hierarchy_.build(positions, box);
-    }
-  }
-  using PairSearch::list;
-  void list(const ListParams& params, NeighborList& out) override { hierarchy_.list(params, out); }
-  const SearchStats& stats() const override { return hierarchy_.stats(); }
-  std::string name() const override { return "dch"; }
-  const Hierarchy& hierarchy() const { return hierarchy_; }
-
- private:
-  Hierarchy hierarchy_;
-};
-
 /// The oracle as an engine.
 class AllPairsSearch final : public PairSearch {
  public:
-  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override {
-    refuse_keys(keys);
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t>) override {
     positions_.assign(positions.begin(), positions.end());
     box_ = box;
     ++stats_.updates;
@@ -97,6 +68,25 @@ class TimedSearch final : public PairSearch {
   SearchStats stats_;
 };
 
+/// Forwards to an engine that stays, and names the atoms to it.
+class BorrowedSearch final : public PairSearch {
+ public:
+  BorrowedSearch(PairSearch& engine, std::vector<std::uint64_t> keys)
+      : engine_(engine), keys_(std::move(keys)) {}
+
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t>) override {
+    engine_.update(positions, box, keys_);
+  }
+  using PairSearch::list;
+  void list(const ListParams& params, NeighborList& out) override { engine_.list(params, out); }
+  const SearchStats& stats() const override { return engine_.stats(); }
+  std::string name() const override { return engine_.name(); }
+
+ private:
+  PairSearch& engine_;
+  std::vector<std::uint64_t> keys_;
+};
+
 }  // namespace
 
 std::string to_string(EngineKind kind) {
@@ -134,12 +124,15 @@ Engine make_engine(const EngineOptions& options, double radius) {
     params.radius = radius;
     params.c = options.c;
     params.policy = options.policy;
-    auto search = std::make_unique<HierarchySearch>(params);
-    engine.hierarchy = &search->hierarchy();
-    engine.search = std::move(search);
+    engine.search = make_dch_search(params);
+    engine.hierarchy = hierarchy_of(*engine.search);
   }
   engine.search = std::make_unique<TimedSearch>(std::move(engine.search));
   return engine;
+}
+
+std::unique_ptr<PairSearch> borrow(PairSearch& engine, std::vector<std::uint64_t> keys) {
+  return std::make_unique<BorrowedSearch>(engine, std::move(keys));
 }
 
 }  // namespace dch::cli

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <dch/hierarchy.hpp>
 #include <dch/pair_search.hpp>
@@ -30,5 +31,9 @@ struct Engine {
 /// @param radius cutoff + skin of the lists to come [length]
 /// @throws InvalidParameter for a radius or c out of range.
 Engine make_engine(const EngineOptions& options, double radius);
+
+/// Lets lists that come and go, as atoms do, use one engine that stays.
+/// @param keys name the atoms to every update() (see PairSearch); empty: by their index
+std::unique_ptr<PairSearch> borrow(PairSearch& engine, std::vector<std::uint64_t> keys);
 
 }  // namespace dch::cli

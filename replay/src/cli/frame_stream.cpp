@@ -13,21 +13,26 @@
 namespace dch::cli {
 namespace {
 
-void note_frame(const trajectory::Frame& frame, std::int64_t index, Scan& scan) {
-  const std::string kind = frame.box.description();
+void note_box(const Box& box, std::int64_t index, Scan& scan) {
+  const std::string kind = box.description();
   if (std::find(scan.box_kinds.begin(), scan.box_kinds.end(), kind) == scan.box_kinds.end()) {
     scan.box_kinds.push_back(kind);
   }
+  if (box.min_height() >= scan.smallest_height) return;
+  scan.smallest_height = box.min_height();
+  scan.smallest_height_frame = index;
+}
+
+void note_frame(const trajectory::Frame& frame, std::int64_t index, Scan& scan) {
+  const auto atoms = static_cast<std::int64_t>(frame.ids.size());
   if (scan.frames == 0) {
     scan.first_frame = frame;
-    scan.first_step = frame.step;
-    scan.first_time = frame.time;
+    scan.fewest_atoms = scan.most_atoms = atoms;
     scan.smallest_height_frame = index;
   }
-  if (frame.box.min_height() < scan.smallest_height) {
-    scan.smallest_height = frame.box.min_height();
-    scan.smallest_height_frame = index;
-  }
+  note_box(frame.box, index, scan);
+  scan.fewest_atoms = std::min(scan.fewest_atoms, atoms);
+  scan.most_atoms = std::max(scan.most_atoms, atoms);
   scan.last_step = frame.step;
   scan.last_time = frame.time;
   ++scan.frames;
@@ -68,8 +73,11 @@ Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressB
   scan.smallest_height = std::numeric_limits<double>::infinity();
   progress.start("checking " + path);
   trajectory::Frame frame;
+  std::vector<std::int64_t> ids;
   while (stream.next(frame)) {
     note_frame(frame, stream.index(), scan);
+    scan.atoms_change = scan.atoms_change || (scan.frames > 1 && frame.ids != ids);
+    ids = frame.ids;
     progress.advance(stream.index());
   }
   scan.frames_passed = stream.passed();

@@ -44,11 +44,11 @@ struct Scan {
   std::vector<std::string> box_kinds;  ///< Box::description() in order of appearance, each once
   double smallest_height = 0;          ///< over the selected frames [length]; infinity without a periodic box
   std::int64_t smallest_height_frame = 0;  ///< the first frame with it
-  std::int64_t first_step = 0, last_step = 0;
-  std::optional<double> first_time, last_time;
-  trajectory::Frame first_frame;  ///< the first selected frame
-
-  std::size_t atoms() const { return first_frame.positions.size(); }
+  std::int64_t last_step = 0;
+  std::optional<double> last_time;
+  std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
+  bool atoms_change = false;                      ///< some frame has other ids than the one before
+  trajectory::Frame first_frame;                  ///< the first selected frame
 };
 
 /// Reads all selected frames once: every broken frame is found here, before any work has been done.

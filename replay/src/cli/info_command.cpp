@@ -61,10 +61,10 @@ void print_text(const Scan& scan) {
   row("format", scan.format);
   row("unit of length", scan.length_unit);
   row("frames", grouped(scan.frames));
-  row("steps", fmt::format("{} to {}", scan.first_step, scan.last_step));
-  if (scan.first_time && scan.last_time)
-    row("times", fmt::format("{} to {}", *scan.first_time, *scan.last_time));
-  row("atoms", grouped(static_cast<std::int64_t>(scan.atoms())));
+  row("steps", fmt::format("{} to {}", scan.first_frame.step, scan.last_step));
+  if (scan.first_frame.time && scan.last_time)
+    row("times", fmt::format("{} to {}", *scan.first_frame.time, *scan.last_time));
+  row("atoms", count_text(scan.fewest_atoms, scan.most_atoms));
   row("types", types_text(scan.first_frame));
   row("molecules", scan.first_frame.molecules.empty()
                        ? "none given"
@@ -85,13 +85,14 @@ void print_json(const Scan& scan) {
   json["format"] = scan.format;
   json["unit"] = scan.length_unit;
   json["frames"] = scan.frames;
-  json["atoms"] = scan.atoms();
+  json["atoms"] = scan.most_atoms;
+  json["fewest_atoms"] = scan.fewest_atoms;
   json["box_kinds"] = scan.box_kinds;
   const bool has_height = std::isfinite(scan.smallest_height);
   json["smallest_box_height"] = has_height ? nlohmann::ordered_json(scan.smallest_height) : nullptr;
   json["smallest_box_height_frame"] =
       has_height ? nlohmann::ordered_json(scan.smallest_height_frame) : nullptr;
-  json["first_step"] = scan.first_step;
+  json["first_step"] = scan.first_frame.step;
   json["last_step"] = scan.last_step;
   json["types"] = nlohmann::ordered_json::object();
   for (const auto& [type, count] : type_counts(scan.first_frame))

@@ -64,14 +64,6 @@ void write_attribute(hid_t object, const char* name, double value) {
   require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value));
 }
 
-void write_vector(hid_t file, const char* name, const std::vector<std::int64_t>& values) {
-  const hsize_t size = values.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Handle data(H5Dcreate2(file, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Dclose);
-  require(H5Dwrite(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-}
-
 /// A compressed dataset that grows along its first axis; `columns` is 0 for one of a single axis.
 Handle create_growing(hid_t file, const char* name, hid_t type, hsize_t columns, hsize_t chunk_rows) {
   const int rank = columns == 0 ? 1 : 2;
@@ -122,7 +114,7 @@ auto named(const OutputFile& file, Action action) {
 }  // namespace
 
 struct ListFile::Datasets {
-  Handle file, first, neighbors, frame, step;
+  Handle file, ids, first, neighbors, frame, step;
 
   Datasets(const OutputFile& output, const ListFileHeader& header)
       : file(H5Fcreate(output.temporary_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
@@ -135,8 +127,8 @@ struct ListFile::Datasets {
     write_attribute(file, "kind", header.kind == ListKind::half ? "half" : "full");
     write_attribute(file, "cutoff", header.cutoff);
     write_attribute(file, "skin", header.skin);
-    write_vector(file, "ids", header.ids);
-    first = create_growing(file, "first", H5T_STD_I64LE, header.ids.size() + 1, 1);
+    ids = create_growing(file, "ids", H5T_STD_I64LE, std::max<hsize_t>(1, header.most_atoms), 1);
+    first = create_growing(file, "first", H5T_STD_I64LE, header.most_atoms + 1, 1);
     neighbors = create_growing(file, "j", H5T_STD_I32LE, 0, kChunkEntries);
     frame = create_growing(file, "frame", H5T_STD_I64LE, 0, 1024);
     step = create_growing(file, "step", H5T_STD_I64LE, 0, 1024);
@@ -145,28 +137,34 @@ struct ListFile::Datasets {
   /// Closes everything; whether all of it went well, the last data on their way to the disk included.
   bool close() {
     bool closed = true;
-    for (Handle* handle : {&first, &neighbors, &frame, &step, &file}) closed = handle->reset() >= 0 && closed;
+    for (Handle* handle : {&ids, &first, &neighbors, &frame, &step, &file})
+      closed = handle->reset() >= 0 && closed;
     return closed;
   }
 };
 
-ListFile::ListFile(const std::string& path, const ListFileHeader& header) : file_(path) {
+ListFile::ListFile(const std::string& path, const ListFileHeader& header)
+    : file_(path), most_atoms_(header.most_atoms) {
   silence_hdf5();
   datasets_ = named(file_, [&] { return std::make_unique<Datasets>(file_, header); });
 }
 
 ListFile::~ListFile() = default;
 
-void ListFile::append(std::int64_t frame, std::int64_t step, const NeighborList& list, bool is_new) {
+void ListFile::append(std::int64_t index, const trajectory::Frame& frame, const NeighborList& list,
+                      bool is_new) {
   if (is_new || first_.empty()) {
-    first_.resize(list.first.size());
+    first_.assign(most_atoms_ + 1, entries_ + list.first.back());
     std::transform(list.first.begin(), list.first.end(), first_.begin(),
                    [this](std::int64_t begin) { return entries_ + begin; });
   }
+  std::vector<std::int64_t> ids = frame.ids;
+  ids.resize(std::max<std::size_t>(1, most_atoms_), -1);
   named(file_, [&] {
+    append_rows(datasets_->ids, H5T_NATIVE_INT64, 1, ids.size(), ids.data());
     append_rows(datasets_->first, H5T_NATIVE_INT64, 1, first_.size(), first_.data());
-    append_rows(datasets_->frame, H5T_NATIVE_INT64, 1, 0, &frame);
-    append_rows(datasets_->step, H5T_NATIVE_INT64, 1, 0, &step);
+    append_rows(datasets_->frame, H5T_NATIVE_INT64, 1, 0, &index);
+    append_rows(datasets_->step, H5T_NATIVE_INT64, 1, 0, &frame.step);
     if (first_.back() == entries_) return;
     append_rows(datasets_->neighbors, H5T_NATIVE_INT32, list.j.size(), 0, list.j.data());
     entries_ = first_.back();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/neighbor_list.hpp>
+#include <dch/trajectory/frame.hpp>
 
 #include "output_file.hpp"
 
@@ -20,15 +21,16 @@ struct ListFileHeader {
   std::string exclusions;       ///< "none", "1-2", "1-3", "1-4"
   double cutoff = 0, skin = 0;  ///< [length]
   ListKind kind = ListKind::half;
-  std::vector<std::int64_t> ids;  ///< of the atoms, in the order of the rows
+  std::size_t most_atoms = 0;  ///< in a frame
 };
 
 /// Writes neighbor lists to an HDF5 file, frame by frame: only the frame at hand is held in memory.
 ///
-/// Dataset `j` holds the neighbors of all frames one after the other; row k of `first` (frames x atoms + 1)
-/// holds where the rows of frame k begin in it: the neighbors of atom i in frame k are j[first[k, i] :
-/// first[k, i + 1]]. A frame whose list was kept from the frame before points to the same entries.
-/// docs/cli.md describes the file.
+/// Dataset `j` holds the neighbors of all frames one after the other; row k of `first` (frames x most atoms +
+/// 1) holds where the rows of frame k begin in it: the neighbors of atom i in frame k are j[first[k, i] :
+/// first[k, i + 1]], and ids[k, i] is the atom's id. A frame with fewer atoms ends in empty rows of id -1. A
+/// frame whose list was kept from the frame before points to the same entries. docs/cli.md describes the
+/// file.
 class ListFile {
  public:
   /// @throws trajectory::FileError if the file cannot be created.
@@ -37,9 +39,10 @@ class ListFile {
   ListFile(const ListFile&) = delete;
   ListFile& operator=(const ListFile&) = delete;
 
+  /// @param index number of the frame in the file
   /// @param is_new false if `list` is the list of the frame before
   /// @throws trajectory::FileError, the disk being full, say.
-  void append(std::int64_t frame, std::int64_t step, const NeighborList& list, bool is_new);
+  void append(std::int64_t index, const trajectory::Frame& frame, const NeighborList& list, bool is_new);
 
   /// Completes the file and gives it its name. @throws trajectory::FileError.
   void commit();
@@ -47,6 +50,7 @@ class ListFile {
  private:
   struct Datasets;
   OutputFile file_;
+  std::size_t most_atoms_;
   std::unique_ptr<Datasets> datasets_;
   std::vector<std::int64_t> first_;  ///< of the frame last written
   std::int64_t entries_ = 0;         ///< in dataset j

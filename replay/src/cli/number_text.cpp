@@ -21,6 +21,10 @@ std::string counted(std::int64_t number, const std::string& thing) {
   return grouped(number) + " " + thing + (number == 1 ? "" : "s");
 }
 
+std::string count_text(std::int64_t fewest, std::int64_t most) {
+  return fewest == most ? grouped(most) : grouped(fewest) + " to " + grouped(most);
+}
+
 std::string readable(double value) {
   const double size = std::abs(value);
   if (!std::isfinite(value) || (size > 0 && size < 1e-3) || size >= 1e15) return fmt::format("{:.4g}", value);

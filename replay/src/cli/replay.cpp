@@ -50,8 +50,9 @@ class Replay {
 
  private:
   void scan();
-  void read_topology(const trajectory::Frame& first);
-  void open_list_file(const trajectory::Frame& first);
+  void take_atoms(const trajectory::Frame& frame);
+  void read_exclusions(const trajectory::Frame& frame);
+  void open_list_file(std::int64_t most_atoms);
   void replay_frames();
   void replay_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms);
   bool update_list(const trajectory::Frame& frame, std::int64_t index);
@@ -63,16 +64,21 @@ class Replay {
   Stopwatch watch_;
   ReplayReport report_;
   std::int64_t frames_expected_ = 0;
-  Exclusions exclusions_;  // before the list that refers to it
+  bool atoms_change_ = false;
+  Engine engine_;  // before the list that borrows it
+  Exclusions exclusions_;
   ListParams params_;
-  const Hierarchy* hierarchy_ = nullptr;
+  std::vector<std::int64_t> ids_;  ///< of the atoms that list_ is for
   std::optional<VerletList> list_;
   std::optional<Verifier> verifier_;
   std::optional<ListFile> list_file_;
   ListStatistics statistics_;
 };
 
-Replay::Replay(const ReplayOptions& options, ProgressBar& progress) : options_(options), progress_(progress) {
+Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
+    : options_(options),
+      progress_(progress),
+      engine_(make_engine(options.engine, options.cutoff + options.skin)) {
   params_.cutoffs = TypeCutoffs(options.cutoff);
   params_.skin = options.skin;
   params_.kind = options.kind;
@@ -86,9 +92,6 @@ Replay::Replay(const ReplayOptions& options, ProgressBar& progress) : options_(o
 ReplayReport Replay::run() {
   scan();
   verifier_.emplace(options_.verify, params_, frames_expected_);
-  Engine engine = make_engine(options_.engine, options_.cutoff + options_.skin);
-  hierarchy_ = engine.hierarchy;
-  list_.emplace(std::move(engine.search), params_);
   replay_frames();
   note_levels();
   if (list_file_) list_file_->commit();
@@ -106,36 +109,51 @@ void Replay::scan() {
   report_.format = scan.format;
   report_.unit = scan.length_unit;
   report_.frames_passed = scan.frames_passed;
-  report_.atoms = static_cast<std::int64_t>(scan.atoms());
+  report_.fewest_atoms = scan.fewest_atoms;
+  report_.most_atoms = scan.most_atoms;
   report_.box_kinds = scan.box_kinds;
   report_.smallest_height = scan.smallest_height;
   report_.smallest_height_frame = scan.smallest_height_frame;
   frames_expected_ = scan.frames;
+  atoms_change_ = scan.atoms_change;
   require_cutoff_fits(options_, scan);
-  read_topology(scan.first_frame);
-  open_list_file(scan.first_frame);
+  take_atoms(scan.first_frame);
+  open_list_file(scan.most_atoms);
 }
 
-void Replay::read_topology(const trajectory::Frame& first) {
+/// Starts a list for the atoms of `frame`. The engine stays; where atoms come and go, it is told who they
+/// are.
+void Replay::take_atoms(const trajectory::Frame& frame) {
+  ids_ = frame.ids;
+  read_exclusions(frame);
+  std::vector<std::uint64_t> keys;
+  if (atoms_change_) keys.assign(ids_.begin(), ids_.end());
+  list_.emplace(borrow(*engine_.search, std::move(keys)), params_);
+}
+
+void Replay::read_exclusions(const trajectory::Frame& frame) {
   if (options_.topology.empty() && options_.exclude_depth == 0) return;
-  if (options_.topology.empty() && first.molecules.empty()) {
+  if (options_.topology.empty() && frame.molecules.empty()) {
     throw UsageError(
         fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
                     exclusion_rule(options_.exclude_depth), options_.file));
   }
   const trajectory::Topology topology = options_.topology.empty()
-                                            ? trajectory::topology_from_molecules(first, options_.file)
-                                            : trajectory::read_topology(options_.topology, first.ids);
-  report_.exclusions.source = topology.source;
-  report_.exclusions.bonds = static_cast<std::int64_t>(topology.bonds.size());
-  if (options_.exclude_depth == 0) return;
-  exclusions_ = Exclusions::from_bonds(first.positions.size(), topology.bonds, options_.exclude_depth);
-  params_.exclusions = &exclusions_;
-  report_.exclusions.rule = exclusion_rule(options_.exclude_depth);
-  report_.exclusions.pairs = exclusions_.pairs();
+                                            ? trajectory::topology_from_molecules(frame, options_.file)
+                                            : trajectory::read_topology(options_.topology, frame.ids);
+  ExclusionRecord record;
+  record.source = topology.source;
+  record.bonds = static_cast<std::int64_t>(topology.bonds.size());
+  if (options_.exclude_depth > 0) {
+    exclusions_ = Exclusions::from_bonds(frame.positions.size(), topology.bonds, options_.exclude_depth);
+    params_.exclusions = &exclusions_;
+    record.rule = exclusion_rule(options_.exclude_depth);
+    record.pairs = exclusions_.pairs();
+  }
+  if (report_.frames.empty()) report_.exclusions = record;
 }
 
-void Replay::open_list_file(const trajectory::Frame& first) {
+void Replay::open_list_file(std::int64_t most_atoms) {
   if (options_.lists.empty()) return;
   ListFileHeader header;
   header.source = options_.file;
@@ -145,7 +163,7 @@ void Replay::open_list_file(const trajectory::Frame& first) {
   header.cutoff = options_.cutoff;
   header.skin = options_.skin;
   header.kind = options_.kind;
-  header.ids = first.ids;
+  header.most_atoms = static_cast<std::size_t>(most_atoms);
   list_file_.emplace(options_.lists, header);
 }
 
@@ -157,7 +175,11 @@ void Replay::replay_frames() {
     const Stopwatch watch;
     if (!stream.next(frame)) fail_changed(options_.file);
     const double read_ms = watch.milliseconds();
-    if (static_cast<std::int64_t>(frame.positions.size()) != report_.atoms) fail_changed(options_.file);
+    if (static_cast<std::int64_t>(frame.ids.size()) > report_.most_atoms) fail_changed(options_.file);
+    if (frame.ids != ids_) {
+      if (!atoms_change_) fail_changed(options_.file);
+      take_atoms(frame);
+    }
     replay_frame(frame, stream.index(), read_ms);
     progress_.advance(done + 1);
   }
@@ -169,12 +191,13 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
   record.frame = index;
   record.step = frame.step;
   record.time = frame.time;
+  record.atoms = static_cast<std::int64_t>(frame.ids.size());
   record.read_ms = read_ms;
-  const SearchStats before = list_->search().stats();
+  const SearchStats before = engine_.search->stats();
   const Stopwatch watch;
   record.list_rebuilt = update_list(frame, index);
   const double update_ms = watch.milliseconds();
-  const SearchStats& after = list_->search().stats();
+  const SearchStats& after = engine_.search->stats();
   record.list_ms = 1e3 * (after.list_seconds - before.list_seconds);
   record.maintain_ms =
       std::max(0.0, update_ms - record.list_ms);  // the structure's upkeep and the stale test
@@ -208,7 +231,7 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
   statistics_.add(list, record.list_rebuilt);
   if (list_file_) {
     const Stopwatch watch;
-    list_file_->append(record.frame, record.step, list, record.list_rebuilt);
+    list_file_->append(record.frame, frame, list, record.list_rebuilt);
     report_.write_ms += watch.milliseconds();
   }
   Verifier::Subject subject;
@@ -217,16 +240,17 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
   subject.frame = &frame;
   subject.list = &list;
   subject.list_is_new = record.list_rebuilt;
-  subject.hierarchy = hierarchy_;
+  subject.hierarchy = engine_.hierarchy;
   const Stopwatch watch;
   verifier_->check(subject);
   report_.verify_ms += watch.milliseconds();
 }
 
 void Replay::note_levels() {
-  if (!hierarchy_) return;
-  for (int level = 0; level < hierarchy_->levels(); ++level)
-    report_.levels.push_back(hierarchy_->level(level));
+  const Hierarchy* hierarchy = engine_.hierarchy;
+  for (int level = 0; hierarchy && level < hierarchy->levels(); ++level) {
+    report_.levels.push_back(hierarchy->level(level));
+  }
 }
 
 }  // namespace

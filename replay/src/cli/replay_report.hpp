@@ -18,6 +18,7 @@ namespace dch::cli {
 struct FrameRecord {
   std::int64_t frame = 0;  ///< index in the file, from 0
   std::int64_t step = 0;
+  std::int64_t atoms = 0;
   std::optional<double> time;  ///< in the file's unit
   std::int64_t pairs = 0;      ///< in the list
   bool list_rebuilt = true;
@@ -35,7 +36,7 @@ struct ReplayTotals {
   double read_ms = 0, maintain_ms = 0, list_ms = 0;
 };
 
-/// Pairs that the list leaves out, and the bonds they follow from.
+/// Pairs that the list leaves out in the first frame, and the bonds they follow from.
 struct ExclusionRecord {
   std::string rule;    ///< "1-2", "1-3", "1-4"; empty if nothing is excluded
   std::string source;  ///< of the bonds; empty if no topology was read
@@ -46,8 +47,8 @@ struct ExclusionRecord {
 /// All that a replay found; the table, report.json and report.html show nothing else.
 struct ReplayReport {
   std::string file, format, unit;
-  std::int64_t frames_passed = 0;  ///< frames read, selected or not
-  std::int64_t atoms = 0;
+  std::int64_t frames_passed = 0;                 ///< frames read, selected or not
+  std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
   std::vector<std::string> box_kinds;
   double smallest_height = 0;  ///< infinity without a periodic box [length]
   std::int64_t smallest_height_frame = 0;

@@ -34,7 +34,8 @@ Json input_json(const ReplayReport& report) {
   json["unit"] = report.unit;
   json["frames"] = report.frames.size();
   json["frames_read"] = report.frames_passed;
-  json["atoms"] = report.atoms;
+  json["atoms"] = report.most_atoms;
+  json["fewest_atoms"] = report.fewest_atoms;
   json["box_kinds"] = report.box_kinds;
   json["smallest_box_height"] = number_or_null(report.smallest_height);
   json["engine"] = to_string(report.engine.kind);
@@ -70,6 +71,7 @@ Json per_frame_json(const ReplayReport& report) {
   json["step"] = column(report, [](const FrameRecord& f) { return f.step; });
   json["time"] =
       column(report, [](const FrameRecord& f) { return f.time ? number_or_null(*f.time) : Json(nullptr); });
+  json["atoms"] = column(report, [](const FrameRecord& f) { return f.atoms; });
   json["list_rebuilt"] = column(report, [](const FrameRecord& f) { return f.list_rebuilt; });
   json["repairs"] = column(report, [](const FrameRecord& f) { return f.repairs; });
   json["rebuilds"] = column(report, [](const FrameRecord& f) { return f.rebuilds; });

@@ -91,7 +91,7 @@ std::vector<Row> report_rows(const ReplayReport& report) {
                         {"engine", engine_text(report.engine)},
                         {"list", list_text(report)},
                         {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
-                        {"atoms", grouped(report.atoms)},
+                        {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
                         {"box", box_text(report)}};
   if (!report.exclusions.source.empty()) rows.push_back({"excluded", exclusion_text(report.exclusions)});
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),

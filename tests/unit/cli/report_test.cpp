@@ -32,7 +32,8 @@ ReplayReport sample_report() {
   report.file = "a & b.lammpstrj";
   report.format = "LAMMPS dump";
   report.unit = "the dump's unit";
-  report.atoms = 4;
+  report.fewest_atoms = 3;
+  report.most_atoms = 4;
   report.frames_passed = 9;
   report.box_kinds = {"orthorhombic ppp", "none"};
   report.smallest_height = 12.5;
@@ -102,9 +103,9 @@ TEST(ReportJson, IsJsonWhateverTheInput) {
 
 TEST(ReportTable, StatesUnitCountsAndMismatches) {
   const std::string table = render_table(sample_report());
-  for (const char* part :
-       {"the dump's unit", "min 5, mean 337, max 1,000", "2 repairs, 1 rebuild", "orthorhombic ppp; none",
-        "read 1, maintain 2, list 4", "mismatches      0", "2 (nodes after the last frame: 4, 1)"}) {
+  for (const char* part : {"the dump's unit", "min 5, mean 337, max 1,000", "2 repairs, 1 rebuild",
+                           "orthorhombic ppp; none", "read 1, maintain 2, list 4", "mismatches      0",
+                           "2 (nodes after the last frame: 4, 1)", "3 to 4"}) {
     EXPECT_THAT(table, HasSubstr(part));
   }
 }
