@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct NamedBox {
   std::string name;  ///< letters, digits and underscores, as names of tests need
   Box box;
 };
+
+inline std::ostream& operator<<(std::ostream& out, const NamedBox& box) { return out << box.name; }
 
 struct NamedPoints {
   std::string name;

@@ -83,12 +83,28 @@ TEST(VerletList, BoxChangeTakesFromTheSkin) {
   EXPECT_FALSE(verlet.is_stale(moved, box(10.25)));
   EXPECT_TRUE(verlet.is_stale(moved, box(10.25 + 1e-9)));
 
-  // Shear: with both signs of n the vectors add up in the worst way.
-  const auto sheared = [](double xy, double xz) {
-    return Box::triclinic({10, 0, 0}, {xy, 10, 0}, {xz, 0, 10});
-  };
-  EXPECT_FALSE(verlet.is_stale(points, sheared(0.25, -0.25)));
-  EXPECT_TRUE(verlet.is_stale(points, sheared(0.25, -0.25 - 1e-9)));
+  moved = points;
+  moved[0].x += 10.25;
+  EXPECT_FALSE(verlet.is_stale(moved, box(10.25))) << "an image in the present box, not in that of the build";
+  moved[0].x = points[0].x + 10;
+  EXPECT_TRUE(verlet.is_stale(moved, box(10.5)));
+}
+
+TEST(VerletList, ChangesOfCellVectorsAddUpInTheWorstWay) {
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.375);
+  verlet.update(points, Box::orthorhombic({10, 10, 10}));
+  for (const double a : {-0.125, 0.125}) {
+    for (const double b : {-0.125, 0.125}) {
+      for (const double c : {-0.125, 0.125}) {
+        const auto box = [&](double more) {
+          return Box::triclinic({10 + a * more, 0, 0}, {b, 10, 0}, {c, 0, 10});
+        };
+        EXPECT_FALSE(verlet.is_stale(points, box(1)));
+        EXPECT_TRUE(verlet.is_stale(points, box(1 + 1e-8)));
+      }
+    }
+  }
 }
 
 TEST(VerletList, StrainIsThatOfTheReducedCell) {
