@@ -11,6 +11,7 @@
 #include <sstream>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -55,17 +56,17 @@ void redirect_streams(int messages) {
   ::dup2(messages, STDERR_FILENO);
 }
 
-[[noreturn]] void run_child(const std::function<void(int)>& body, int pipe, int messages) {
+[[noreturn]] void run_child(const std::function<void(int)>& body, int socket, int messages) {
   reset_signal_handlers();
   skip_exit_handlers_of_host();
   redirect_streams(messages);
   const rlimit no_core_file{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core_file);
   try {
-    body(pipe);
+    body(socket);
   } catch (...) {
-    // The caller's body reports its exceptions through the pipe; one that gets here ends the child without an
-    // answer.
+    // The caller's body reports its exceptions through the socket; one that gets here ends the child without
+    // an answer.
     ::_exit(EXIT_FAILURE);
   }
   ::_exit(EXIT_SUCCESS);
@@ -80,31 +81,33 @@ std::string describe_status(int status) {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::function<void(int)>& body) {
-  // Two threads that start children at once would hand each child the other's writing end, and a pipe whose
-  // writing end is open in a stranger never ends.
+  // Two threads that start children at once would hand each child the other's sockets, and a connection that
+  // is open in a stranger never ends.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
 
   Descriptor messages(::memfd_create("dch-messages", MFD_CLOEXEC), "a nameless file cannot be made");
   int ends[2] = {-1, -1};
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "a pipe cannot be made");
-  Descriptor reading(ends[0], "pipe"), writing(ends[1], "pipe");
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    throw std::system_error(errno, std::generic_category(), "sockets cannot be made");
+  }
+  Descriptor ours(ends[0], "socket"), childs(ends[1], "socket");
   constexpr int kReadAhead = 1 << 20;
-  ::fcntl(writing.get(), F_SETPIPE_SZ, kReadAhead);  // a smaller pipe works too
+  ::setsockopt(childs.get(), SOL_SOCKET, SO_SNDBUF, &kReadAhead,
+               sizeof kReadAhead);  // a smaller one works too
 
   id_ = ::fork();
   if (id_ < 0) throw std::system_error(errno, std::generic_category(), "a process cannot be started");
   if (id_ == 0) {
-    ::close(reading.release());
-    run_child(body, writing.get(), messages.get());
+    ::close(ours.release());
+    run_child(body, childs.get(), messages.get());
   }
-  pipe_ = reading.release();
+  socket_ = ours.release();
   messages_ = messages.release();
 }
 
 ChildProcess::~ChildProcess() {
-  ::close(pipe_);
+  ::close(socket_);
   ::close(messages_);
   if (id_ < 0) return;
   ::kill(id_, SIGKILL);

@@ -7,22 +7,22 @@
 
 namespace dch::trajectory {
 
-/// A copy of this process that runs one function and sends bytes back through a pipe.
+/// A copy of this process that runs one function and talks with its parent through a pair of sockets.
 ///
 /// In the child, stdin and stdout are /dev/null, stderr is kept in a nameless file, signal handlers are
 /// reset, no core file is written, and exit() ends it at once, without the exit handlers, stream buffers and
 /// static objects that belong to the host. The destructor kills a child that still runs.
 class ChildProcess {
  public:
-  /// @param body gets the descriptor of the pipe's writing end; when it returns, the child ends
-  /// @throws std::system_error if the system has no process, pipe or memory left.
-  explicit ChildProcess(const std::function<void(int pipe)>& body);
+  /// @param body gets the child's socket; when it returns, the child ends
+  /// @throws std::system_error if the system has no process, socket or memory left.
+  explicit ChildProcess(const std::function<void(int socket)>& body);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// The pipe's reading end.
-  int pipe() const { return pipe_; }
+  /// The parent's socket.
+  int socket() const { return socket_; }
 
   /// Waits for the child to end; what made it end and the last of what it wrote to stderr, in words.
   std::string wait_and_describe();
@@ -37,7 +37,7 @@ class ChildProcess {
  private:
   std::string last_words() const;
 
-  int pipe_ = -1;
+  int socket_ = -1;
   int messages_ = -1;  ///< the nameless file
   pid_t id_ = -1;
 };

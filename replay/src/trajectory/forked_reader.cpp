@@ -41,7 +41,7 @@ void send_all_frames(const std::string& path, const ReaderFactory& make_reader, 
 ForkedReader::ForkedReader(std::string path, ReaderFactory make_reader, int seconds_per_frame)
     : path_(std::move(path)) {
   start(std::move(make_reader), seconds_per_frame);
-  FrameReceiver receiver(child_->pipe());
+  FrameReceiver receiver(child_->socket());
   Message kind{};
   if (!receiver.receive_kind(kind)) fail_for_child();
   if (kind == Message::error) {
@@ -53,8 +53,8 @@ ForkedReader::ForkedReader(std::string path, ReaderFactory make_reader, int seco
 }
 
 void ForkedReader::start(ReaderFactory make_reader, int seconds_per_frame) try {
-  child_ = std::make_unique<ChildProcess>([this, &make_reader, seconds_per_frame](int pipe) {
-    FrameSender sender(pipe);
+  child_ = std::make_unique<ChildProcess>([this, &make_reader, seconds_per_frame](int socket) {
+    FrameSender sender(socket);
     send_all_frames(path_, make_reader, seconds_per_frame, sender);
   });
 } catch (const std::system_error& error) {
@@ -63,7 +63,7 @@ void ForkedReader::start(ReaderFactory make_reader, int seconds_per_frame) try {
 
 bool ForkedReader::read(Frame& frame) {
   if (at_end_) return false;
-  FrameReceiver receiver(child_->pipe());
+  FrameReceiver receiver(child_->socket());
   Message kind{};
   if (!receiver.receive_kind(kind)) fail_for_child();
   if (kind == Message::end) {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <limits>
+#include <sys/socket.h>
 #include <type_traits>
 #include <unistd.h>
 #include <vector>
@@ -40,32 +41,28 @@ FrameHead head_of(const Frame& frame) {
 }  // namespace
 
 bool FrameSender::send_hello(const std::string& format, const std::string& length_unit) {
-  const Message kind = Message::hello;
-  return send(&kind, sizeof kind) && send_text(format) && send_text(length_unit);
+  return send_kind(Message::hello) && send_text(format) && send_text(length_unit);
 }
 
 bool FrameSender::send_frame(const Frame& frame) {
-  const Message kind = Message::frame;
   const FrameHead head = head_of(frame);
-  return send(&kind, sizeof kind) && send(&head, sizeof head) && send_array(frame.positions) &&
+  return send_kind(Message::frame) && send(&head, sizeof head) && send_array(frame.positions) &&
          send_array(frame.ids) && send_array(frame.types) && send_array(frame.molecules) &&
          send_array(frame.images);
 }
 
-bool FrameSender::send_end() {
-  const Message kind = Message::end;
-  return send(&kind, sizeof kind);
-}
+bool FrameSender::send_end() { return send_kind(Message::end); }
 
-bool FrameSender::send_error(const std::string& what) {
-  const Message kind = Message::error;
-  return send(&kind, sizeof kind) && send_text(what);
-}
+bool FrameSender::send_done() { return send_kind(Message::done); }
+
+bool FrameSender::send_kind(Message kind) { return send(&kind, sizeof kind); }
+
+bool FrameSender::send_error(const std::string& what) { return send_kind(Message::error) && send_text(what); }
 
 bool FrameSender::send(const void* data, std::size_t size) {
   const char* bytes = static_cast<const char*>(data);
   while (size > 0) {
-    const ssize_t done = ::write(descriptor_, bytes, size);
+    const ssize_t done = ::send(descriptor_, bytes, size, MSG_NOSIGNAL);
     if (done < 0 && errno != EINTR) return false;
     if (done > 0) {
       bytes += done;

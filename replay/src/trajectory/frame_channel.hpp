@@ -9,20 +9,28 @@
 
 namespace dch::trajectory {
 
-/// What one process tells another about a trajectory, over a pipe. Both are the same program, so the bytes
+/// What one process tells another about a trajectory, over a socket. Both are the same program, so the bytes
 /// are those of memory.
-enum class Message : int { hello, frame, end, error };
+enum class Message : int {
+  hello,  ///< what kind of file it is
+  frame,
+  end,   ///< no more frames
+  done,  ///< a frame has been written, or the file completed
+  error  ///< no more messages
+};
 
-/// The sending end. Functions return false if the other end has been closed.
+/// Sends. Functions return false if the other end has been closed.
 class FrameSender {
  public:
   explicit FrameSender(int descriptor) : descriptor_(descriptor) {}
   bool send_hello(const std::string& format, const std::string& length_unit);
   bool send_frame(const Frame& frame);
   bool send_end();
+  bool send_done();
   bool send_error(const std::string& what);
 
  private:
+  bool send_kind(Message kind);
   bool send(const void* data, std::size_t size);
   bool send_text(const std::string& text);
   template <class T>
@@ -31,7 +39,7 @@ class FrameSender {
   int descriptor_;
 };
 
-/// The receiving end. Functions return false if the pipe ends too early.
+/// Receives. Functions return false if the connection ends too early.
 class FrameReceiver {
  public:
   explicit FrameReceiver(int descriptor) : descriptor_(descriptor) {}

@@ -2,50 +2,31 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include <dch/trajectory/writer.hpp>
 
-#include "hdf5_handle.hpp"
-#include "hdf5_series.hpp"
+#include "child_process.hpp"
 #include "temporary_file.hpp"
 
 namespace dch::trajectory {
 
-/// H5MD 1.1 files that MDAnalysis opens, which asks for more than the format: the group of particles is
-/// called `trajectory`, `time` is there (NaN for frames without one), the box is a matrix a frame, and units
-/// are of its list.
-///
-/// Ids, types and molecules are fixed elements, so a frame with other ones cannot be written. A frame without
-/// a box among others with one gets a matrix of zeros.
+/// Writes an H5mdFile in a child process, so that nothing that befalls HDF5 there befalls the host.
 class H5mdWriter final : public TrajectoryWriter {
  public:
   /// @throws FileError as create_trajectory.
-  H5mdWriter(const std::string& path, std::string length_unit);
+  H5mdWriter(const std::string& path, const std::string& length_unit);
 
   void write(const Frame& frame) override;
   void close() override;
 
  private:
-  void create_metadata();
-  void create_atoms(const Frame& frame);
-  void write_fixed(const char* name, hid_t file_type, hid_t memory_type, hsize_t count, const void* values);
-  Hdf5Series create_series(const std::string& name, hid_t file_type, const std::vector<hsize_t>& row_shape);
-  void check_same_atoms(const Frame& frame) const;
-  void write_box(const Box& box);
-  void write_length_unit(hid_t value) const;
-  void finish_box();
-  void check(bool good) const;
-  [[noreturn]] void fail_in_frame(const std::string& what) const;
+  void start(const std::string& length_unit);
+  void await_answer();
 
   TemporaryFile target_;
-  std::string length_unit_;
-  Hdf5Handle file_, group_, box_;
-  Hdf5Series step_, time_, position_, image_, edges_, offset_;
-  std::optional<Box::Periodic> periodic_;  ///< of the first frame that has a box
-  Frame first_;                            ///< ids, types, molecules of the first frame
+  std::unique_ptr<ChildProcess> child_;
   std::int64_t frames_ = 0;
 };
 

@@ -68,6 +68,10 @@ void LammpsDumpReader::read_atoms(Frame& frame) {
 }
 
 void LammpsDumpReader::read_atom(std::string_view line, Frame& frame) {
+  if (line.substr(0, 5) == "ITEM:") {
+    lines_.fail_here(fmt::format("the next item begins after {} of the frame's {} atoms",
+                                 lines_.number() - first_atom_line_, header_.atoms));
+  }
   const DumpColumns& columns = header_.columns;
   Vec3 position;
   std::int64_t id = 0;
@@ -108,7 +112,10 @@ void LammpsDumpReader::read_atom(std::string_view line, Frame& frame) {
         break;
     }
   }
-  if (column < columns.roles.size() || !is_blank(rest)) fail_for_field_count(line);
+  if (column < columns.roles.size() || !is_blank(rest)) {
+    lines_.fail_here(fmt::format("expected {} fields, one for each column of 'ITEM: ATOMS', found {}",
+                                 columns.roles.size(), in_quotes(line)));
+  }
   if (columns.scaled) position = unscaled(position);
   if (!is_valid_position(position)) {
     lines_.fail_here(fmt::format("a coordinate is not finite or larger than {:g}", kMaxCoordinate));
@@ -124,15 +131,6 @@ template <class T>
 void LammpsDumpReader::read_field(std::string_view word, const char* what, T& value) const {
   if (!parse_number(word, value))
     lines_.fail_here(fmt::format("expected {}, found {}", what, in_quotes(word)));
-}
-
-void LammpsDumpReader::fail_for_field_count(std::string_view line) const {
-  if (line.substr(0, 5) == "ITEM:") {
-    lines_.fail_here(fmt::format("the next item begins after {} of the frame's {} atoms",
-                                 lines_.number() - first_atom_line_, header_.atoms));
-  }
-  lines_.fail_here(fmt::format("expected {} fields, one for each column of 'ITEM: ATOMS', found {}",
-                               header_.columns.roles.size(), in_quotes(line)));
 }
 
 Vec3 LammpsDumpReader::unscaled(Vec3 p) const {

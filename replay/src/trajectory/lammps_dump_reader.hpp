@@ -30,7 +30,6 @@ class LammpsDumpReader final : public TrajectoryReader {
   void read_atom(std::string_view line, Frame& frame);
   template <class T>
   void read_field(std::string_view word, const char* what, T& value) const;
-  [[noreturn]] void fail_for_field_count(std::string_view line) const;
   Vec3 unscaled(Vec3 p) const;
   void sort_by_id(Frame& frame);
   void check_same_atoms();

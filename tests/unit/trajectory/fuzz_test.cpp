@@ -52,7 +52,7 @@ TEST(Fuzz, DamagedTrajectoriesGiveFramesOrErrors) {
   RecordProperty("seed", std::to_string(kSeed));
   scenes::Random random(kSeed);
   for (const SmallFile& file : small_files(folder)) {
-    for (int k = 0; k < 1500; ++k) {
+    for (int k = 0; k < 1000; ++k) {
       SCOPED_TRACE(file.name + " case " + std::to_string(k) + " seed " + std::to_string(kSeed));
       check_frames(folder.write(file.name, damaged(file.bytes, random)));
       if (testing::Test::HasFatalFailure()) return;

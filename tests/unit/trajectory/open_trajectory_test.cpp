@@ -51,6 +51,7 @@ TEST(OpenTrajectory, ListsTheEndingsItKnows) {
 TEST(OpenTrajectory, TakesEndingsInUpperCase) {
   const ScratchFolder folder;
   EXPECT_EQ(read_all(folder.write("TEST.DCD", read_file(data_path("nopbc.dcd")))).size(), 40u);
+  EXPECT_EQ(read_all(folder.write("TEST.XTC", read_file(data_path("cell_shapes.xtc")))).size(), 3u);
 }
 
 }  // namespace

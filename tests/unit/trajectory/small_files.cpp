@@ -60,7 +60,8 @@ SmallFile gzip_file(const ScratchFolder& folder) {
   gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
   gzclose(file);
   const std::string bytes = read_file(folder.path("small.gz"));
-  return {"test.dump.gz", bytes, {0, bytes.size()}};  // no cut leaves one frame
+  return {
+      "test.dump.gz", bytes, {0, bytes.size()}, false};  // no cut leaves one frame; a checksum ends the file
 }
 
 SmallFile h5md_file(const ScratchFolder& folder) {

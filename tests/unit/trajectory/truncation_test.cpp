@@ -19,7 +19,8 @@ void check_cut(const ScratchFolder& folder, const SmallFile& file, std::size_t s
   const auto end = std::find(file.frame_ends.begin(), file.frame_ends.end(), size);
   const bool whole = size > 0 && end != file.frame_ends.end();
   const auto ends_before = std::upper_bound(file.frame_ends.begin(), file.frame_ends.end(), size);
-  EXPECT_LE(outcome.frames, static_cast<std::size_t>(ends_before - file.frame_ends.begin()));
+  if (file.frames_come_last)
+    EXPECT_LE(outcome.frames, static_cast<std::size_t>(ends_before - file.frame_ends.begin()));
   if (whole) {
     EXPECT_EQ(outcome.error, "") << file.name << " cut to " << size << " bytes";
     EXPECT_EQ(outcome.frames, static_cast<std::size_t>(end - file.frame_ends.begin()) + 1);
@@ -31,8 +32,8 @@ void check_cut(const ScratchFolder& folder, const SmallFile& file, std::size_t s
 TEST(Truncation, IsFoundAtEveryByteOfSmallFiles) {
   const ScratchFolder folder;
   for (const SmallFile& file : small_files(folder)) {
-    // HDF5 files are large for what they hold: 10,000 cuts spread evenly, and all of the last 256.
-    const std::size_t stride = std::max<std::size_t>(1, file.bytes.size() / 10000);
+    // HDF5 files are large for what they hold: 2,000 cuts spread evenly, and all of the last 256.
+    const std::size_t stride = std::max<std::size_t>(1, file.bytes.size() / 2000);
     for (std::size_t size = 0; size <= file.bytes.size(); size += stride) check_cut(folder, file, size);
     const std::size_t tail = std::min<std::size_t>(256, file.bytes.size());
     for (std::size_t size = file.bytes.size() - tail; size <= file.bytes.size(); ++size)
