@@ -48,12 +48,14 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("convert", "Write a trajectory in another format; lengths stay in their unit");
   const auto words = std::make_shared<ConvertWords>();
-  command->add_option("IN", words->input, "Trajectory, see dch replay --help")->required();
+  command->add_option("IN", words->input, "Trajectory, see dch replay --help")->required()->type_name("");
   command
       ->add_option("OUT", words->output,
                    "File to write: H5MD (.h5, .h5md) or LAMMPS dump (.lammpstrj, .dump)")
-      ->required();
-  command->add_option("--frames", words->frames, "Frames to convert, first:end:step. Default: all");
+      ->required()
+      ->type_name("");
+  command->add_option("--frames", words->frames, "Frames to convert, first:end:step. Default: all")
+      ->type_name("A:B:S");
   command->add_flag("--quiet", words->quiet, "No progress bar and no message");
   command->callback([words, &exit_code] { exit_code = run(*words); });
 }

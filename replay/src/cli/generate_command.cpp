@@ -46,11 +46,13 @@ void add_melt_command(CLI::App& generate, int& exit_code) {
                                           "A Kremer-Grest bead-spring melt as a LAMMPS data file (units lj); "
                                           "beads overlap, push them apart first");
   const auto words = std::make_shared<MeltWords>();
-  command->add_option("--chains", words->chains, "Number of chains")->required();
-  command->add_option("--beads", words->beads, "Beads of each chain")->required();
-  command->add_option("--density", words->density, "Beads per volume. Default 0.8442");
-  command->add_option("--seed", words->seed, "Seed of the random numbers. Default 1");
-  command->add_option("OUT", words->output, "File to write, for example melt.data")->required();
+  command->add_option("--chains", words->chains, "Number of chains")->required()->type_name("N");
+  command->add_option("--beads", words->beads, "Beads of each chain")->required()->type_name("N");
+  command->add_option("--density", words->density, "Beads per volume. Default 0.8442")->type_name("R");
+  command->add_option("--seed", words->seed, "Seed of the random numbers. Default 1")->type_name("S");
+  command->add_option("OUT", words->output, "File to write, for example melt.data")
+      ->required()
+      ->type_name("");
   command->add_flag("--quiet", words->quiet, "No message");
   command->callback([words, &exit_code] { exit_code = run(*words); });
 }

@@ -119,8 +119,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "info", "Say what a trajectory holds: format, unit, frames, atoms, boxes, cutoff limit");
   const auto words = std::make_shared<InfoWords>();
-  command->add_option("FILE", words->file, "Trajectory, see dch replay --help")->required();
-  command->add_option("--frames", words->frames, "Frames to look at, first:end:step. Default: all");
+  command->add_option("FILE", words->file, "Trajectory, see dch replay --help")->required()->type_name("");
+  command->add_option("--frames", words->frames, "Frames to look at, first:end:step. Default: all")
+      ->type_name("A:B:S");
   command->add_flag("--json", words->json, "Print JSON, for scripts");
   command->add_flag("--quiet", words->quiet, "No progress line");
   command->callback([words, &exit_code] { exit_code = run(*words); });

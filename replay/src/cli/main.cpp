@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "help_format.hpp"
 #include "interrupt.hpp"
 #include "version.hpp"
 
@@ -25,13 +26,17 @@ int fail(int exit_code, const char* message) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app(
       "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
-      "Try: dch info FILE, then: dch replay FILE --cutoff R --verify all --plot report.html\n"
-      "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or cannot be "
-      "read or "
-      "written.",
+      "\n"
+      "First steps:\n"
+      "  dch info FILE                                      what a trajectory holds, and its cutoff limit\n"
+      "  dch replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
+      "  dch replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
+      "\n"
+      "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
+      "cannot be read or written.",
       "dch");
   app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
-  app.get_formatter()->column_width(34);
+  app.formatter(help_format());  // subcommands inherit it
   app.require_subcommand(1);
   int exit_code = kOk;
   add_replay_command(app, exit_code);

@@ -28,47 +28,77 @@ struct ReplayWords {
 constexpr double kSmallestC = 1.05;
 constexpr double kLargestC = 100;
 
+void declare_list_options(CLI::App& command, ReplayWords& words) {
+  command
+      .add_option(
+          "--cutoff", words.cutoff,
+          "Cutoff of the neighbor list, in the file's own unit of length: nm for GROMACS files, Angstrom "
+          "for DCD, the dump's unit for LAMMPS")
+      ->required()
+      ->type_name("R");
+  command
+      .add_option(
+          "--skin", words.skin,
+          "Added to the cutoff; the list is then kept until atoms have moved so far that a pair within "
+          "the cutoff might be missing. Default 0: a new list whenever an atom moved")
+      ->type_name("S");
+  auto* half = command.add_flag("--half", words.half, "Each pair once (default)");
+  command.add_flag("--full", words.full, "Each pair in the rows of both its atoms")->excludes(half);
+  command
+      .add_option(
+          "--exclude", words.exclude,
+          "Leave out pairs joined by bonds: bonded or 1-2 (one bond), 1-3 (up to two), 1-4 (up to three)")
+      ->type_name("WHAT");
+  command
+      .add_option("--topology", words.topology,
+                  "Where the bonds are: a LAMMPS data file (.data), a list of bonds (.bonds) or of chains "
+                  "(.chains). Default: the dump's mol column, each molecule a chain in order of atom id")
+      ->type_name("FILE");
+}
+
+void declare_engine_options(CLI::App& command, ReplayWords& words) {
+  command.add_option("--engine", words.engine, "Who finds the pairs: dch (default), cell or allpairs")
+      ->type_name("NAME");
+  command
+      .add_option(
+          "--c", words.c,
+          fmt::format("Parameter c of the hierarchy, at least {0}, default {0}; engine dch only", kSmallestC))
+      ->type_name("C");
+  command
+      .add_option(
+          "--policy", words.policy,
+          "Whether to repair the hierarchy or to build it anew: auto (default: whichever measures faster), "
+          "repair or rebuild; engine dch only")
+      ->type_name("NAME");
+}
+
 void declare_options(CLI::App& command, ReplayWords& words) {
   command
       .add_option(
           "FILE", words.file,
-          "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS .xtc .trr .gro, DCD .dcd, H5MD .h5")
-      ->required();
+          "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS (.xtc, .trr, .gro), DCD (.dcd), "
+          "H5MD (.h5, .h5md)")
+      ->required()
+      ->type_name("");
+  declare_list_options(command, words);
+  declare_engine_options(command, words);
   command
       .add_option(
-          "--cutoff", words.cutoff,
-          "Cutoff of the neighbor list, in the file's own unit of length (nm for GROMACS files, Angstrom for "
-          "DCD, the dump's unit for LAMMPS)")
-      ->required();
-  command.add_option(
-      "--skin", words.skin,
-      "Skin added to the cutoff; the list is rebuilt only once atoms moved so far that a pair within the "
-      "cutoff might be missing. Default 0: a new list for every frame");
-  command.add_option("--engine", words.engine, "Who finds the pairs: dch (default), cell or allpairs");
-  command.add_option(
-      "--frames", words.frames,
-      "Frames to replay, first:end:step as in Python, counted from 0, the end not included. Default: all");
-  command.add_option("--verify", words.verify,
-                     "Compare with all pairs: none (default), sample (10 frames, 1,000 atoms each) or all");
-  auto* half = command.add_flag("--half", words.half, "Each pair once (default)");
-  command.add_flag("--full", words.full, "Each pair for both of its atoms")->excludes(half);
-  command.add_option(
-      "--exclude", words.exclude,
-      "Leave out pairs joined by bonds: bonded or 1-2 (one bond), 1-3 (up to two), 1-4 (up to three)");
-  command.add_option(
-      "--topology", words.topology,
-      "Where the bonds are: a LAMMPS data file (.data), a list of bonds (.bonds) or of chains (.chains). "
-      "Default: the dump's mol column, each molecule a chain in order of atom id");
-  command.add_option(
-      "--c", words.c,
-      fmt::format("Parameter c of the hierarchy, at least {0} (default {0}); engine dch only", kSmallestC));
-  command.add_option(
-      "--policy", words.policy,
-      "When to repair the hierarchy and when to rebuild it: auto (default), repair or rebuild; engine dch "
-      "only");
-  command.add_option("--out", words.lists, "Write the neighbor lists to this HDF5 file");
-  command.add_option("--report", words.report, "Write what was found to this JSON file");
-  command.add_option("--plot", words.plot, "Write what was found to this HTML page, with plots");
+          "--frames", words.frames,
+          "Frames to replay, first:end:step as in Python, counted from 0, the end not included; or one "
+          "frame. Default: all")
+      ->type_name("A:B:S");
+  command
+      .add_option(
+          "--verify", words.verify,
+          "Compare the lists with all pairs: none (default), sample (10 frames, 1,000 atoms each) or all")
+      ->type_name("HOW");
+  command.add_option("--out", words.lists, "Write the neighbor lists to this HDF5 file")
+      ->type_name("LISTS.h5");
+  command.add_option("--report", words.report, "Write what was found to this JSON file")
+      ->type_name("REPORT.json");
+  command.add_option("--plot", words.plot, "Write what was found to this page, with plots")
+      ->type_name("REPORT.html");
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }
 

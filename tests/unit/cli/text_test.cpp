@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "help_format.hpp"
 #include "number_text.hpp"
 #include "progress_bar.hpp"
 
@@ -41,6 +42,12 @@ TEST(ProgressText, ShowsABarRateAndTimeLeft) {
 
 TEST(ProgressText, CountsFramesWhereTheirNumberIsNotKnown) {
   EXPECT_EQ(progress_text("checking a.xtc", 1234, 0, 1), "checking a.xtc frame 1,234");
+}
+
+TEST(WrapText, BreaksLinesAtSpaces) {
+  EXPECT_EQ(wrap_text("", 10), "");
+  EXPECT_EQ(wrap_text("one two three", 7), "one two\nthree");
+  EXPECT_EQ(wrap_text("incomprehensibly long", 7), "incomprehensibly\nlong");
 }
 
 }  // namespace
