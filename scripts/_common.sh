@@ -48,7 +48,7 @@ need_packages() {
 
 # configure_and_build PRESET [arguments of cmake --build ...]: leaves the build in build/PRESET.
 configure_and_build() {
-  local preset=$1 launcher=()
+  local preset=$1 launcher=() quiet=()
   shift
   heading "Build $preset"
   if command -v ccache >/dev/null; then
@@ -59,5 +59,6 @@ configure_and_build() {
     cat "build/$preset.configure.log" >&2
     return 1
   fi
-  cmake --build --preset "$preset" --parallel "$(nproc)" "$@" </dev/null
+  if [ ! -t 1 ]; then quiet=(-- --quiet); fi  # Ninja rewrites one line on a terminal, but fills a log with hundreds
+  cmake --build --preset "$preset" --parallel "$(nproc)" "$@" "${quiet[@]}" </dev/null
 }
