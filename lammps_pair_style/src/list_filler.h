@@ -56,13 +56,14 @@ class ListFiller : protected Pointers {
 
   void copy_settings() { exclusions_.copy_settings(); }
 
-  /// Fills `list` from `candidates`, whose particles are the points. They hold all pairs within the cutoffs and
-  /// may hold more; they are half or full, with or without pairs of ghosts, as `served` is.
-  void fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served, NeighList& list) const;
+  /// Fills `list` from `candidates`, whose particles are the points. They hold all pairs within the cutoffs
+  /// and may hold more; they are half or full, with or without pairs of ghosts, as `served` is.
+  void fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
+            NeighList& list) const;
 
  private:
-  int fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points, bool newton,
-               int* out) const;
+  int fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
+               bool newton, int* out) const;
   bool stored_here(int i, int ghost) const;
   int special_kind(int i, int j) const;
 

@@ -22,7 +22,7 @@ def require(condition, message, output=""):
 
 
 def read_dump(prefix, ranks):
-    """Pairs of every list, each as (list, low ID, high ID, box vectors between them, special bits), with their counts."""
+    """Counts of the pairs of every list, each as (list, low ID, high ID, box vectors between them, special bits)."""
     box, positions, pairs = None, {}, []
     for rank in range(ranks):
         with open(f"{prefix}.{rank}", encoding="ascii") as lines:
@@ -66,8 +66,8 @@ def check_lists_at_start(host, case, ranks, variables):
         dumps.append(read_dump(prefix, ranks))
     native, ours = dumps
     require(native, "the native lists are empty: the case tests nothing")
-    require(native == ours, f"lists differ at step 0: {len(native - ours)} pairs only native, {len(ours - native)} only "
-            f"DCH, for example {next(iter((native - ours) + (ours - native)), None)}")
+    require(native == ours, f"lists differ at step 0: {len(native - ours)} pairs only native, {len(ours - native)} "
+            f"only DCH, for example {next(iter((native - ours) + (ours - native)), None)}")
     return sum(native.values())
 
 

@@ -171,8 +171,8 @@ dch stats
 
     def test_clear_restores_stock_lists(self):
         stock = run(MELT + "run 20\n")
-        output = run("include ${load}\n" + MELT + "dch on\nrun 20\nclear\n" + MELT + "run 20\ndch stats\nclear\n" + MELT +
-                     "dch on\nrun 20\ndch stats\n")
+        output = run("include ${load}\n" + MELT + "dch on\nrun 20\nclear\n" + MELT + "run 20\ndch stats\nclear\n" +
+                     MELT + "dch on\nrun 20\ndch stats\n")
         tables = thermo_tables(output)
         self.assertEqual(tables[1], thermo_tables(stock)[0])
         self.assertEqual(output.count("DCH neighbor lists: off"), 1)
@@ -195,6 +195,33 @@ run 20
 dch stats
 """)
         self.assertIn("radius 2.4,", output)
+
+
+class WithoutBins(unittest.TestCase):
+    DROP_AND_FAR_ATOM = """
+units lj
+boundary s s s
+atom_style atomic
+atom_modify sort 0 0.0
+lattice fcc 0.8442
+region box block 0 7e5 0 7e5 0 7e5
+create_box 1 box
+region drop block 0 6 0 6 0 6
+create_atoms 1 region drop
+create_atoms 1 single 1e6 1e6 1e6 units box
+mass 1 1.0
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+"""
+
+    def test_an_atom_far_away_stops_stock_lists_only(self):
+        code, output = host.run_text(self.DROP_AND_FAR_ATOM + "run 20\n")
+        self.assertNotEqual(code, 0)
+        self.assertIn("Too many neighbor bins", output)
+        output = run("include ${load}\n" + self.DROP_AND_FAR_ATOM + "dch on\nrun 20\ndch stats\n")
+        self.assertIn("builds in the last run  5", output)
 
 
 class NativeLists(unittest.TestCase):
@@ -246,8 +273,9 @@ class Faults(unittest.TestCase):
         for ranks in (1, 2):
             code, output = self.run_faulty("drop", ranks)
             self.assertNotEqual(code, 0, output)
-            self.assertRegex(output, r"dch verify: at step 10 .*pair lj/cut, half, newton on.*: [12] pairs differ, the "
-                             r"first: pair of atoms \d+ and \d+ at distance [12]\.\d+, special bits 0: in the native list")
+            self.assertRegex(output, r"dch verify: at step 10 .*pair lj/cut, half, newton on.*: [12] pairs differ, "
+                             r"the first: pair of atoms \d+ and \d+ at distance [12]\.\d+, special bits 0: "
+                             r"in the native list")
 
     def test_a_repeated_pair_is_found(self):
         code, output = self.run_faulty("repeat", 1)

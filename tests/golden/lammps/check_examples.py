@@ -25,8 +25,8 @@ def run_example(script, log, ranks=1, executable=None, **variables):
 
 
 def compare(first, second, *options):
-    return subprocess.run([sys.executable, EXAMPLES / "compare_runs.py", host.work / first, host.work / second, *options],
-                          check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command = [sys.executable, EXAMPLES / "compare_runs.py", host.work / first, host.work / second, *options]
+    return subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 class Scripts(unittest.TestCase):
