@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""Broken files end in exit status 3, a message that names the file and the place, and no output.
+
+    bad_files.py DCH FOLDER_OF_TRAJECTORIES
+"""
+
+import glob
+import gzip
+import os
+import sys
+import tempfile
+
+from dch_command import Checks, expect_failure, run
+
+OUTPUTS = ["--out", "lists.h5", "--report", "report.json", "--plot", "report.html"]
+
+# What each broken dump's message has to name beyond the file.
+BAD_DUMPS = {
+    "atom-duplicated-id.lammpstrj": ["frame 0", "line 11", "2"],
+    "atom-item-name.lammpstrj": ["frame 0", "line 9", "DUMMY"],
+    "atom-no-item.lammpstrj": ["frame 0", "line 9", "DUMMY"],
+    "atom-not-enough-lines.lammpstrj": ["frame 0", "2", "3 atoms"],
+    "atom-too-many-fields.lammpstrj": ["frame 0", "line 10", "5"],
+    "box-item-name.lammpstrj": ["frame 0", "line 5", "DUMMY"],
+    "box-not-item.lammpstrj": ["frame 0", "line 5", "DUMMY"],
+    "box-not-numbers.lammpstrj": ["frame 0", "line 6", "DUMMY"],
+    "box-wrong-size.lammpstrj": ["frame 0", "line 6", "3 numbers"],
+    "items-after-atoms.lammpstrj": ["frame 1"],
+    "timestep-item-name.lammpstrj": ["frame 0", "line 1", "DUMMY"],
+    "timestep-no-item.lammpstrj": ["frame 0", "line 1", "DUMMY"],
+}
+
+
+def dump(atoms, box="0 10\n0 10\n0 10\n", columns="id x y z", step=0):
+    return (f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{len(atoms)}\nITEM: BOX BOUNDS pp pp pp\n{box}"
+            f"ITEM: ATOMS {columns}\n" + "".join(line + "\n" for line in atoms))
+
+
+GOOD = dump(["1 1 1 1", "2 2 2 2"])
+
+# A good frame, then one that cannot be: name -> (content, what the message has to name).
+BAD_SECOND_FRAMES = {
+    "nan": (GOOD + dump(["1 1 nan 1", "2 2 2 2"]), ["frame 1", "nan"]),
+    "infinite": (GOOD + dump(["1 1 1 1", "2 2 inf 2"]), ["frame 1", "inf"]),
+    "not-a-number": (GOOD + dump(["1 1 1 1", "2 2 x 2"]), ["frame 1", "x"]),
+    "zero-box": (GOOD + dump(["1 1 1 1", "2 2 2 2"], "0 10\n5 5\n0 10\n"), ["frame 1"]),
+    "negative-box": (GOOD + dump(["1 1 1 1", "2 2 2 2"], "0 10\n0 10\n10 0\n"), ["frame 1"]),
+    "other-number-without-ids": (dump(["1 1 1", "2 2 2"], columns="x y z") + dump(["1 1 1"], columns="x y z"),
+                                 ["frame 1", "1", "2"]),
+    "no-coordinates": (dump(["1 5"], columns="id type"), ["frame 0"]),
+}
+
+
+def check_replay_and_info(checks, command, path, parts):
+    name = os.path.basename(path)
+    expect_failure(checks, command, ["replay", path, "--cutoff", "0.01", *OUTPUTS], 3, [name, *parts])
+    expect_failure(checks, command, ["info", path], 3, [name, *parts])
+    print("broken:", name, flush=True)
+
+
+def check_bad_dumps(checks, command, data):
+    found = sorted(map(os.path.basename, glob.glob(os.path.join(data, "bad", "*"))))
+    checks.that(found == sorted(BAD_DUMPS), f"broken dumps listed here and in {data}/bad differ: {found}")
+    for name in found:
+        check_replay_and_info(checks, command, os.path.join(data, "bad", name), BAD_DUMPS.get(name, []))
+
+
+def check_bad_second_frames(checks, command, folder):
+    for name, (content, parts) in BAD_SECOND_FRAMES.items():
+        path = os.path.join(folder, name + ".lammpstrj")
+        with open(path, "w") as file:
+            file.write(content)
+        check_replay_and_info(checks, command, path, parts)
+
+
+def write_all_kinds(command, data, folder):
+    """One small file of each kind; those that the command cannot write are copied from the data."""
+    dumps = os.path.join(data, "nacl.lammpstrj")
+    with open(dumps, "rb") as source, gzip.open(os.path.join(folder, "nacl.lammpstrj.gz"), "wb") as target:
+        target.write(source.read())
+    result = run(command, "convert", dumps, os.path.join(folder, "nacl.h5md"))
+    if result.returncode != 0:
+        raise SystemExit(f"dch convert: {result.stderr}")
+    with open(os.path.join(folder, "three.gro"), "w") as file:
+        file.write("three atoms\n3\n" + "".join(f"    1SOL     OW{i:5d}{i:8.3f}{i:8.3f}{i:8.3f}\n" for i in (1, 2, 3)) +
+                   "   5.00000   5.00000   5.00000\n")
+    kinds = [dumps] + [os.path.join(data, name) for name in ("water.trr", "cell_shapes.xtc", "withpbc.dcd")]
+    return kinds + [os.path.join(folder, name) for name in ("nacl.lammpstrj.gz", "nacl.h5md", "three.gro")]
+
+
+def check_truncations(checks, command, data, folder):
+    for path in write_all_kinds(command, data, folder):
+        content = open(path, "rb").read()
+        result = run(command, "info", path)
+        checks.that(result.returncode == 0, f"{path} is good: {result.stderr}")
+        ending = os.path.basename(path).split(".", 1)[1]
+        for fraction in (0.003, 0.1, 0.55, 0.93):
+            size = int(fraction * len(content)) + 1  # not at the end of a frame
+            cut = os.path.join(folder, f"cut-to-{size}.{ending}")
+            with open(cut, "wb") as file:
+                file.write(content[:size])
+            check_replay_and_info(checks, command, cut, [])
+
+
+def check_not_trajectories(checks, command, folder):
+    missing = os.path.join(folder, "missing.xtc")
+    check_replay_and_info(checks, command, missing, ["No such file"])
+    for ending in ("lammpstrj", "lammpstrj.gz", "dcd", "xtc", "trr", "gro", "h5"):
+        for name, content in (("empty", b""), ("noise", bytes((37 * k * k + k) % 251 for k in range(4000)))):
+            path = os.path.join(folder, f"{name}.{ending}")
+            with open(path, "wb") as file:
+                file.write(content)
+            check_replay_and_info(checks, command, path, [])
+    os.mkdir(os.path.join(folder, "folder.dcd"))
+    check_replay_and_info(checks, command, os.path.join(folder, "folder.dcd"), [])
+    path = os.path.join(folder, "coordinates.xyz")
+    open(path, "w").close()
+    check_replay_and_info(checks, command, path, [".lammpstrj", ".xtc", ".dcd"])
+
+
+def check_bad_topologies(checks, command, data, folder):
+    trajectory = os.path.join(data, "nacl.lammpstrj")
+    for name, content, parts in (("word.bonds", "1 2\n1 x\n", ["line 2"]), ("unknown.bonds", "1 99999\n", ["line 1", "99999"]),
+                                 ("self.bonds", "# none\n3 3\n", ["line 2", "itself"]), ("kind.psf", "", [".bonds"])):
+        path = os.path.join(folder, name)
+        with open(path, "w") as file:
+            file.write(content)
+        arguments = ["replay", trajectory, "--cutoff", "3", "--exclude", "bonded", "--topology", path, *OUTPUTS]
+        expect_failure(checks, command, arguments, 3, [name, *parts])
+        print("broken:", name, flush=True)
+
+
+def main(command, data):
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_bad_dumps(checks, command, data)
+        check_bad_second_frames(checks, command, folder)
+        check_truncations(checks, command, data, folder)
+        check_not_trajectories(checks, command, folder)
+        check_bad_topologies(checks, command, data, folder)
+    checks.finish()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

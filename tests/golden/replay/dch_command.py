@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""Runs the dch command and checks what comes back; used by the scripts beside it."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+
+class Checks:
+    """Counts what was checked and what failed; finish() ends the script accordingly."""
+
+    def __init__(self):
+        self.done = 0
+        self.failed = 0
+
+    def that(self, condition, message):
+        self.done += 1
+        if not condition:
+            self.failed += 1
+            print("FAILED:", message, flush=True)
+        return condition
+
+    def finish(self):
+        print(f"{self.done} checks, {self.failed} failed")
+        sys.exit(1 if self.failed or not self.done else 0)
+
+
+def run(command, *arguments, timeout=600, cwd=None):
+    """Runs the command to its end; a crash, a hang or a missing file is not caught."""
+    return subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, cwd=cwd)
+
+
+def expect_failure(checks, command, arguments, status, parts, cwd=None):
+    """The command ends with this status and a message of its own that holds all parts, and leaves no file behind."""
+    with tempfile.TemporaryDirectory() as folder:
+        result = run(command, *arguments, cwd=cwd or folder)
+        what = "dch " + " ".join(map(str, arguments))
+        checks.that(result.returncode == status, f"{what}: status {result.returncode}, not {status}: {result.stderr}")
+        checks.that(result.stderr.startswith("dch: "), f"{what}: no message: {result.stderr!r}")
+        for part in parts:
+            checks.that(part in result.stderr, f"{what}: the message lacks {part!r}: {result.stderr}")
+        checks.that(result.stdout == "", f"{what}: standard output: {result.stdout}")
+        checks.that(os.listdir(folder) == [], f"{what}: left {os.listdir(folder)}")
+    return result.stderr
+
+
+def info(command, path):
+    result = run(command, "info", "--json", path)
+    if result.returncode != 0:
+        raise SystemExit(f"dch info {path}: {result.stderr}")
+    return json.loads(result.stdout)
+
+
+def three_cutoffs(height):
+    """0.1, 0.2 and 0.45 of the smallest box height, or 3, 6 and 10 where there is no box."""
+    return [3.0, 6.0, 10.0] if height is None else [0.1 * height, 0.2 * height, 0.45 * height]
+
+
+def replay(command, path, *options):
+    """Status, report and standard error of a replay."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = os.path.join(folder, "report.json")
+        result = run(command, "replay", path, "--report", report, *options)
+        content = json.load(open(report)) if os.path.exists(report) else None
+        return result, content
+
+
+def documented_keys(docs):
+    """The table of report-schema.md: key -> when it is present."""
+    text = open(os.path.join(docs, "report-schema.md")).read()
+    keys = dict(re.findall(r"^\| `([^`]+)` \| [^|]+ \| (always|dch|mismatch) \|", text, flags=re.MULTILINE))
+    if not keys:
+        raise SystemExit("report-schema.md: no table of keys")
+    return keys
+
+
+def keys_of(value, name=""):
+    """Dotted names of all leaves; lists of objects as name[], other lists as leaves."""
+    if isinstance(value, dict):
+        return {key for k, v in value.items() for key in keys_of(v, f"{name}.{k}" if name else k)} | (
+            {name} if not value else set())
+    if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
+        return {name} | {key for v in value for key in keys_of(v, name + "[]")}
+    return {name}
+
+
+def check_keys(checks, report, docs, present):
+    """The report holds the documented keys of these kinds and no others."""
+    expected = {key for key, when in documented_keys(docs).items() if when in present}
+    found = keys_of(report)
+    checks.that(found == expected, f"report.json: undocumented {sorted(found - expected)}, "
+                                   f"missing {sorted(expected - found)}")

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Wrong usage ends in exit status 2 and a message that names the option, its value and what to do; help does not.
+
+    usage.py DCH FOLDER_OF_TRAJECTORIES
+"""
+
+import os
+import sys
+import tempfile
+
+from dch_command import Checks, expect_failure, run
+
+
+def wrong_commands(data):
+    """(arguments, what the message has to hold)"""
+    water = os.path.join(data, "water.trr")
+    polymer = os.path.join(data, "polymer.lammpstrj")
+    outputs = ["--out", "lists.h5", "--report", "report.json", "--plot", "report.html"]
+
+    def replay(*options):
+        return ["replay", water, "--cutoff", "0.4", *outputs, *options]
+
+    return [
+        ([], ["subcommand", "--help"]),
+        (["frobnicate"], ["--help"]),
+        (["replay"], ["FILE is required"]),
+        (["replay", water], ["--cutoff is required"]),
+        (replay("--frobnicate"), ["--frobnicate"]),
+        (["replay", water, "--cutoff"], ["--cutoff"]),
+        (["replay", water, "--cutoff", "-3", *outputs], ["--cutoff -3", "above 0"]),
+        (["replay", water, "--cutoff", "0", *outputs], ["--cutoff 0", "above 0"]),
+        (["replay", water, "--cutoff", "nan", *outputs], ["--cutoff 'nan'", "finite"]),
+        (["replay", water, "--cutoff", "inf", *outputs], ["--cutoff 'inf'", "finite"]),
+        (["replay", water, "--cutoff", "four", *outputs], ["--cutoff 'four'"]),
+        (["replay", water, "--cutoff", "1e200", *outputs], ["--cutoff 1e200", "at most"]),
+        (["replay", water, "--cutoff", "0.76", *outputs],
+         [water, "frame 0", "0.76", "0.75", "half the smallest box height", "at most 0.75"]),
+        (replay("--skin", "0.36"), [water, "frame", "0.76", "0.75"]),
+        (replay("--skin", "-0.1"), ["--skin -0.1", "at least 0"]),
+        (replay("--skin", "nan"), ["--skin 'nan'"]),
+        (replay("--engine", "octree"), ["--engine 'octree'", "dch, cell, allpairs"]),
+        (replay("--c", "1.01"), ["--c 1.01", "at least 1.05"]),
+        (replay("--engine", "cell", "--c", "2"), ["--c", "engine cell"]),
+        (replay("--engine", "cell", "--policy", "repair"), ["--policy", "engine cell"]),
+        (replay("--policy", "never"), ["--policy 'never'", "auto, repair, rebuild"]),
+        (replay("--verify", "some"), ["--verify 'some'", "none, sample, all"]),
+        (replay("--half", "--full"), ["--half", "--full"]),
+        (replay("--exclude", "1-5"), ["--exclude '1-5'", "bonded, 1-2, 1-3, 1-4"]),
+        (replay("--exclude", "bonded"), [water, "no molecule column", "--topology"]),
+        (replay("--frames", "5:2"), ["--frames 5:2", "selects no frame"]),
+        (replay("--frames", "0:10:0"), ["0:10:0", "step"]),
+        (replay("--frames", "-5:"), ["'-5'", "first:end:step"]),
+        (replay("--frames", "a:b"), ["'a'", "first:end:step"]),
+        (replay("--frames", "100:200"), [water, "frame 100", "0 to 99"]),
+        (["replay", polymer, "--cutoff", "3", "--report", "same", "--plot", "same"], ["--report and --plot", "same file"]),
+        (["replay", polymer, "--cutoff", "3", "--out", polymer], ["FILE and --out", "same file"]),
+        (["replay", polymer, "--cutoff", "3", "--topology", "t.bonds", "--report", "t.bonds"], ["--topology and --report"]),
+        (["info"], ["FILE is required"]),
+        (["info", water, "--frames", "3:3"], ["3:3"]),
+        (["convert", polymer], ["OUT is required"]),
+        (["convert", polymer, polymer], ["IN and OUT", "same file"]),
+        (["convert", polymer, "out.h5", "--frames", "42:"], ["frame 42", "0 to 41"]),
+        (["generate"], ["subcommand"]),
+        (["generate", "melt", "--chains", "0", "--beads", "10", "m.data"], ["--chains '0'", "from 1"]),
+        (["generate", "melt", "--chains", "1.5", "--beads", "10", "m.data"], ["--chains '1.5'"]),
+        (["generate", "melt", "--chains", "10", "--beads", "10", "--density", "0", "m.data"], ["--density 0"]),
+        (["generate", "melt", "--chains", "10", "--beads", "10", "--seed", "-1", "m.data"], ["--seed '-1'"]),
+        (["generate", "melt", "--chains", "1", "--beads", "2", "m.data"], ["box"]),
+        (["generate", "melt", "--chains", "2147483647", "--beads", "2147483647", "m.data"], ["beads"]),
+    ]
+
+
+def check_outputs_that_cannot_be(checks, command, data):
+    water = os.path.join(data, "water.trr")
+    with tempfile.TemporaryDirectory() as folder:
+        for option in ("--out", "--report", "--plot"):
+            for path, part in ((os.path.join(folder, "no", "such"), "No such file"), (folder, "a folder"),
+                               ("/dev/null", "not a regular file")):
+                expect_failure(checks, command, ["replay", water, "--cutoff", "0.4", option, path], 3, [path, part])
+        expect_failure(checks, command, ["convert", water, os.path.join(folder, "no", "w.h5")], 3, ["no/w.h5"])
+        expect_failure(checks, command, ["convert", water, os.path.join(folder, "w.xyz")], 3, ["w.xyz", ".h5"])
+        expect_failure(checks, command, ["generate", "melt", "--chains", "10", "--beads", "10",
+                                         os.path.join(folder, "no", "m.data")], 3, ["no/m.data"])
+
+
+def check_help(checks, command):
+    for arguments, parts in ((["--help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
+                             (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
+                             (["info", "--help"], ["FILE"]), (["convert", "--help"], ["H5MD"]),
+                             (["generate", "melt", "--help"], ["--chains"])):
+        result = run(command, *arguments)
+        checks.that(result.returncode == 0, f"{arguments}: status {result.returncode}")
+        for part in parts:
+            checks.that(part in result.stdout, f"{arguments}: lacks {part!r}")
+        longest = max(map(len, result.stdout.splitlines()))
+        checks.that(longest <= 110, f"{arguments}: a line of {longest} characters")
+    result = run(command, "--version")
+    checks.that(result.returncode == 0 and result.stdout.startswith("dch ") and result.stdout.count(".") == 2,
+                f"--version: {result.stdout!r}")
+
+
+def main(command, data):
+    checks = Checks()
+    for arguments, parts in wrong_commands(data):
+        message = expect_failure(checks, command, arguments, 2, parts)
+        print(message.strip(), flush=True)
+    check_outputs_that_cannot_be(checks, command, data)
+    check_help(checks, command)
+    checks.finish()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
