@@ -29,6 +29,25 @@ class CandidateBuffer {
     size_ += keep;
   }
 
+  /// Appends those of `count` points, moved by `shift`, that `distance2(point)` puts within sqrt(limit2).
+  template <class Distance2>
+  void append_within(const Vec3* points, const std::int32_t* nodes, std::size_t count, Vec3 shift,
+                     const Distance2& distance2, double limit2) {
+    while (size_ + count > capacity_) grow();
+    double *x = data_.data(), *y = x + capacity_, *z = y + capacity_;
+    std::int32_t* node = node_.data();
+    std::size_t n = size_;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3 at = shift + points[k];
+      x[n] = at.x;
+      y[n] = at.y;
+      z[n] = at.z;
+      node[n] = nodes[k];
+      n += distance2(at) <= limit2;
+    }
+    size_ = n;
+  }
+
   /// Finds the entries from `first` on within sqrt(limit2) of p. Returns how many; hit(h) and
   /// distance2(hit(h)) tell which and how far.
   template <class Metric>
@@ -44,6 +63,20 @@ class CandidateBuffer {
     }
     return hits;
   }
+  /// Holds the first `hits` entries that the last select() of another buffer found.
+  void assign_selected(const CandidateBuffer& other, std::size_t hits) {
+    while (hits > capacity_) grow();
+    const double* from = other.data_.data();
+    double* to = data_.data();
+    for (std::size_t h = 0; h < hits; ++h) {
+      const std::size_t k = other.hit(h);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        to[axis * capacity_ + h] = from[axis * other.capacity_ + k];
+      node_[h] = other.node_[k];
+    }
+    size_ = hits;
+  }
+
   std::size_t hit(std::size_t h) const { return static_cast<std::size_t>(hit_[h]); }
   double distance2(std::size_t k) const { return distance2_[k]; }
 

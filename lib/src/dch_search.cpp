@@ -5,6 +5,7 @@
 #include <dch/error.hpp>
 #include <dch/hierarchy.hpp>
 
+#include "cost_estimate.hpp"
 #include "key_table.hpp"
 
 namespace dch {
@@ -56,7 +57,7 @@ class DchSearch final : public PairSearch {
   void build(Span<const Vec3> positions, const Box& box) {
     const auto start = Clock::now();
     hierarchy_.build(positions, box);
-    build_seconds_ = seconds_since(start);
+    if (!positions.empty()) build_per_point_.observe(seconds_since(start) / double(positions.size()));
   }
 
   void by_index(Span<const Vec3> positions, const Box& box) {
@@ -103,8 +104,9 @@ class DchSearch final : public PairSearch {
     }
     const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
     if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
-        exchange_seconds_ * static_cast<double>(exchanged) > build_seconds_) {
-      exchange_seconds_ *= kForget;
+        exchange_.seconds() * static_cast<double>(exchanged) >
+            build_per_point_.seconds() * static_cast<double>(keys.size())) {
+      exchange_.fade();
       return false;
     }
 
@@ -114,19 +116,16 @@ class DchSearch final : public PairSearch {
     for (std::size_t k = 0; k < keys.size(); ++k)
       if (old_of_new[k] == detail::KeyTable::kAbsent)
         old_of_new[k] = hierarchy_.insert(positions[k], k == 0 ? -1 : old_of_new[k - 1]);
-    if (exchanged > 0) exchange_seconds_ = seconds_since(start) / static_cast<double>(exchanged);
+    if (exchanged > 0) exchange_.observe(seconds_since(start) / static_cast<double>(exchanged));
     hierarchy_.renumber(old_of_new);
     return true;
   }
 
-  static constexpr double kForget =
-      0.95;  // an estimate that ruled exchange out fades, so that it is tried again
-
   Hierarchy hierarchy_;
   State state_ = State::empty;
   detail::KeyTable keys_, fresh_keys_;
-  double build_seconds_ = 0;     ///< of the last build
-  double exchange_seconds_ = 0;  ///< to insert or remove one particle, at the last exchange
+  detail::CostEstimate build_per_point_;
+  detail::CostEstimate exchange_;  ///< to insert or remove one particle
   std::int64_t updates_ = 0;
   double maintain_seconds_ = 0;
   mutable SearchStats stats_;

@@ -90,7 +90,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   reorder();
   ++stats.builds;
   stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
-  if (n > 0) cost.build_per_point = std::chrono::duration<double>(Clock::now() - start).count() / double(n);
+  if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));
 }
 
 // --- public interface
@@ -214,7 +214,7 @@ LevelInfo Hierarchy::level(int i) const {
   info.covering_radius = level.radius;
   info.edge_threshold = level.threshold;
   info.nodes = level.alive();
-  info.edges = i == 0 ? -1 : level.edges.entries() / 2;
+  info.edges = impl_->stores_edges(i) ? level.edges.entries() / 2 : -1;
   for (std::int32_t k = 0; k < level.size(); ++k)
     info.max_degree =
         std::max<std::int64_t>(info.max_degree, static_cast<std::int64_t>(level.edges.row(k).size()));
@@ -245,12 +245,7 @@ std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
   const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
   if (node == kNone) throw_not_in_level(id, i);
   std::vector<std::int32_t> nodes;
-  if (i > 0) {
-    const auto row = impl_->levels[i].edges.row(node);
-    nodes.assign(row.begin(), row.end());
-  } else {
-    with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors_of_point(metric, node, nodes); });
-  }
+  with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors(metric, i, node, nodes); });
   std::vector<std::int32_t> ids(nodes.size());
   std::transform(nodes.begin(), nodes.end(), ids.begin(),
                  [&](std::int32_t k) { return impl_->levels[i].id[k]; });

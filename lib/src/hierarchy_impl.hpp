@@ -8,24 +8,25 @@
 #include <dch/hierarchy.hpp>
 
 #include "candidate_buffer.hpp"
+#include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
 #include "list_assembly.hpp"
 #include "metric.hpp"
+#include "sibling_store.hpp"
 
 namespace dch {
 
 /// Candidate radii (never decisions) are inflated by this factor, squared radii by its square, so that
 /// rounding in the triangle inequality cannot hide a node.
 inline constexpr double kInflate = 1 + 1e-12;
+/// Edges are stored from this level on; below they are enumerated among the children of neighboring parents
+/// (Lemma 5.3.1(5)), the level-0 ones as neighbor lists. Levels 0 and 1 hold nearly all nodes and edges, yet
+/// neither maintenance nor lists need theirs: their pairs are met in the clusters of level 2, of about r_list
+/// in size.
+inline constexpr int kFirstStoredLevel = 2;
+
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 inline constexpr double kMinRadius = 1e-100;
-
-/// Wall-clock cost of the two ways to bring the structure up to date, measured on itself.
-struct MaintenanceCost {
-  double build_per_point = 0;  ///< seconds, last build; 0 before there was one
-  double sweep_per_point = 0;  ///< seconds of a repair that finds nothing to change, per point
-  double orphan = 0;           ///< seconds to give one orphan a parent or promote it, running mean
-};
 
 struct Hierarchy::Impl {
   using Level = detail::Level;
@@ -39,9 +40,15 @@ struct Hierarchy::Impl {
   std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids
   std::vector<std::int32_t> free_ids;    ///< min-heap
   SearchStats stats;
-  MaintenanceCost cost;
+
+  // What the two ways to bring the structure up to date cost, measured on itself [s].
+  detail::CostEstimate build_per_point;
+  detail::CostEstimate sweep_per_point;  ///< of a repair that finds nothing to change
+  detail::CostEstimate per_orphan;       ///< to give one orphan a parent or promote it
+
   std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
+  bool stores_edges(int level) const { return level >= kFirstStoredLevel; }
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
@@ -64,10 +71,14 @@ struct Hierarchy::Impl {
     int level;  ///< lowest level >= target with a node within R_{level-1}; top() + 1 if there is none
     std::int32_t parent;  ///< that node, the nearest one; kNone if there is none
   };
-  /// Finds a parent in level `target` or above for a point. `hint` is any node of level `target` (the nearer
-  /// the cheaper) or kNone to descend from the roots. Levels >= target must be in order.
+  /// A node of some level >= target, the nearer the cheaper; none to descend from the roots.
+  struct Hint {
+    int level = 0;
+    std::int32_t node = detail::kNone;
+  };
+  /// Finds a parent in level `target` or above for a point. Levels >= target must be in order.
   template <class Metric>
-  Cover locate(const Metric& metric, Vec3 at, int target, std::int32_t hint);
+  Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
   /// Links a node of `level` to its cover, lifting its point through the levels between.
   template <class Metric>
   void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
@@ -102,9 +113,9 @@ struct Hierarchy::Impl {
   void reorder();
 
   // hierarchy_list.cpp
-  /// Appends the level-0 nodes within the threshold of one of them.
+  /// Appends the neighbors of a node in its level of G_c, stored or not.
   template <class Metric>
-  void neighbors_of_point(const Metric& metric, std::int32_t slot, std::vector<std::int32_t>& slots) const;
+  void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
   void list(const ListParams& request, NeighborList& out);
 
   // hierarchy_validate.cpp
@@ -119,6 +130,7 @@ struct Hierarchy::Impl {
   std::vector<std::array<std::int32_t, 2>>
       too_close;  ///< of connect_level(): pairs that separate_level() settles
   detail::CandidateBuffer candidates;
+  detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
   detail::PairBuffer pairs;
   detail::ListAssembler assembler;

@@ -13,46 +13,53 @@ using detail::LatticeMetric;
 using detail::OpenMetric;
 using detail::OrthorhombicMetric;
 
-// A node s of level j with |ps| <= R_{j-1} has its ancestor of level l > j within
-// R_{j-1} + R_j + ... + R_{l-1} < R_l of p, so a descent that keeps all nodes within R_l of p misses no
-// parent. A hint a of level l replaces the descent's upper part: if |pa| <= rho_l - R_l, every node within
-// R_l of p is within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's
-// parent too, since rho_{l+1} - R_{l+1} >= rho_l - R_l + R_l for both edge rules.
+// A node s of level t = `target` within R_{t-1} of p has its ancestor of level l within
+// R_{t-1} + R_t + ... + R_{l-1} = R_l - R_{t-1} of p, so a descent that keeps the nodes within that (their
+// reach) misses no parent, and neither does the search for one in level l, which has to be within R_{l-1}.
+//
+// A hint a of level l replaces the descent's upper part: if |pa| + reach <= rho_l, every node wanted is
+// within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's parent too,
+// since |pa| grows by at most R_l, the reach by R_l, and rho_l by 2 R_l or more.
 template <class Metric>
-Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, std::int32_t hint) {
+Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, Hint hint) {
   if (target > top()) return {top() + 1, kNone};
   if (near.size() < levels.size()) near.resize(levels.size());
 
-  const auto keep = [&](int level, std::int32_t node) {
+  const auto reach_of = [&](int level) { return levels[level].radius - 0.5 * levels[target].radius; };
+  const auto keep = [&](int level, double reach2, std::int32_t node) {
     const double d2 = metric.distance2(at, levels[level].position[node]);
-    if (d2 <= levels[level].radius2 * (kInflate * kInflate)) near[level].push_back({node, d2});
+    if (d2 <= reach2) near[level].push_back({node, d2});
   };
   const auto look_around = [&](int level, std::int32_t node) {
+    const double reach = reach_of(level) * kInflate;
     near[level].clear();
     if (level == top()) {
       for (std::int32_t root = 0; root < levels[level].size(); ++root)
-        if (levels[level].is_alive(root)) keep(level, root);
+        if (levels[level].is_alive(root)) keep(level, reach * reach, root);
       return;
     }
-    keep(level, node);
-    for (const std::int32_t neighbor : levels[level].edges.row(node)) keep(level, neighbor);
+    keep(level, reach * reach, node);
+    for (const std::int32_t neighbor : levels[level].edges.row(node)) keep(level, reach * reach, neighbor);
   };
 
-  // Climb until the hint's surroundings are wide enough.
-  int start = hint == kNone ? top() : target;
-  std::int32_t guide = hint;
+  // Climb to stored edges, and on until the hint's surroundings are wide enough.
+  int start = hint.node == kNone ? top() : hint.level;
+  std::int32_t guide = hint.node;
   for (; start < top(); ++start) {
-    const double reach = levels[start].threshold - levels[start].radius;
-    if (metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= reach * reach) break;
+    const double room = levels[start].threshold - reach_of(start) * kInflate;
+    if (stores_edges(start) &&
+        metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= room * room)
+      break;
     guide = levels[start].parent[guide];
   }
   look_around(start, guide);
   for (int level = start; level > target; --level) {
+    const double reach = reach_of(level - 1) * kInflate;
     near[level - 1].clear();
     for (const Near& kept : near[level])
       for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
            child = levels[level - 1].next_sibling[child])
-        keep(level - 1, child);
+        keep(level - 1, reach * reach, child);
   }
 
   for (int level = target; level <= top(); ++level) {
@@ -71,6 +78,7 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
 
 template <class Metric>
 void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
+  if (!stores_edges(level)) return;
   Level& at = levels[level];
   const Vec3 position = at.position[node];
   const auto join = [&](std::int32_t other) {
@@ -128,7 +136,7 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
     const int i = top() - 1;
     for (std::int32_t node = 0; node < levels[i].size(); ++node) {
       if (!levels[i].is_alive(node)) continue;
-      settle(metric, i, node, locate(metric, levels[i].position[node], i + 1, kNone));
+      settle(metric, i, node, locate(metric, levels[i].position[node], i + 1, {}));
     }
   }
 }
@@ -136,7 +144,7 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
 template <class Metric>
 std::int32_t Hierarchy::Impl::insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot) {
   const Vec3 wrapped = box.wrap(at);
-  const std::int32_t hint = hint_slot == kNone ? kNone : levels[0].parent[hint_slot];
+  const Hint hint{1, hint_slot == kNone ? kNone : levels[0].parent[hint_slot]};
   const std::int32_t node = levels[0].add(id, wrapped);
   slot_of_id[id] = node;
   raw[id] = at;
@@ -149,7 +157,7 @@ template <class Metric>
 void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
   // Take the point out of every level first; the children it leaves behind are settled from the top down.
   std::vector<std::vector<std::int32_t>> orphans(levels.size());
-  std::vector<std::int32_t> hint(levels.size() + 1, kNone);  // by level: a neighbor of the point there
+  std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
   std::int32_t node = slot_of_id[id];
   for (int level = 0; node != kNone; ++level) {
     Level& at = levels[level];
@@ -159,8 +167,12 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
         orphans[level - 1].push_back(child);
       }
     }
+    if (!at.edges.row(node).empty()) {
+      hint[level] = {level, at.edges.row(node)[0]};
+    } else if (at.up[node] == kNone && at.parent[node] != kNone) {
+      hint[level] = {level + 1, at.parent[node]};
+    }
     detach(level, node);
-    if (!at.edges.row(node).empty()) hint[level] = at.edges.row(node)[0];
     disconnect(level, node);
     const std::int32_t own_above = at.up[node];
     at.retire(node);
@@ -168,6 +180,8 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
     node = own_above;
   }
   while (top() > 0 && levels.back().alive() == 0) pop_level();
+  for (int level = top() - 1; level > 0; --level)
+    if (hint[level].node == kNone) hint[level] = hint[level + 1];
   for (int level = top(); level >= 0; --level)
     for (const std::int32_t orphan : orphans[level])
       settle(metric, level, orphan,
@@ -181,12 +195,12 @@ void Hierarchy::Impl::trim_top() {
   while (top() > 0 && levels[top() - 1].alive() <= params.max_roots) pop_level();
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                    \
-  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, std::int32_t); \
-  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                  \
-  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                        \
-  template void Hierarchy::Impl::grow_top(const Metric&);                                          \
-  template std::int32_t Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t);  \
+#define DCH_INSTANTIATE(Metric)                                                                   \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);        \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                 \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                       \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                         \
+  template std::int32_t Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t); \
   template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)

@@ -131,17 +131,20 @@ class Marks {
   std::vector<std::int32_t> row_of_;  ///< by node: the last owner that named it
 };
 
-/// Separation (5.3.1(2)) and edges (5.3.1(3)) of one level against all pairs.
-template <class Metric>
-void check_pairs(const Metric& metric, const std::vector<Level>& levels, int i, Verdict& verdict) {
+/// Separation (5.3.1(2)) and edges (5.3.1(3)), stored or enumerated, of one level against all pairs.
+template <class Metric, class FindNeighbors>
+void check_pairs(const Metric& metric, const std::vector<Level>& levels, int i,
+                 const FindNeighbors& find_neighbors, Verdict& verdict) {
   const Level& level = levels[i];
-  const double separation2 = levels[i - 1].radius2;
+  const double separation2 = i == 0 ? -1 : levels[i - 1].radius2;  // level 0 may hold coincident points
   Marks joined(level.size());
+  std::vector<std::int32_t> row;
   for (std::int32_t a = 0; a < level.size() && !verdict.failed(); ++a) {
-    const auto row = level.edges.row(a);
-    verdict.require(joined.set(a, row), i, "point ", level.id[a], " has a repeated edge");
-    verdict.require(level.is_alive(a) || row.empty(), i, "a dead node has edges");
+    verdict.require(level.is_alive(a) || level.edges.row(a).empty(), i, "a dead node has edges");
     if (!level.is_alive(a)) continue;
+    row.clear();
+    find_neighbors(a, row);
+    verdict.require(joined.set(a, row), i, "point ", level.id[a], " has a repeated edge");
     for (std::int32_t b = 0; b < level.size(); ++b) {
       const bool edge = joined.has(a, b);
       if (a == b || !level.is_alive(b)) {
@@ -159,27 +162,6 @@ void check_pairs(const Metric& metric, const std::vector<Level>& levels, int i, 
   }
 }
 
-/// Level-0 edges are found among children of equal or neighboring parents (5.3.1(5)); are they all there?
-template <class Metric, class FindNeighbors>
-void check_points(const Metric& metric, const Level& level, FindNeighbors&& find_neighbors,
-                  Verdict& verdict) {
-  Marks joined(level.size());
-  std::vector<std::int32_t> found;
-  for (std::int32_t a = 0; a < level.size() && !verdict.failed(); ++a) {
-    if (!level.is_alive(a)) continue;
-    found.clear();
-    find_neighbors(a, found);
-    verdict.require(joined.set(a, found), 0, "point ", level.id[a], " has a neighbor twice");
-    for (std::int32_t b = 0; b < level.size(); ++b) {
-      const bool expected = a != b && level.is_alive(b) &&
-                            metric.distance2(level.position[a], level.position[b]) <= level.threshold2;
-      if (expected == joined.has(a, b)) continue;
-      verdict.require(false, 0, "pair of points ", level.id[a], " and ", level.id[b],
-                      expected ? " is missing" : " should not be joined");
-    }
-  }
-}
-
 }  // namespace
 
 std::string Hierarchy::Impl::validate() const {
@@ -191,11 +173,12 @@ std::string Hierarchy::Impl::validate() const {
   if (verdict.failed()) return verdict.text();
   with_metric(box, [&](const auto& metric) {
     check_coverage(metric, levels, verdict);
-    for (int i = 1; i <= top() && !verdict.failed(); ++i) check_pairs(metric, levels, i, verdict);
-    check_points(
-        metric, levels[0],
-        [&](std::int32_t slot, std::vector<std::int32_t>& found) { neighbors_of_point(metric, slot, found); },
-        verdict);
+    for (int i = 0; i <= top() && !verdict.failed(); ++i) {
+      const auto find = [&](std::int32_t k, std::vector<std::int32_t>& nodes) {
+        neighbors(metric, i, k, nodes);
+      };
+      check_pairs(metric, levels, i, find, verdict);
+    }
   });
   return verdict.text();
 }

@@ -46,8 +46,8 @@ struct LevelInfo {
   double covering_radius = 0;  ///< R_i = 2^i r0: level i+1 covers level i within it [length]
   double edge_threshold = 0;   ///< rho_i [length]
   std::int64_t nodes = 0;
-  std::int64_t edges = 0;  ///< edges of G_c at this level; -1 for level 0, whose edges are the lists
-  std::int64_t max_degree = 0;
+  std::int64_t edges = 0;  ///< of G_c at this level; -1 where they are enumerated, not stored (levels 0, 1)
+  std::int64_t max_degree = 0;  ///< most stored edges of a node
 };
 
 /// The discrete center hierarchy of a point set and its conflict graph (thesis, chapter 5).
@@ -113,7 +113,8 @@ class Hierarchy {
   /// root.
   /// @throws InvalidParameter if the point does not stand in level i.
   std::int32_t parent(std::int32_t id, int i) const;
-  /// Ids of the neighbors in level i of G_c, ascending. Level 0 is enumerated from level 1 by Lemma 5.3.1(5).
+  /// Ids of the neighbors in level i of G_c, ascending. Those of levels 0 and 1 are
+  /// enumerated among the children of neighboring parents (Lemma 5.3.1(5)).
   /// @throws InvalidParameter if the point does not stand in level i.
   std::vector<std::int32_t> neighbors(std::int32_t id, int i) const;
 
@@ -139,8 +140,8 @@ class Hierarchy {
 std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params);
 std::unique_ptr<PairSearch> make_dch_search(double radius);
 
-/// The hierarchy that an engine of make_dch_search() keeps, for statistics and validate(); null for other engines.
-/// It lives as long as the engine; after a successful update() ids are indices.
+/// The hierarchy that an engine of make_dch_search() keeps, for statistics and validate(); null for other
+/// engines. It lives as long as the engine; after a successful update() ids are indices.
 const Hierarchy* hierarchy_of(const PairSearch& search);
 
 }  // namespace dch

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <dch/hierarchy.hpp>
+
+#include "hierarchy_impl.hpp"
+
+namespace dch {
+
+/// Lets tests plant faults and costs inside a hierarchy.
+struct HierarchyTestAccess {
+  using Impl = Hierarchy::Impl;
+  static Impl& impl(Hierarchy& h) { return *h.impl_; }
+};
+
+}  // namespace dch
