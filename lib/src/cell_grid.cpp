@@ -121,18 +121,17 @@ void CellGrid::lay_out(Span<const Vec3> points, const Box& box, double width) {
     const Vec3 row = static_cast<double>(cells) * dual;
     directions_[k] = {row, dot(row, box.origin()), cells, box.reduced()[k]};
   }
-  auto direction = directions_.begin() + rank;
-  for (const Vec3 normal : orthogonal_complement(box.reduced(), rank)) {
-    const Vec3 row = (1 / widened) * normal;
-    *direction++ = {row, middle_along(row, points), 0, {}};
+  const auto normals = orthogonal_complement(box.reduced(), rank);
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    const Vec3 row = (1 / widened) * normals[k];
+    directions_[k + static_cast<std::size_t>(rank)] = {row, middle_along(row, points), 0, {}};
   }
 }
 
-std::int32_t CellGrid::coordinate(const Direction& direction, Vec3 p) const {
-  const double c = dot(direction.row, p) - direction.origin;
-  if (direction.cells == 0) return floor_to_integer(std::clamp(c, -kFarthest, kFarthest));
-  // Rounding may leave a wrapped point a little outside.
-  return std::clamp(floor_to_integer(std::clamp(c, -kFarthest, kFarthest)), 0, direction.cells - 1);
+std::int32_t CellGrid::Direction::coordinate(Vec3 p) const {
+  const std::int32_t c = floor_to_integer(std::clamp(dot(row, p) - origin, -kFarthest, kFarthest));
+  if (cells == 0) return c;
+  return std::clamp(c, 0, cells - 1);  // rounding may leave a wrapped point a little outside
 }
 
 void CellGrid::clear() {
@@ -150,7 +149,7 @@ void CellGrid::build(Span<const Vec3> wrapped, const Box& box, double width) {
 
   coordinates_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) coordinates_[i][k] = coordinate(directions_[k], wrapped[i]);
+    for (std::size_t k = 0; k < 3; ++k) coordinates_[i][k] = directions_[k].coordinate(wrapped[i]);
   }
   CellCoordinates low = coordinates_[0], high = coordinates_[0];
   for (const CellCoordinates& c : coordinates_) {

@@ -65,13 +65,14 @@ class CellGrid {
  private:
   /// One direction of the grid: cell coordinate = floor(row . (p - origin)).
   struct Direction {
+    std::int32_t coordinate(Vec3 p) const;
+
     Vec3 row;
     double origin = 0;       ///< of row . p
     std::int32_t cells = 0;  ///< around the torus; 0 if open
     Vec3 period;             ///< reduced lattice vector
   };
   void lay_out(Span<const Vec3> points, const Box& box, double width);
-  std::int32_t coordinate(const Direction& direction, Vec3 p) const;
 
   std::array<Direction, 3> directions_;
   CellNumbering numbering_;

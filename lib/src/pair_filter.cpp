@@ -26,11 +26,11 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       types_(params.types),
       exclusions_(params.exclusions != nullptr && !params.exclusions->empty() ? params.exclusions : nullptr),
       first_ghost_(params.first_ghost),
-      type_count_(params.cutoffs.types()),
+      type_count_(static_cast<std::size_t>(params.cutoffs.types())),
       one_type_(type_count_ == 1),
       restricted_(exclusions_ != nullptr || first_ghost_ >= 0) {
-  for (int a = 0; a < type_count_; ++a) {
-    for (int b = 0; b < type_count_; ++b) {
+  for (int a = 0; a < params.cutoffs.types(); ++a) {
+    for (int b = 0; b < params.cutoffs.types(); ++b) {
       const double cutoff = params.cutoffs(a, b);
       if (cutoff == 0) {  // drops the pair, coincident ones too
         bands_.push_back({-1, -1, -1});

@@ -45,7 +45,7 @@ class PairFilter {
     double cutoff2;
   };
   const Band& band_of(std::int32_t i, std::int32_t j) const {
-    return bands_[static_cast<std::size_t>(types_[i] * type_count_ + types_[j])];
+    return bands_[static_cast<std::size_t>(types_[i]) * type_count_ + static_cast<std::size_t>(types_[j])];
   }
   bool is_wanted(std::int32_t i, std::int32_t j) const;
   bool is_within(std::int32_t i, std::int32_t j, double cutoff2) const;
@@ -55,7 +55,7 @@ class PairFilter {
   Span<const std::int32_t> types_;
   const Exclusions* exclusions_;
   std::int32_t first_ghost_;
-  int type_count_;
+  std::size_t type_count_;
   bool one_type_;
   bool restricted_;  ///< by exclusions or ghosts
   std::vector<Band> bands_;

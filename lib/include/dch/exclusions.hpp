@@ -12,8 +12,8 @@ namespace dch {
 /// Two particle indices.
 using IndexPair = std::array<std::int32_t, 2>;
 
-/// Pairs that a neighbor list leaves out. They filter the output only: the conflict graph keeps its edges, since
-/// maintenance under motion needs them.
+/// Pairs that a neighbor list leaves out. They filter the output only: the conflict graph keeps its edges,
+/// since maintenance under motion needs them.
 class Exclusions {
  public:
   Exclusions() = default;
@@ -22,8 +22,8 @@ class Exclusions {
   /// @throws InvalidParameter if an index is outside [0, n) or a pair names one particle twice.
   static Exclusions from_pairs(std::size_t n, Span<const IndexPair> pairs);
 
-  /// Excludes every pair of particles joined by a path of at most `depth` bonds: depth 1 leaves out 1-2 neighbors,
-  /// 2 also 1-3, 3 also 1-4.
+  /// Excludes every pair of particles joined by a path of at most `depth` bonds: depth 1 leaves out 1-2
+  /// neighbors, 2 also 1-3, 3 also 1-4.
   /// @throws InvalidParameter for indices as above or a depth outside 1..3.
   static Exclusions from_bonds(std::size_t n, Span<const IndexPair> bonds, int depth);
 

@@ -22,7 +22,8 @@ struct NeighborList {
 
   /// Number of rows (particles).
   std::size_t size() const { return first.size() - 1; }
-  /// Number of distinct pairs; O(1) for a half list, O(n lg degree) for a full one, whose rows of ghosts are empty.
+  /// Number of distinct pairs; O(1) for a half list, O(n lg degree) for a full one, whose rows of ghosts are
+  /// empty.
   std::int64_t pairs() const;
   Span<const std::int32_t> row(std::size_t i) const {
     return {j.data() + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
@@ -35,11 +36,15 @@ class TypeCutoffs {
   /// One type for all: a single cutoff [length].
   explicit TypeCutoffs(double cutoff);
   /// Symmetric matrix of cutoffs, row-major, types x types [length]. A cutoff of 0 drops the pair altogether.
-  /// @throws InvalidParameter if it is not square, not symmetric, or holds a negative or non-finite entry, or only 0.
+  /// @throws InvalidParameter if it is not square, not symmetric, or holds a negative or non-finite entry, or
+  /// only 0.
   TypeCutoffs(int types, std::vector<double> matrix);
 
   int types() const { return types_; }
-  double operator()(int a, int b) const { return matrix_[static_cast<std::size_t>(a * types_ + b)]; }
+  double operator()(int a, int b) const {
+    return matrix_[static_cast<std::size_t>(a) * static_cast<std::size_t>(types_) +
+                   static_cast<std::size_t>(b)];
+  }
   double largest() const { return largest_; }
 
  private:
@@ -50,17 +55,18 @@ class TypeCutoffs {
 
 /// What a list has to hold.
 ///
-/// The pair distance is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest image, evaluated in
-/// double from the positions as given, in this order; a pair is in the list iff its square is
+/// The pair distance is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest image,
+/// evaluated in double from the positions as given, in this order; a pair is in the list iff its square is
 /// <= (cutoff + skin)^2. Every engine uses this definition, so ties at the cutoff come out alike.
 struct ListParams {
   TypeCutoffs cutoffs{1.0};
-  double skin = 0;  ///< r_s >= 0 [length], added to every non-zero cutoff; the list is stale once an atom moved more than r_s/2
+  double skin = 0;  ///< r_s >= 0 [length], added to every non-zero cutoff; the list is stale once an atom
+                    ///< moved more than r_s/2
   ListKind kind = ListKind::half;
-  Span<const std::int32_t> types{};        ///< one per particle in [0, cutoffs.types()); may be empty for one type
+  Span<const std::int32_t> types{};  ///< one per particle in [0, cutoffs.types()); may be empty for one type
   const Exclusions* exclusions = nullptr;  ///< pairs left out; not owned, may be null
-  /// Particles from this index on are ghosts: pairs of two ghosts are left out, and in a full list the rows of
-  /// ghosts are empty. Negative: there are none.
+  /// Particles from this index on are ghosts: pairs of two ghosts are left out, and in a full list the rows
+  /// of ghosts are empty. Negative: there are none.
   std::int32_t first_ghost = -1;
 
   /// Largest cutoff plus skin: r_list.

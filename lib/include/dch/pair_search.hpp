@@ -18,13 +18,14 @@ struct SearchStats {
   std::int64_t repairs = 0;     ///< structures brought up to date under motion (0 for engines that cannot)
   std::int64_t promotions = 0;  ///< nodes lifted one level (DCH)
   std::int64_t demotions = 0;   ///< nodes removed from one level (DCH)
-  std::int64_t reparented = 0;  ///< nodes that lost their parent under motion and were given a place again (DCH)
-  std::int64_t inserted = 0;    ///< particles added to a standing structure
-  std::int64_t removed = 0;     ///< particles removed from a standing structure
-  int levels = 0;               ///< height of the hierarchy now (DCH)
-  double maintain_seconds = 0;  ///< spent in update()
-  double list_seconds = 0;      ///< spent in list()
-  std::size_t memory_bytes = 0; ///< held by the structure now, lists left out
+  std::int64_t reparented =
+      0;  ///< nodes that lost their parent under motion and were given a place again (DCH)
+  std::int64_t inserted = 0;     ///< particles added to a standing structure
+  std::int64_t removed = 0;      ///< particles removed from a standing structure
+  int levels = 0;                ///< height of the hierarchy now (DCH)
+  double maintain_seconds = 0;   ///< spent in update()
+  double list_seconds = 0;       ///< spent in list()
+  std::size_t memory_bytes = 0;  ///< held by the structure now, lists left out
 };
 
 /// An engine that keeps a search structure over moving particles and writes neighbor lists from it.
@@ -33,23 +34,24 @@ struct SearchStats {
 ///     search->update(positions, box);          // build, later: repair
 ///     dch::NeighborList list = search->list(params);
 ///
-/// The same input gives the same list, whatever the history of the structure. Not thread-safe; distinct objects are
-/// independent.
+/// The same input gives the same list, whatever the history of the structure. Not thread-safe; distinct
+/// objects are independent.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
 
   /// Takes new positions (any displacement, any change of the box or of the number of particles).
-  /// `keys`, if given, name the particles: one distinct number each, the same from call to call, so that a host may
-  /// re-sort, add and drop particles and the structure survives. Without keys particle i is particle i.
-  /// The positions are copied.
+  /// `keys`, if given, name the particles: one distinct number each, the same from call to call, so that a
+  /// host may re-sort, add and drop particles and the structure survives. Without keys particle i is particle
+  /// i. The positions are copied.
   /// @throws InvalidPosition; InvalidParameter if keys repeat or their number is not that of the positions;
-  ///   CutoffTooLarge if the search radius exceeds box.max_cutoff(). After a throw the structure holds nothing until
-  ///   the next successful update().
+  ///   CutoffTooLarge if the search radius exceeds box.max_cutoff(). After a throw the structure holds
+  ///   nothing until the next successful update().
   virtual void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys = {}) = 0;
 
   /// All pairs that params asks for, at the positions of the last update.
-  /// @throws InvalidParameter if params.list_radius() exceeds the radius the engine was made for, for a negative or
+  /// @throws InvalidParameter if params.list_radius() exceeds the radius the engine was made for, for a
+  /// negative or
   ///   non-finite skin, and for types or exclusions that do not fit the particles.
   virtual void list(const ListParams& params, NeighborList& out) = 0;
   NeighborList list(const ListParams& params) {
