@@ -12,7 +12,7 @@ namespace dch::detail {
 /// Numbers in error messages: the shortest text that reads back as the same double.
 inline std::string describe(double value) {
   std::array<char, 32> text;
-  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);
 }
 
