@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "list_filler.h"
 
+#include <algorithm>
 #include <atom.h>
 #include <domain.h>
 #include <neigh_list.h>
@@ -14,7 +15,7 @@ void ExclusionRules::copy_settings() {
   types_.assign(neighbor->nex_type > 0 ? static_cast<std::size_t>(stride_) * stride_ : 0, 0);
   for (int a = 1; a < stride_ && !types_.empty(); ++a) {
     for (int b = 1; b < stride_; ++b) {
-      types_[static_cast<std::size_t>(a) * stride_ + b] = neighbor->ex_type[a][b] != 0;
+      types_[static_cast<std::size_t>(a) * stride_ + b] = neighbor->ex_type[a][b] != 0 ? 1 : 0;
     }
   }
   groups_.clear();
@@ -33,10 +34,9 @@ bool ExclusionRules::excluded(int i, int j) const {
   for (const GroupPair& g : groups_) {
     if ((mask_i & g.bit1 && mask_j & g.bit2) || (mask_i & g.bit2 && mask_j & g.bit1)) return true;
   }
-  for (const Molecules& m : molecules_) {
-    if (mask_i & m.bit && mask_j & m.bit && (atom->molecule[i] == atom->molecule[j]) == m.intra) return true;
-  }
-  return false;
+  return std::any_of(molecules_.begin(), molecules_.end(), [&](const Molecules& m) {
+    return mask_i & m.bit && mask_j & m.bit && (atom->molecule[i] == atom->molecule[j]) == m.intra;
+  });
 }
 
 // The parity of the IDs decides, which every process sees alike; an atom and its own image are told apart by
@@ -99,7 +99,7 @@ int ListFiller::fill_row(std::size_t row, dch::Span<const std::int32_t> candidat
 
 void ListFiller::fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
                       NeighList& list) const {
-  const std::size_t owned = static_cast<std::size_t>(points.owned());
+  const auto owned = static_cast<std::size_t>(points.owned());
   const std::size_t rows = served.ghost ? points.atoms().size() : owned;
   const auto bound = static_cast<std::size_t>(candidates.first[rows]);
   if (served.storage.size() < bound) served.storage.resize(bound);

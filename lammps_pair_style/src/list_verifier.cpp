@@ -16,7 +16,7 @@ using dch::lammps::ListEntry;
 
 static_assert(std::is_trivially_copyable_v<AtomPair>, "pairs travel between processes as bytes");
 
-std::vector<ListEntry> ListVerifier::entries(const NeighList& list, const ServedList& served) const {
+std::vector<ListEntry> ListVerifier::entries(const NeighList& list, const ServedList& served) {
   std::vector<ListEntry> out;
   for (int row = 0; row < list.inum + (served.ghost ? list.gnum : 0); ++row) {
     const int i = list.ilist[row];

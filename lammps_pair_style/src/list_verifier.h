@@ -17,7 +17,7 @@ class ListVerifier : protected Pointers {
 
   /// The list's entries as it stands. In a half list a pair of owned atoms stands in the row of the smaller
   /// index.
-  std::vector<dch::lammps::ListEntry> entries(const NeighList& list, const ServedList& served) const;
+  static std::vector<dch::lammps::ListEntry> entries(const NeighList& list, const ServedList& served);
 
   /// Every process has to call it. Returns an empty string if the lists are equal, else a message that names
   /// the number of differing pairs and one of them; the same message on every process.

@@ -37,6 +37,14 @@ double seconds_since(double& start) {
   return now - std::exchange(start, now);
 }
 
+// Which list LAMMPS makes this one from; empty if from none.
+std::string derivation(const NeighList& list) {
+  if (list.listcopy) return "a copy of list " + std::to_string(list.listcopy->index + 1);
+  if (list.listfull) return "the half of list " + std::to_string(list.listfull->index + 1);
+  if (list.listskip) return "a part of list " + std::to_string(list.listskip->index + 1);
+  return {};
+}
+
 }  // namespace
 
 /// Restricts what Neighbor::build() builds to some of the perpetual lists while it lives.
@@ -74,15 +82,15 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
 NeighborDCH::~NeighborDCH() { show_bins(); }
 
 NeighborDCH* NeighborDCH::install(LAMMPS* lammps, dch::lammps::SearchFactory factory) {
-  if (auto* present = dynamic_cast<NeighborDCH*>(lammps->neighbor)) return present;
+  const Neighbor& present = *lammps->neighbor;
+  if (typeid(present) == typeid(NeighborDCH)) return static_cast<NeighborDCH*>(lammps->neighbor);
   if (lammps->kokkos) {
     lammps->error->all(
         FLERR,
         std::string("The dch command cannot replace the neighbor lists of KOKKOS; start LAMMPS without "
                     "'-k on'"));
   }
-  const Neighbor& stock = *lammps->neighbor;
-  if (typeid(stock) != typeid(Neighbor)) {
+  if (typeid(present) != typeid(Neighbor)) {
     lammps->error->all(
         FLERR,
         std::string("The dch command replaces LAMMPS's own neighbor class, but this LAMMPS runs another "
@@ -184,13 +192,6 @@ std::string NeighborDCH::list_name(const NeighList& list) const {
   return owner + kind + (list.ghost ? ", with ghost rows" : "");
 }
 
-std::string NeighborDCH::derivation(const NeighList& list) const {
-  if (list.listcopy) return "a copy of list " + std::to_string(list.listcopy->index + 1);
-  if (list.listfull) return "the half of list " + std::to_string(list.listfull->index + 1);
-  if (list.listskip) return "a part of list " + std::to_string(list.listskip->index + 1);
-  return {};
-}
-
 std::string NeighborDCH::reason_of_style(const NeighList& list) const {
   const int mask = pairmasks[list.pair_method - 1];
   if (mask & NP_SIZE) return "granular: cutoffs by radius";
@@ -205,8 +206,8 @@ std::string NeighborDCH::reason_of_style(const NeighList& list) const {
 
 std::string NeighborDCH::native_reason(const NeighList& list) const {
   if (list.occasional) return "built on demand only";
-  if (const std::string from = derivation(list); !from.empty()) return from;
-  if (const std::string kind = reason_of_style(list); !kind.empty()) return kind;
+  if (std::string from = derivation(list); !from.empty()) return from;
+  if (std::string kind = reason_of_style(list); !kind.empty()) return kind;
   if (list.requestor_type == NeighList::FIX || list.requestor_type == NeighList::COMPUTE) {
     return "asked for by a " + std::string(list.requestor_type == NeighList::FIX ? "fix" : "compute") +
            ", maybe with a cutoff of its own";
@@ -337,7 +338,7 @@ void NeighborDCH::build_native_reference() {
   if (were_hidden) hide_bins();
   native_entries_.clear();
   for (const ServedList& served : served_)
-    native_entries_.push_back(verifier_.entries(*lists[served.index], served));
+    native_entries_.push_back(ListVerifier::entries(*lists[served.index], served));
   run_.verified_dch_seconds -= run_.seconds();  // check_against_native() adds it again, this build included
 }
 
@@ -345,7 +346,7 @@ void NeighborDCH::check_against_native() {
   run_.verified_dch_seconds += run_.seconds();
   for (std::size_t k = 0; k < served_.size(); ++k) {
     const NeighList& list = *lists[served_[k].index];
-    std::vector<dch::lammps::ListEntry> ours = verifier_.entries(list, served_[k]);
+    std::vector<dch::lammps::ListEntry> ours = ListVerifier::entries(list, served_[k]);
     const std::string difference =
         verifier_.compare(std::move(native_entries_[k]), std::move(ours), served_[k]);
     if (difference.empty()) continue;

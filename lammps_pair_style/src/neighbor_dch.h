@@ -58,7 +58,6 @@ class NeighborDCH : public Neighbor {
   std::string list_name(const NeighList& list) const;
   std::string native_reason(const NeighList& list) const;
   std::string reason_of_style(const NeighList& list) const;
-  std::string derivation(const NeighList& list) const;
   void announce(const std::vector<dch::lammps::ListNote>& before) const;
   void show_bins();
   void hide_bins();

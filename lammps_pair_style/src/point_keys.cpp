@@ -10,7 +10,7 @@ constexpr int kShiftBits = 8;
 constexpr int kMaxShift = 127;
 
 std::uint64_t pack(std::int64_t tag, const ImageFlags& cell) {
-  std::uint64_t key = static_cast<std::uint64_t>(tag);
+  auto key = static_cast<std::uint64_t>(tag);
   for (int n : cell) key = key << kShiftBits | (static_cast<std::uint64_t>(n) & ((1u << kShiftBits) - 1));
   return key;
 }

@@ -12,6 +12,7 @@ std::string line(const char* format, ...) {
   char text[400];
   va_list arguments;
   va_start(arguments, format);
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start has just initialized it
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   return std::string(text) + "\n";
