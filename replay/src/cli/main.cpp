@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <new>
 
 #include <dch/necklace/melt.hpp>
@@ -57,6 +58,7 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace dch;
+  H5dont_atexit();  // a file on a full disk cannot be closed, and HDF5's exit handler would crash on it
   try {
     cli::catch_interrupts();
     return cli::parse_and_run(argc, argv);

@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -28,15 +29,22 @@ class Checks:
         sys.exit(1 if self.failed or not self.done else 0)
 
 
-def run(command, *arguments, timeout=600, cwd=None):
-    """Runs the command to its end; a crash, a hang or a missing file is not caught."""
-    return subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, cwd=cwd)
+def run(command, *arguments, timeout=600, cwd=None, largest_file=None):
+    """Runs the command to its end; with `largest_file`, writing more bytes to a file fails, as on a full disk."""
+
+    def limit():
+        if largest_file is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
+
+    # Python ignores SIGXFSZ, and so does the command then: the write itself fails
+    return subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, cwd=cwd,
+                          preexec_fn=limit, restore_signals=False)
 
 
-def expect_failure(checks, command, arguments, status, parts, cwd=None):
+def expect_failure(checks, command, arguments, status, parts, largest_file=None):
     """The command ends with this status and a message of its own that holds all parts, and leaves no file behind."""
     with tempfile.TemporaryDirectory() as folder:
-        result = run(command, *arguments, cwd=cwd or folder)
+        result = run(command, *arguments, cwd=folder, largest_file=largest_file)
         what = "dch " + " ".join(map(str, arguments))
         checks.that(result.returncode == status, f"{what}: status {result.returncode}, not {status}: {result.stderr}")
         checks.that(result.stderr.startswith("dch: "), f"{what}: no message: {result.stderr!r}")

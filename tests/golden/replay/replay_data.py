@@ -38,11 +38,12 @@ def check_engines(checks, command, path, cutoff, facts):
                         f"{path} --cutoff {cutoff!r}: {key} of {engine} differs from that of dch")
 
 
-def check_skin_and_full(checks, command, path, cutoff):
+def check_skin_and_full(checks, command, path, cutoff, facts):
     """The same stale list for every engine; full lists hold the pairs of half ones."""
     options = ["--cutoff", repr(cutoff), "--skin", repr(0.15 * cutoff)]
     reports = []
-    for extra in (["--verify", "all"], ["--verify", "all", "--full", "--policy", "repair"],
+    how = "all" if facts["atoms"] <= MOST_ATOMS_VERIFIED_TWICE else "sample"
+    for extra in (["--verify", how], ["--verify", how, "--full", "--policy", "repair"],
                   ["--engine", "cell", "--verify", "sample"]):
         what = f"{path} {' '.join(options + extra)}"
         result, report = replay(command, path, *options, *extra)
@@ -60,7 +61,7 @@ def main(command, path):
     cutoffs = three_cutoffs(facts["smallest_box_height"])
     for cutoff in cutoffs:
         check_engines(checks, command, path, cutoff, facts)
-    check_skin_and_full(checks, command, path, cutoffs[1])
+    check_skin_and_full(checks, command, path, cutoffs[1], facts)
     checks.finish()
 
 

@@ -83,6 +83,18 @@ def check_outputs_that_cannot_be(checks, command, data):
                                          os.path.join(folder, "no", "m.data")], 3, ["no/m.data"])
 
 
+def check_full_disk(checks, command, data):
+    """Writing fails half-way: exit status 3, and no half-written file."""
+    polymer = os.path.join(data, "polymer.lammpstrj")
+    replay = ["replay", polymer, "--cutoff", "12", "--frames", "::4"]
+    for arguments in (replay + ["--out", "lists.h5"], replay + ["--report", "report.json"], replay + ["--plot", "page.html"],
+                      ["convert", polymer, "out.h5"], ["convert", polymer, "out.lammpstrj"],
+                      ["generate", "melt", "--chains", "20", "--beads", "50", "melt.data"]):
+        for largest_file in (0, 1000):
+            message = expect_failure(checks, command, arguments, 3, [arguments[-1]], largest_file)
+        print(message.strip(), flush=True)
+
+
 def check_help(checks, command):
     for arguments, parts in ((["--help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
                              (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
@@ -105,6 +117,7 @@ def main(command, data):
         message = expect_failure(checks, command, arguments, 2, parts)
         print(message.strip(), flush=True)
     check_outputs_that_cannot_be(checks, command, data)
+    check_full_disk(checks, command, data)
     check_help(checks, command)
     checks.finish()
 
