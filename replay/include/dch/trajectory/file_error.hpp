@@ -7,8 +7,8 @@
 
 namespace dch::trajectory {
 
-/// A file that cannot be read, is broken, or cannot be written. The message names the file, the frame (from 0) and the
-/// line or byte offset where they are known, what was found and what was expected.
+/// A file that cannot be read, is broken, or cannot be written. The message names the file, the frame (from
+/// 0) and the line or byte offset where they are known, what was found and what was expected.
 class FileError : public Error {
  public:
   using Error::Error;

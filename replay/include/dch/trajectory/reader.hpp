@@ -15,20 +15,23 @@ class TrajectoryReader {
 
   /// Reads the next frame; false at the end of the file.
   ///
-  /// A LAMMPS dump with ids may hold other atoms in each frame, so frame.ids may change in number and value; atoms keep
-  /// their ids. In all other files every frame has the atoms of the first.
-  /// @throws FileError if the file is broken or ends inside a frame, if a coordinate is not finite or larger than
-  ///   kMaxCoordinate, if the box has a zero or negative extent, if an id occurs twice in a frame, or if the number of
-  ///   atoms changes in a file without ids. Reading on after a throw is not possible.
+  /// A LAMMPS dump with ids may hold other atoms in each frame, so frame.ids may change in number and value;
+  /// atoms keep their ids. In all other files every frame has the atoms of the first.
+  /// @throws FileError if the file is broken or ends inside a frame, if a coordinate is not finite or larger
+  /// than
+  ///   kMaxCoordinate, if the box has a zero or negative extent, if an id occurs twice in a frame, or if the
+  ///   number of atoms changes in a file without ids. Reading on after a throw is not possible.
   virtual bool read(Frame& frame) = 0;
 
-  virtual std::string format() const = 0;       ///< "LAMMPS dump", "GROMACS XTC", "DCD", "H5MD", ...
-  virtual std::string length_unit() const = 0;  ///< "nm", "Angstrom", "the dump's unit", or what the file says
+  virtual std::string format() const = 0;  ///< "LAMMPS dump", "GROMACS XTC", "DCD", "H5MD", ...
+  virtual std::string length_unit()
+      const = 0;  ///< "nm", "Angstrom", "the dump's unit", or what the file says
 };
 
-/// Opens a trajectory by its file name: .lammpstrj .dump .lammpstrj.gz .dump.gz (LAMMPS text dump), .xtc .trr .gro
-/// (GROMACS), .dcd (CHARMM/NAMD), .h5 .h5md (H5MD).
-/// @throws FileError if the file does not exist, cannot be read, is empty, or its ending is unknown (the message lists
+/// Opens a trajectory by its file name: .lammpstrj .dump .lammpstrj.gz .dump.gz (LAMMPS text dump), .xtc .trr
+/// .gro (GROMACS), .dcd (CHARMM/NAMD), .h5 .h5md (H5MD).
+/// @throws FileError if the file does not exist, cannot be read, is empty, or its ending is unknown (the
+/// message lists
 ///   those known).
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
 

@@ -15,9 +15,9 @@ struct Topology {
   std::string source;  ///< where they came from, for messages
 };
 
-/// Reads bonds from a LAMMPS data file (.data, .lmp, data.*), a text file of bonds (.bonds: two ids a line) or of
-/// chains (.chains: the ids of one chain in order a line, or ranges first-last, "ring" first for closed ones); '#'
-/// starts a comment.
+/// Reads bonds from a LAMMPS data file (.data, .lmp, data.*), a text file of bonds (.bonds: two ids a line)
+/// or of chains (.chains: the ids of one chain in order a line, or ranges first-last, "ring" first for closed
+/// ones); '#' starts a comment.
 /// @param ids the frame's ids, ascending
 /// @throws FileError naming file and line for unknown endings, unknown ids, bonds of an atom with itself.
 Topology read_topology(const std::string& path, const std::vector<std::int64_t>& ids);

@@ -8,8 +8,8 @@
 
 namespace dch::trajectory {
 
-/// Writes frames to a new file. The file appears under its name only when close() succeeds: until then it is written
-/// beside it under a temporary name, which the destructor removes.
+/// Writes frames to a new file. The file appears under its name only when close() succeeds: until then it is
+/// written beside it under a temporary name, which the destructor removes.
 class TrajectoryWriter {
  public:
   virtual ~TrajectoryWriter() = default;
