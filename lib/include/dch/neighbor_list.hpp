@@ -55,10 +55,10 @@ class TypeCutoffs {
 
 /// What a list has to hold.
 ///
-/// The pair distance of i < j is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest image,
-/// evaluated in double from the positions and the cell vectors as given, in this order; a pair is in the list
-/// iff its square is <= (cutoff + skin)^2 (at half a period, where two images are equally near, for either of
-/// them). Every engine uses this definition, so ties at the cutoff come out alike.
+/// The pair distance of i < j is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest
+/// image, evaluated in double from the positions and the cell vectors as given, in this order; a pair is in
+/// the list iff its square is <= (cutoff + skin)^2 (at half a period, where two images are equally near, for
+/// either of them). Every engine uses this definition, so ties at the cutoff come out alike.
 struct ListParams {
   TypeCutoffs cutoffs{1.0};
   double skin = 0;  ///< r_s >= 0 [length], added to every non-zero cutoff; the list is stale once an atom
