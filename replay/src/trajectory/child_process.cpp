@@ -40,8 +40,10 @@ class Descriptor {
 };
 
 /// A handler of the host, run in the child, would do the host's work twice (remove its temporary files, say).
+/// Signals that a terminal sends to both are for the host to answer: the child ends when the host hangs up.
 void reset_signal_handlers() {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
 }
 
 /// Exit handlers run in reverse order, so this one comes before all those of the host.

@@ -10,8 +10,9 @@ namespace dch::trajectory {
 /// A copy of this process that runs one function and talks with its parent through a pair of sockets.
 ///
 /// In the child, stdin and stdout are /dev/null, stderr is kept in a nameless file, signal handlers are
-/// reset, no core file is written, and exit() ends it at once, without the exit handlers, stream buffers and
-/// static objects that belong to the host. The destructor kills a child that still runs.
+/// reset, signals from the terminal ignored, no core file is written, and exit() ends it at once, without the
+/// exit handlers, stream buffers and static objects that belong to the host. The destructor kills a child
+/// that still runs.
 class ChildProcess {
  public:
   /// @param body gets the child's socket; when it returns, the child ends

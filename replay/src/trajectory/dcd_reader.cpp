@@ -101,7 +101,7 @@ void DcdReader::read_coordinate(int axis, Frame& frame) {
       records_.next(kNames[static_cast<std::size_t>(axis)], static_cast<std::int64_t>(4 * count));
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t atom = only_free ? static_cast<std::size_t>(header_.free_atoms[k]) : k;
-    const double value = static_cast<double>(decode<float>(data.data() + 4 * k, header_.order));
+    const auto value = static_cast<double>(decode<float>(data.data() + 4 * k, header_.order));
     if (!is_valid_coordinate(value)) {
       records_.fail_in_last(fmt::format("the {} coordinate of atom {} is {}", "xyz"[axis], atom + 1, value));
     }

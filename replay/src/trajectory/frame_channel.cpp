@@ -59,7 +59,7 @@ bool FrameSender::send_kind(Message kind) { return send(&kind, sizeof kind); }
 
 bool FrameSender::send_error(const std::string& what) { return send_kind(Message::error) && send_text(what); }
 
-bool FrameSender::send(const void* data, std::size_t size) {
+bool FrameSender::send(const void* data, std::size_t size) const {
   const char* bytes = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t done = ::send(descriptor_, bytes, size, MSG_NOSIGNAL);
@@ -107,7 +107,7 @@ bool FrameReceiver::receive_text(std::string& text) {
   return true;
 }
 
-bool FrameReceiver::receive(void* data, std::size_t size) {
+bool FrameReceiver::receive(void* data, std::size_t size) const {
   char* bytes = static_cast<char*>(data);
   while (size > 0) {
     const ssize_t done = ::read(descriptor_, bytes, size);

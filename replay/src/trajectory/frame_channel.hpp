@@ -31,7 +31,7 @@ class FrameSender {
 
  private:
   bool send_kind(Message kind);
-  bool send(const void* data, std::size_t size);
+  bool send(const void* data, std::size_t size) const;
   bool send_text(const std::string& text);
   template <class T>
   bool send_array(const std::vector<T>& values);
@@ -49,7 +49,7 @@ class FrameReceiver {
   bool receive_text(std::string& text);
 
  private:
-  bool receive(void* data, std::size_t size);
+  bool receive(void* data, std::size_t size) const;
   template <class T>
   bool receive_array(std::vector<T>& values);
 

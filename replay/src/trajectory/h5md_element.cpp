@@ -92,7 +92,7 @@ void H5mdElement::read_shape() {
 
 std::size_t H5mdElement::count() const {
   return static_cast<std::size_t>(
-      std::accumulate(shape_.begin(), shape_.end(), hsize_t{1}, std::multiplies<hsize_t>()));
+      std::accumulate(shape_.begin(), shape_.end(), hsize_t{1}, std::multiplies<>()));
 }
 
 template <class T>

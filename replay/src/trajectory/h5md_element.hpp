@@ -42,7 +42,7 @@ class H5mdElement {
 
  private:
   void open_fixed(hid_t group, const std::string& name);
-  void open_group(hid_t group, const std::string& name);
+  void open_group(hid_t parent, const std::string& name);
   void read_shape();
   void read_raw(std::int64_t frame, hid_t type, void* values) const;
   template <class T>

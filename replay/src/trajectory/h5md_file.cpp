@@ -21,9 +21,8 @@ Hdf5Handle create_group(hid_t parent, const char* name) {
 
 std::array<double, 9> matrix_of(const Box& box) {
   std::array<double, 9> matrix{};
-  for (int row = 0; row < 3; ++row) {
-    const Vec3 edge = box.vector(row);
-    for (int k = 0; k < 3; ++k) matrix[static_cast<std::size_t>(3 * row + k)] = edge[k];
+  for (std::size_t k = 0; k < matrix.size(); ++k) {
+    matrix[k] = box.vector(static_cast<int>(k / 3))[static_cast<int>(k % 3)];
   }
   return matrix;
 }

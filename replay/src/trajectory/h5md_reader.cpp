@@ -122,7 +122,7 @@ void H5mdReader::open_box() {
   const std::vector<std::string> boundary = read_string_attribute(box.get(), "boundary");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string* word = boundary.size() == 3   ? &boundary[axis]
-                              : boundary.size() == 1 ? &boundary[0]
+                              : boundary.size() == 1 ? &boundary.front()
                                                      : nullptr;
     if (word == nullptr || (*word != "periodic" && *word != "none")) {
       fail(path_, fmt::format(

@@ -34,6 +34,7 @@ bool write_attribute(hid_t object, const std::string& name, const std::string& t
 bool write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts) {
   const Hdf5Handle type = text_type();
   std::vector<const char*> data;
+  data.reserve(texts.size());
   for (const std::string& text : texts) data.push_back(text.c_str());
   return write(object, name, type.get(), array_of(data.size()), data.data());
 }

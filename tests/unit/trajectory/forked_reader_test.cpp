@@ -158,6 +158,11 @@ TEST(ForkedReader, LeavesNoProcessBehind) {
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // no children at all
 }
 
+TEST(ForkedReader, LeavesSignalsOfTheTerminalToTheHost) {
+  ForkedReader reader = make([]() -> bool { return std::raise(SIGINT) + std::raise(SIGTERM) != 0; });
+  EXPECT_EQ(read_all(reader).size(), 2u);
+}
+
 TEST(ForkedReader, KeepsOnlyTheLatestWords) {
   expect_failure(
       []() -> bool {

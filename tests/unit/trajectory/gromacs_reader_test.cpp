@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -140,6 +142,27 @@ TEST_F(GromacsReader, RefusesBrokenXtc) {
               HasSubstr("index of the step size from 9 to 72, found 73"));
   EXPECT_THAT(with(0x58, string("\0\0\0\x01", 4)), HasSubstr("1 bytes cannot hold"));
   EXPECT_THAT(with(0x9b, "\xff"), AllOf(HasSubstr("frame 1, byte 152"), HasSubstr("magic number")));
+}
+
+TEST_F(GromacsReader, ReadsXtcOfAFewAtoms) {
+  // Up to nine atoms are not compressed: the number of atoms and the coordinates follow the box.
+  const auto integer = [](std::int32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const auto real = [&](float value) { return integer(std::bit_cast<std::int32_t>(value)); };
+  std::string frame = integer(1995) + integer(2) + integer(30) + real(0.5f);
+  for (const float value : {4.f, 0.f, 0.f, 0.f, 5.f, 0.f, 0.f, 0.f, 6.f}) frame += real(value);
+  frame += integer(2);
+  for (const float value : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f}) frame += real(value);
+  const auto frames = read_all(folder_.write("test.xtc", frame + frame));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].step, 30);
+  EXPECT_EQ(frames[1].box, Box::orthorhombic({4, 5, 6}));
+  EXPECT_THAT(frames[1].positions, ElementsAre(Vec3{1, 2, 3}, Vec3{4, 5, 6}));
+  frame.replace(frame.size() - 4, 4, real(std::numeric_limits<float>::infinity()));
+  EXPECT_THAT(error("test.xtc", frame), AllOf(HasSubstr("frame 0, byte 76"), HasSubstr("holds inf")));
 }
 
 constexpr const char* kGro =

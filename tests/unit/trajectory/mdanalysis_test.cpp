@@ -40,9 +40,11 @@ void compare(const std::string& path, const std::vector<Frame>& frames) {
 class MDAnalysisReads : public testing::TestWithParam<const char*> {};
 
 TEST_P(MDAnalysisReads, TheSameFrames) {
-  if (std::string(GetParam()) == "nacl.lammpstrj")
-    return;  // has no ids: MDAnalysis takes xs, the first column, for them
-  compare(data_path(GetParam()), read_all(data_path(GetParam())));
+  const std::string name = GetParam();
+  if (name == "nacl.lammpstrj") return;  // has no ids: MDAnalysis takes xs, the first column, for them
+  const ScratchFolder folder;            // MDAnalysis leaves index files beside what it reads
+  const std::string copy = folder.write(name, read_file(data_path(name)));
+  compare(copy, read_all(copy));
 }
 
 TEST_P(MDAnalysisReads, TheH5mdFileWrittenFromThem) {
