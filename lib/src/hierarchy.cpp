@@ -25,8 +25,17 @@ double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(params.
 
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
-  if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i);
-  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0));
+  if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
+  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + wrap_slack;
+}
+
+void Hierarchy::Impl::set_wrap_slack(Span<const Vec3> positions) {
+  const detail::WrapError error(box);
+  wrap_slack = 2 * error.bound(error.largest_reach(positions));  // twice, so that insertions seldom exceed it
+  for (int i = 0; i <= top(); ++i) {
+    levels[i].threshold = threshold_of_level(i);
+    levels[i].threshold2 = levels[i].threshold * levels[i].threshold;
+  }
 }
 
 void Hierarchy::Impl::push_level() {
@@ -65,6 +74,7 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
 
 void Hierarchy::Impl::reset(const Box& b) {
   box = b;
+  wrap_slack = 0;
   levels.clear();
   raw.clear();
   slot_of_id.clear();
@@ -79,6 +89,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   detail::check_positions(positions, b);
   detail::check_radius(params.radius, b);
   const auto n = positions.size();
+  set_wrap_slack(positions);
   raw.assign(n, Vec3{});
   slot_of_id.assign(n, kNone);
   levels[0].position.reserve(n);

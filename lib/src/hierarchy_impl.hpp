@@ -46,12 +46,16 @@ struct Hierarchy::Impl {
   detail::CostEstimate sweep_per_point;  ///< of a repair that finds nothing to change
   detail::CostEstimate per_orphan;       ///< to give one orphan a parent or promote it
 
+  /// Added to the thresholds of all levels but 0: how far the distance of wrapped points may be from the pair
+  /// distance that lists go by. About 1e-13 of the box, more if a point lies very many boxes away.
+  double wrap_slack = 0;
   std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   bool stores_edges(int level) const { return level >= kFirstStoredLevel; }
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
+  void set_wrap_slack(Span<const Vec3> positions);
 
   // hierarchy.cpp: whole-structure operations
   void reset(const Box& b);

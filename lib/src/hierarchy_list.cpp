@@ -45,7 +45,7 @@ class PairCollector {
                      double max_cutoff) {
     const Level& centers = levels[cluster_level];
     const bool are_roots = cluster_level + 1 == static_cast<int>(levels.size());
-    const double list_radius = request.list_radius();
+    const double list_radius = std::sqrt(filter_.largest_distance2());
     siblings_.fill(levels, cluster_level);
     const double largest_extent = measure_clusters(levels[0], centers, request.first_ghost);
     const bool relative = (list_radius + 2 * largest_extent) * kInflate < max_cutoff;
@@ -161,11 +161,15 @@ class PairCollector {
 void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
   const auto start = std::chrono::steady_clock::now();
   detail::check_list_params(request, raw.size(), params.radius);
-  const detail::WrapError wrap_error(box);
+  const detail::WrapError wrap(box);
+  const double wrap_error = wrap.bound(wrap.largest_reach(raw));
+  if (wrap_error > wrap_slack) {  // points inserted since the last update lie much farther out
+    set_wrap_slack(raw);
+    with_metric(box, [&](const auto& metric) { repair(metric, 0); });
+  }
   const double rounding =
       32 * std::numeric_limits<double>::epsilon() * params.radius;  // of relative positions
-  const detail::PairFilter filter(raw, box, request,
-                                  wrap_error.bound(wrap_error.largest_reach(raw)) + rounding);
+  const detail::PairFilter filter(raw, box, request, wrap_error + rounding);
   pairs.clear();
   with_metric(box, [&](const auto& metric) {
     PairCollector collector(metric, filter, pairs);

@@ -46,6 +46,7 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
       box = b;
       with_metric(box, [&](const auto& metric) {
         refresh_positions(positions);
+        set_wrap_slack(raw);
         const auto counting = Clock::now();
         const std::int64_t orphans = count_orphans(metric);
         const double check_seconds = seconds_since(counting);

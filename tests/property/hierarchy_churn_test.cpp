@@ -134,6 +134,20 @@ TEST(HierarchyChurn, CoincidentAndFarPointsMayComeAndGo) {
   }
 }
 
+// Wrapping a point from many boxes away costs digits, which the thresholds have to allow for before the next
+// update.
+TEST(HierarchyChurn, PointsInsertedFromFarOutsideTheBoxAreListedRightly) {
+  const Box box = Box::orthorhombic({5, 5.5, 6});
+  Hierarchy hierarchy(params_with(EdgeRule::additive, 16));
+  hierarchy.build(scenes::uniform_in(box, 400, 3), box);
+  scenes::Random random(4);
+  for (int k = 0; k < 20; ++k) hierarchy.insert(random.in_cube(1e12));
+  NeighborList list;
+  hierarchy.list(whole_list(), list);
+  EXPECT_EQ(first_difference(list, oracle_by_id(hierarchy)), "");
+  EXPECT_EQ(hierarchy.validate(), "");
+}
+
 /// A host that re-sorts, drops and adds particles at every step, naming them by key.
 TEST(HierarchyChurn, KeysCarryTheStructureThroughRenumbering) {
   struct Particle {

@@ -113,8 +113,9 @@ class Hierarchy {
   /// root.
   /// @throws InvalidParameter if the point does not stand in level i.
   std::int32_t parent(std::int32_t id, int i) const;
-  /// Ids of the neighbors in level i of G_c, ascending. Those of levels 0 and 1 are
-  /// enumerated among the children of neighboring parents (Lemma 5.3.1(5)).
+  /// Ids of the neighbors in level i of G_c, ascending. Where a level holds
+  /// most of the points its edges are not stored, but enumerated among the children of neighboring parents
+  /// (Lemma 5.3.1(5)).
   /// @throws InvalidParameter if the point does not stand in level i.
   std::vector<std::int32_t> neighbors(std::int32_t id, int i) const;
 

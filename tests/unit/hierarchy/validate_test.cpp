@@ -51,16 +51,16 @@ TEST_F(ValidateTest, ReportsAPointFarFromItsParent) {
 }
 
 TEST_F(ValidateTest, ReportsAMissingEdge) {
-  auto& level = inside().levels[2];
-  const std::int32_t k = plain_node(2);
+  auto& level = inside().levels[kFirstStoredLevel];
+  const std::int32_t k = plain_node(kFirstStoredLevel);
   ASSERT_FALSE(level.edges.row(k).empty());
   level.edges.erase(k, level.edges.row(k)[0]);
   expect_report("is missing");
 }
 
 TEST_F(ValidateTest, ReportsAnEdgeBeyondTheThreshold) {
-  auto& level = inside().levels[2];
-  level.threshold2 *= 0.5;
+  auto& level = inside().levels[kFirstStoredLevel];
+  level.threshold2 *= 0.01;
   expect_report("should not exist");
 }
 
