@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <dch/necklace/chains.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
+
+#include <dch/necklace/chains.hpp>
 
 namespace dch::necklace {
 
@@ -22,7 +22,8 @@ std::string bond_name(std::int32_t a, std::int32_t b) {
 
 void check_index(std::int32_t bead, std::size_t particles) {
   if (bead < 0 || static_cast<std::size_t>(bead) >= particles) {
-    throw InvalidParameter(bead_name(bead) + " does not exist: indices run from 0 to the number of particles, " +
+    throw InvalidParameter(bead_name(bead) +
+                           " does not exist: indices run from 0 to the number of particles, " +
                            std::to_string(particles) + ", exclusive");
   }
 }
@@ -72,8 +73,8 @@ class BondGraph {
   void join(std::int32_t bead, std::int32_t partner) {
     auto& slots = partners_[static_cast<std::size_t>(bead)];
     if (slots[1] != kNone) {
-      throw InvalidParameter(bead_name(bead) + " has three or more bonds (to " + std::to_string(slots[0]) + ", " +
-                             std::to_string(slots[1]) + " and " + std::to_string(partner) +
+      throw InvalidParameter(bead_name(bead) + " has three or more bonds (to " + std::to_string(slots[0]) +
+                             ", " + std::to_string(slots[1]) + " and " + std::to_string(partner) +
                              "); a chain has two at most, so leave side groups and cross-links out");
     }
     slots[slots[0] == kNone ? 0 : 1] = partner;
@@ -162,7 +163,8 @@ Chains Chains::from_molecules(Span<const std::int32_t> molecules) {
       throw InvalidParameter(bead_name(*begin) + " has the molecule number " + std::to_string(number) +
                              "; they start from 1, and 0 means none");
     }
-    const auto end = std::find_if(begin, order.end(), [&](std::int32_t bead) { return molecule(bead) != number; });
+    const auto end =
+        std::find_if(begin, order.end(), [&](std::int32_t bead) { return molecule(bead) != number; });
     if (number > 0) chains.add({&*begin, static_cast<std::size_t>(end - begin)});
     begin = end;
   }
@@ -172,8 +174,8 @@ Chains Chains::from_molecules(Span<const std::int32_t> molecules) {
 void Chains::add(Span<const std::int32_t> beads, bool closed) {
   if (beads.empty()) throw InvalidParameter("a chain has no bead; it needs one at least");
   if (closed && beads.size() < 3) {
-    throw InvalidParameter("the ring at bead " + std::to_string(beads[0]) + " has " + std::to_string(beads.size()) +
-                           " beads; it needs three at least");
+    throw InvalidParameter("the ring at bead " + std::to_string(beads[0]) + " has " +
+                           std::to_string(beads.size()) + " beads; it needs three at least");
   }
   const auto chain = static_cast<std::int32_t>(size());
   std::size_t entered = 0;

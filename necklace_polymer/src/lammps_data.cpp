@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <ostream>
+#include <unistd.h>
 
 #include <dch/necklace/melt.hpp>
 
@@ -85,7 +84,9 @@ void write_lammps_data(std::ostream& out, const Melt& melt) {
   for (std::size_t k = 0; k < beads; ++k) {
     const Vec3 p = melt.positions[k];
     const auto& image = melt.images[k];
-    out << (Line() << k + 1 << melt.molecules[k] << 1 << p.x << p.y << p.z << image[0] << image[1] << image[2]).text();
+    out << (Line() << k + 1 << melt.molecules[k] << 1 << p.x << p.y << p.z << image[0] << image[1]
+                   << image[2])
+               .text();
   }
   if (melt.bonds.empty()) return;
   out << "\nBonds\n\n";

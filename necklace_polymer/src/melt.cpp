@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <dch/necklace/melt.hpp>
-
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <dch/necklace/melt.hpp>
 
 namespace dch::necklace {
 
 namespace {
 
-/// Random numbers whose bits do not depend on the platform: the standard fixes std::mt19937_64 but not what its
-/// distributions do with it, and sine and cosine differ between mathematics libraries.
+/// Random numbers whose bits do not depend on the platform: the standard fixes std::mt19937_64 but not what
+/// its distributions do with it, and sine and cosine differ between mathematics libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -34,8 +34,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Cube root by Newton's method from above, which decreases until rounding stops it. std::cbrt may differ in the last
-/// bit between platforms.
+/// Cube root by Newton's method from above, which decreases until rounding stops it. std::cbrt may differ in
+/// the last bit between platforms.
 double cube_root(double value) {
   double root = value > 1 ? value : 1;
   for (;;) {
@@ -67,7 +67,8 @@ void check(const MeltParams& p) {
 }
 
 double box_side(const MeltParams& p) {
-  const double side = cube_root(static_cast<double>(p.chains) * static_cast<double>(p.beads_per_chain) / p.density);
+  const double side =
+      cube_root(static_cast<double>(p.chains) * static_cast<double>(p.beads_per_chain) / p.density);
   require(std::isfinite(side) && side >= 4 * p.bond,
           "the box would be " + std::to_string(side) + " wide, which is less than four bonds of " +
               std::to_string(p.bond) + "; take more beads or a lower density");
@@ -105,7 +106,8 @@ Vec3 next_bond(Random& random, const MeltParams& params, Vec3 previous_bond, boo
 Melt make_melt(const MeltParams& params) {
   check(params);
   const double side = box_side(params);
-  const auto beads = static_cast<std::size_t>(params.chains) * static_cast<std::size_t>(params.beads_per_chain);
+  const auto beads =
+      static_cast<std::size_t>(params.chains) * static_cast<std::size_t>(params.beads_per_chain);
   Random random(params.seed);
   Melt melt;
   melt.box = Box::orthorhombic({side, side, side});
@@ -124,7 +126,8 @@ Melt make_melt(const MeltParams& params) {
         const auto index = static_cast<std::int32_t>(melt.positions.size());
         melt.bonds.push_back({index - 1, index});
       }
-      for (int axis = 0; axis < 3; ++axis) image[static_cast<std::size_t>(axis)] += wrap(position[axis], side);
+      for (int axis = 0; axis < 3; ++axis)
+        image[static_cast<std::size_t>(axis)] += wrap(position[axis], side);
       melt.positions.push_back(position);
       melt.images.push_back(image);
       melt.molecules.push_back(chain);

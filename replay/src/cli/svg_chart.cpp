@@ -161,10 +161,10 @@ std::string logarithmic_bars(const std::vector<LabelledBar>& bars, const std::st
   constexpr double kPitch = 26, kBar = 18, kRoomForNotes = 190;
   double largest = 10;
   for (const LabelledBar& bar : bars) largest = std::max(largest, bar.value);
-  const double decades = std::ceil(std::log10(largest) - 1e-9);
+  const int decades = static_cast<int>(std::ceil(std::log10(largest) - 1e-9));
   SvgCanvas canvas(SvgCanvas::kTop + kPitch * static_cast<double>(bars.size()) + 48);
-  const Scale x{0, decades, SvgCanvas::kLeft, SvgCanvas::kRight - kRoomForNotes};
-  for (double decade = 0; decade <= decades; ++decade) {
+  const Scale x{0, static_cast<double>(decades), SvgCanvas::kLeft, SvgCanvas::kRight - kRoomForNotes};
+  for (int decade = 0; decade <= decades; ++decade) {
     canvas.line(x(decade), SvgCanvas::kTop, x(decade), canvas.bottom(), "grid");
     canvas.text(x(decade), canvas.bottom() + 18, tick_label(std::pow(10, decade)), "x-tick");
   }

@@ -76,7 +76,7 @@ Verifier::Verifier(VerifyMode mode, const ListParams& params, std::int64_t frame
 
 void Verifier::check(const Subject& subject) {
   if (result_.mode == VerifyMode::none) return;
-  if (result_.mode == VerifyMode::sample && sampled_.count(subject.ordinal) == 0) return;
+  if (result_.mode == VerifyMode::sample && !sampled_.contains(subject.ordinal)) return;
   result_.frames.push_back(subject.index);
   ListParams params = params_;
   if (!subject.list_is_new) params.skin = 0;

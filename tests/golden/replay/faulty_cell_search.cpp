@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands in for the library's cell search when it is linked first: all pairs, but one pair is lost and one invented.
+// Stands in for the library's cell search when it is linked first: all pairs, but one pair is lost and one
+// invented.
 #include <vector>
 
 #include <dch/all_pairs.hpp>

@@ -16,7 +16,9 @@ std::vector<CompiledHeader>& compiled_headers() {
 
 namespace {
 
-TEST(PublicHeaders, EachCompilesAlone) { EXPECT_EQ(compiled_headers().size(), std::size_t{DCH_HEADER_COUNT}); }
+TEST(PublicHeaders, EachCompilesAlone) {
+  EXPECT_EQ(compiled_headers().size(), std::size_t{DCH_HEADER_COUNT});
+}
 
 TEST(PublicHeaders, EachIsCpp17) {
   for (const CompiledHeader& header : compiled_headers()) EXPECT_EQ(header.standard, 201703L) << header.name;

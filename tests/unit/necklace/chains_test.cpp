@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <gmock/gmock.h>
 #include <string>
 #include <vector>
 
 #include <dch/necklace/chains.hpp>
-
-#include <gmock/gmock.h>
 
 namespace {
 
@@ -66,7 +65,8 @@ TEST(Chains, NoBondsNoChains) {
 }
 
 TEST(Chains, RefusesGraphsThatAreNoNecklaces) {
-  EXPECT_THAT(bond_error(5, {{0, 2}, {2, 1}, {4, 2}}), HasSubstr("bead 2 has three or more bonds (to 0, 1 and 4)"));
+  EXPECT_THAT(bond_error(5, {{0, 2}, {2, 1}, {4, 2}}),
+              HasSubstr("bead 2 has three or more bonds (to 0, 1 and 4)"));
   EXPECT_THAT(bond_error(5, {{3, 3}}), HasSubstr("bond 3-3 joins a bead with itself"));
   EXPECT_THAT(bond_error(5, {{0, 1}, {1, 0}}), HasSubstr("bond 1-0 is given twice"));
   EXPECT_THAT(bond_error(5, {{0, 5}}), HasSubstr("bead 5 does not exist"));

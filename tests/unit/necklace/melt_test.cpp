@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -12,8 +13,6 @@
 
 #include <dch/necklace/chains.hpp>
 #include <dch/necklace/melt.hpp>
-
-#include <gmock/gmock.h>
 
 namespace {
 
@@ -104,8 +103,7 @@ TEST(Melt, BondsAndMoleculesDescribeTheSameChains) {
 TEST(Melt, UnwrappingAgreesWithTheImages) {
   const Melt melt = make_melt(small_melt());
   const std::vector<Vec3> expected = whole(melt);
-  const std::vector<Vec3> x =
-      unwrap(Chains::from_molecules(melt.molecules), melt.positions, melt.box);
+  const std::vector<Vec3> x = unwrap(Chains::from_molecules(melt.molecules), melt.positions, melt.box);
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LT(norm2(x[k] - expected[k]), 1e-22) << "bead " << k;
 }
 
@@ -117,8 +115,10 @@ TEST(Melt, WalksAreIdealAtLargeDistance) {
   const std::vector<Vec3> x = whole(melt);
   double sum = 0;
   for (std::size_t chain = 0; chain < 400; ++chain) sum += norm2(x[100 * chain + 99] - x[100 * chain]);
-  // Bond angles with cos > cos_min uniform: <cos> = (1 + cos_min)/2, <R^2> = b^2 N C with the freely rotating chain's C.
-  const double cos_min = params.min_distance_13 * params.min_distance_13 / (2 * params.bond * params.bond) - 1;
+  // Bond angles with cos > cos_min uniform: <cos> = (1 + cos_min)/2, <R^2> = b^2 N C with the freely rotating
+  // chain's C.
+  const double cos_min =
+      params.min_distance_13 * params.min_distance_13 / (2 * params.bond * params.bond) - 1;
   const double cosine = (1 + cos_min) / 2;
   const double bonds = 99;
   const double expected = params.bond * params.bond *
@@ -204,9 +204,10 @@ TEST(LammpsData, HeaderOfASmallMelt) {
   params.density = 1;
   std::ostringstream file;
   write_lammps_data(file, make_melt(params));
-  EXPECT_THAT(file.str(), testing::StartsWith("bead-spring melt\n\n125 atoms\n0 bonds\n1 atom types\n1 bond types\n\n"
-                                              "0 5 xlo xhi\n0 5 ylo yhi\n0 5 zlo zhi\n\nMasses\n\n1 1\n\n"
-                                              "Atoms # bond\n\n1 1 1 "));
+  EXPECT_THAT(file.str(),
+              testing::StartsWith("bead-spring melt\n\n125 atoms\n0 bonds\n1 atom types\n1 bond types\n\n"
+                                  "0 5 xlo xhi\n0 5 ylo yhi\n0 5 zlo zhi\n\nMasses\n\n1 1\n\n"
+                                  "Atoms # bond\n\n1 1 1 "));
   EXPECT_THAT(file.str(), testing::Not(testing::HasSubstr("Bonds")));
 }
 

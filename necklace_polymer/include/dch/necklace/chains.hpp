@@ -12,43 +12,45 @@
 
 namespace dch::necklace {
 
-/// The periodic images of the beads do not tell where a chain goes. The message names the bond, its length and the
-/// limit. It is never replaced by a guess: a wrong guess would report a knot that is not there.
+/// The periodic images of the beads do not tell where a chain goes. The message names the bond, its length
+/// and the limit. It is never replaced by a guess: a wrong guess would report a knot that is not there.
 class Undetermined : public Error {
  public:
   using Error::Error;
 };
 
-/// Necklaces: each chain is a sequence of beads in which consecutive ones are bonded; a closed chain (a ring) bonds
-/// its last bead to its first as well. Beads are particle indices in [0, particles()); each stands in at most one
-/// chain, and a particle may stand in none (solvent).
+/// Necklaces: each chain is a sequence of beads in which consecutive ones are bonded; a closed chain (a ring)
+/// bonds its last bead to its first as well. Beads are particle indices in [0, particles()); each stands in
+/// at most one chain, and a particle may stand in none (solvent).
 class Chains {
  public:
   Chains() = default;
 
-  /// Chains from a set of bonds whose graph consists of paths and cycles. Particles without a bond are in no chain.
-  /// An open chain starts at its end of smaller index, a ring at its smallest index towards the smaller of that
-  /// bead's two partners; chains come in ascending order of their first beads. So neither the order of the bonds nor
-  /// that of the two ends of a bond matters. O(particles + bonds).
-  /// @throws InvalidParameter for an index outside [0, particles), a bond of a bead with itself, a bond given twice,
+  /// Chains from a set of bonds whose graph consists of paths and cycles. Particles without a bond are in no
+  /// chain. An open chain starts at its end of smaller index, a ring at its smallest index towards the
+  /// smaller of that bead's two partners; chains come in ascending order of their first beads. So neither the
+  /// order of the bonds nor that of the two ends of a bond matters. O(particles + bonds).
+  /// @throws InvalidParameter for an index outside [0, particles), a bond of a bead with itself, a bond given
+  /// twice,
   ///   and a bead with three or more bonds (named: it is a branch, not a necklace).
   static Chains from_bonds(std::size_t particles, Span<const IndexPair> bonds);
 
-  /// One open chain for each molecule number, its beads in order of index; molecule 0 means "none", as in LAMMPS.
-  /// Chains come in ascending order of their molecule numbers. O(n lg n).
+  /// One open chain for each molecule number, its beads in order of index; molecule 0 means "none", as in
+  /// LAMMPS. Chains come in ascending order of their molecule numbers. O(n lg n).
   /// @throws InvalidParameter for a negative molecule number.
   static Chains from_molecules(Span<const std::int32_t> molecules);
 
   /// Adds a chain, beads in order along it.
-  /// @throws InvalidParameter, leaving the chains as they were, for no bead, an index outside [0, particles), a bead
+  /// @throws InvalidParameter, leaving the chains as they were, for no bead, an index outside [0, particles),
+  /// a bead
   ///   that repeats or stands in another chain already, and a ring of fewer than three beads.
   void add(Span<const std::int32_t> beads, bool closed = false);
 
   /// Chains over `particles` particles, none yet; see add().
   explicit Chains(std::size_t particles) : chain_of_(particles, -1) {}
 
-  std::size_t size() const { return closed_.size(); }            ///< number of chains
-  std::size_t particles() const { return chain_of_.size(); }     ///< number of particles, in chains or not
+  std::size_t size() const { return closed_.size(); }         ///< number of chains
+  std::size_t particles() const { return chain_of_.size(); }  ///< number of particles, in chains or not
   bool closed(std::size_t chain) const { return closed_[chain]; }
   /// Beads of a chain in order along it.
   Span<const std::int32_t> beads(std::size_t chain) const {
@@ -67,13 +69,15 @@ class Chains {
   std::vector<std::int32_t> chain_of_;
 };
 
-/// Makes chains whole across periodic boundaries: the first bead of each chain stays where it is, each further bead
-/// becomes the image nearest to its predecessor. Every result is the given position plus an integer combination of the
-/// cell vectors, so rounding does not add up along a chain. Particles in no chain stay where they are. O(n).
+/// Makes chains whole across periodic boundaries: the first bead of each chain stays where it is, each
+/// further bead becomes the image nearest to its predecessor. Every result is the given position plus an
+/// integer combination of the cell vectors, so rounding does not add up along a chain. Particles in no chain
+/// stay where they are. O(n).
 ///
-/// Hypothesis: each bond is shorter than half the smallest height of the reduced periodic cell, box.max_cutoff(). Then
-/// its nearest image is unique; otherwise the chain's course is a guess.
-/// @throws Undetermined if a bond is as long as that limit or longer, and for a ring that winds around the box, which
+/// Hypothesis: each bond is shorter than half the smallest height of the reduced periodic cell,
+/// box.max_cutoff(). Then its nearest image is unique; otherwise the chain's course is a guess.
+/// @throws Undetermined if a bond is as long as that limit or longer, and for a ring that winds around the
+/// box, which
 ///   has no closed image.
 /// @throws InvalidParameter if the number of positions is not chains.particles().
 std::vector<Vec3> unwrap(const Chains& chains, Span<const Vec3> positions, const Box& box);

@@ -13,15 +13,15 @@
 
 namespace dch::necklace {
 
-/// A melt of linear bead-spring chains (Kremer and Grest, J. Chem. Phys. 92:5057, 1990). Lengths in units of the
-/// bead diameter sigma.
+/// A melt of linear bead-spring chains (Kremer and Grest, J. Chem. Phys. 92:5057, 1990). Lengths in units of
+/// the bead diameter sigma.
 struct MeltParams {
   std::int32_t chains = 320;           ///< >= 1
   std::int32_t beads_per_chain = 100;  ///< >= 1
   double density = 0.8442;             ///< beads per volume, > 0 [1/length^3]
   double bond = 0.97;                  ///< > 0 [length]
-  /// Smallest distance of next-nearest beads along a chain, 0 .. 1.9 bond [length]: random walks without it fold back
-  /// onto themselves, and the push-off has to undo that.
+  /// Smallest distance of next-nearest beads along a chain, 0 .. 1.9 bond [length]: random walks without it
+  /// fold back onto themselves, and the push-off has to undo that.
   double min_distance_13 = 1.02;
   std::uint64_t seed = 1;
 };
@@ -35,11 +35,12 @@ struct Melt {
   std::vector<IndexPair> bonds;                     ///< along each chain
 };
 
-/// Random walks at the melt's density, started at random places. **Beads overlap**: a soft push-off has to come before
-/// any dynamics (Auhl et al., J. Chem. Phys. 119:12718, 2003). The same parameters give the same bits on every
-/// platform with IEEE arithmetic: the random numbers are std::mt19937_64's, transformed here by correctly rounded
-/// operations only. O(n).
-/// @throws InvalidParameter for a parameter out of its range, more than 2^31 - 1 beads, and a box narrower than four
+/// Random walks at the melt's density, started at random places. **Beads overlap**: a soft push-off has to
+/// come before any dynamics (Auhl et al., J. Chem. Phys. 119:12718, 2003). The same parameters give the same
+/// bits on every platform with IEEE arithmetic: the random numbers are std::mt19937_64's, transformed here by
+/// correctly rounded operations only. O(n).
+/// @throws InvalidParameter for a parameter out of its range, more than 2^31 - 1 beads, and a box narrower
+/// than four
 ///   bonds, in which bonds could meet their own images.
 Melt make_melt(const MeltParams& params);
 
@@ -49,12 +50,13 @@ class WriteError : public Error {
   using Error::Error;
 };
 
-/// Writes a LAMMPS data file: sections Masses (one type, mass 1), `Atoms # bond` (id mol type x y z ix iy iz) and Bonds
-/// (one type), ids from 1. Coordinates have enough digits to be read back exactly, whatever the locale.
+/// Writes a LAMMPS data file: sections Masses (one type, mass 1), `Atoms # bond` (id mol type x y z ix iy iz)
+/// and Bonds (one type), ids from 1. Coordinates have enough digits to be read back exactly, whatever the
+/// locale.
 void write_lammps_data(std::ostream& out, const Melt& melt);
 
-/// The same to a file, which appears under its name only when it is complete: until then it is written beside it under
-/// a temporary name, which is removed upon failure.
+/// The same to a file, which appears under its name only when it is complete: until then it is written beside
+/// it under a temporary name, which is removed upon failure.
 /// @throws WriteError naming the file and the reason.
 void write_lammps_data(const std::string& path, const Melt& melt);
 
