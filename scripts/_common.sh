@@ -5,6 +5,7 @@
 # cores would put those of two tests that run side by side on the same core.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_rmaps_base_oversubscribe=1
+jobs=$(nproc)  # asked before the next line, which nproc heeds
 export OMP_NUM_THREADS=1
 
 die() {
@@ -60,5 +61,5 @@ configure_and_build() {
     return 1
   fi
   if [ ! -t 1 ]; then quiet=(-- --quiet); fi  # Ninja rewrites one line on a terminal, but fills a log with hundreds
-  cmake --build --preset "$preset" --parallel "$(nproc)" "$@" "${quiet[@]}" </dev/null
+  cmake --build --preset "$preset" --parallel "$jobs" "$@" "${quiet[@]}" </dev/null
 }

@@ -8,6 +8,7 @@
 
 #include <dch/error.hpp>
 
+#include "base_radius.hpp"
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
 #include "space_filling_order.hpp"
@@ -21,12 +22,26 @@ using Clock = std::chrono::steady_clock;
 // --- levels
 // -----------------------------------------------------------------------------------------------------
 
-double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(params.radius / (2 * params.c), i); }
+double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_radius, i); }
 
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
   if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
   return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + wrap_slack;
+}
+
+void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
+  if (params.base_radius > 0) {
+    base_radius = params.base_radius;
+  } else if (params.edge_rule == EdgeRule::thesis) {
+    base_radius = params.radius / (2 * params.c);
+  } else {
+    base_radius = detail::base_radius_for(positions, box, params.radius);
+  }
+  for (int i = 0; i <= top(); ++i) {
+    levels[i].radius = radius_of_level(i);
+    levels[i].radius2 = levels[i].radius * levels[i].radius;
+  }
 }
 
 void Hierarchy::Impl::set_wrap_slack(Span<const Vec3> positions) {
@@ -58,7 +73,7 @@ void Hierarchy::Impl::pop_level() {
 std::int32_t Hierarchy::Impl::node_of(std::int32_t id, int level) const {
   if (id < 0 || static_cast<std::size_t>(id) >= slot_of_id.size()) return kNone;
   std::int32_t node = slot_of_id[id];
-  for (int i = 0; i < level && node != kNone; ++i) node = levels[i].up[node];
+  for (int i = 0; i < level && node != kNone; ++i) node = up(i, node);
   return node;
 }
 
@@ -66,7 +81,7 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
   std::size_t bytes =
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes;
+  return bytes + points.memory_bytes() + cluster_rows.memory_bytes() + assembler.memory_bytes();
 }
 
 // --- building
@@ -74,11 +89,15 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
 
 void Hierarchy::Impl::reset(const Box& b) {
   box = b;
+  base_radius = params.base_radius > 0 ? params.base_radius : params.radius / (2 * params.c);
   wrap_slack = 0;
+  strayed = 0;
   levels.clear();
+  points.clear();
   raw.clear();
   slot_of_id.clear();
   free_ids.clear();
+  push_level();
   push_level();
 }
 
@@ -89,14 +108,16 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   detail::check_positions(positions, b);
   detail::check_radius(params.radius, b);
   const auto n = positions.size();
+  set_base_radius(positions);
   set_wrap_slack(positions);
   raw.assign(n, Vec3{});
   slot_of_id.assign(n, kNone);
-  levels[0].position.reserve(n);
   with_metric(box, [&](const auto& metric) {
     std::int32_t hint = kNone;
-    for (const std::int32_t id : detail::space_filling_order(positions, box, params.radius))
-      hint = insert(metric, id, positions[id], hint);
+    for (const std::int32_t id : detail::space_filling_order(positions, box, params.radius)) {
+      insert(metric, id, positions[id], hint);
+      hint = slot_of_id[id];
+    }
   });
   reorder();
   ++stats.builds;
@@ -116,6 +137,13 @@ HierarchyParams checked(const HierarchyParams& p) {
   if (!(p.c >= kMinC && p.c <= kMaxC))
     throw InvalidParameter("hierarchy parameter c is " + std::to_string(p.c) +
                            "; it must be in 1.05..1000 (at c = 1 parent and child edges change together)");
+  if (!(p.base_radius == 0 ||
+        (std::isfinite(p.base_radius) && p.base_radius >= kMinRadius && p.base_radius <= kMaxCoordinate)))
+    throw InvalidParameter("hierarchy parameter base_radius is " + std::to_string(p.base_radius) +
+                           "; it must be a length in 1e-100..1e100, or 0 for a choice by the points");
+  if (p.base_radius != 0 && p.edge_rule == EdgeRule::thesis)
+    throw InvalidParameter("hierarchy parameter base_radius is " + std::to_string(p.base_radius) +
+                           "; the thesis's edge rule ties it to radius / (2 c): leave it 0");
   if (p.max_roots < 1)
     throw InvalidParameter("max_roots is " + std::to_string(p.max_roots) + "; it must be at least 1");
   return p;
@@ -199,9 +227,12 @@ void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
   h.raw = std::move(raw);
   h.slot_of_id = std::move(slots);
   h.free_ids.clear();
-  for (auto& level : h.levels)
-    for (std::int32_t& id : level.id)
+  const auto rename = [&](std::vector<std::int32_t>& ids) {
+    for (std::int32_t& id : ids)
       if (id != kNone) id = new_of_old[id];
+  };
+  rename(h.points.id);
+  for (auto& level : h.levels) rename(level.id);
 }
 
 std::size_t Hierarchy::size() const { return impl_->slot_of_id.size() - impl_->free_ids.size(); }
@@ -224,8 +255,8 @@ LevelInfo Hierarchy::level(int i) const {
   LevelInfo info;
   info.covering_radius = level.radius;
   info.edge_threshold = level.threshold;
-  info.nodes = level.alive();
-  info.edges = impl_->stores_edges(i) ? level.edges.entries() / 2 : -1;
+  info.nodes = impl_->alive(i);
+  info.edges = i > 0 ? level.edges.entries() / 2 : -1;
   for (std::int32_t k = 0; k < level.size(); ++k)
     info.max_degree =
         std::max<std::int64_t>(info.max_degree, static_cast<std::int64_t>(level.edges.row(k).size()));
@@ -248,7 +279,7 @@ namespace {
 std::int32_t Hierarchy::parent(std::int32_t id, int i) const {
   const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
   if (node == kNone) throw_not_in_level(id, i);
-  const std::int32_t above = impl_->levels[i].parent[node];
+  const std::int32_t above = impl_->parent(i, node);
   return above == kNone ? kNone : impl_->levels[i + 1].id[above];
 }
 
@@ -258,8 +289,7 @@ std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
   std::vector<std::int32_t> nodes;
   with_metric(impl_->box, [&](const auto& metric) { impl_->neighbors(metric, i, node, nodes); });
   std::vector<std::int32_t> ids(nodes.size());
-  std::transform(nodes.begin(), nodes.end(), ids.begin(),
-                 [&](std::int32_t k) { return impl_->levels[i].id[k]; });
+  std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](std::int32_t k) { return impl_->id(i, k); });
   std::sort(ids.begin(), ids.end());
   return ids;
 }

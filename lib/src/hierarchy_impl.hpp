@@ -8,10 +8,12 @@
 #include <dch/hierarchy.hpp>
 
 #include "candidate_buffer.hpp"
+#include "cluster_rows.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
 #include "list_assembly.hpp"
 #include "metric.hpp"
+#include "point_blocks.hpp"
 #include "sibling_store.hpp"
 
 namespace dch {
@@ -19,11 +21,6 @@ namespace dch {
 /// Candidate radii (never decisions) are inflated by this factor, squared radii by its square, so that
 /// rounding in the triangle inequality cannot hide a node.
 inline constexpr double kInflate = 1 + 1e-12;
-/// Edges are stored from this level on; below they are enumerated among the children of neighboring parents
-/// (Lemma 5.3.1(5)), the level-0 ones as neighbor lists. Levels 0 and 1 hold nearly all nodes and edges, yet
-/// neither maintenance nor lists need theirs: their pairs are met in the clusters of level 2, of about r_list
-/// in size.
-inline constexpr int kFirstStoredLevel = 2;
 
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 inline constexpr double kMinRadius = 1e-100;
@@ -35,7 +32,9 @@ struct Hierarchy::Impl {
 
   HierarchyParams params;
   Box box;
-  std::vector<Level> levels;             ///< at least level 0
+  double base_radius = 0;                ///< R_0
+  detail::PointBlocks points;            ///< level 0
+  std::vector<Level> levels;             ///< level 1 always, levels[0] holds radii only
   std::vector<Vec3> raw;                 ///< positions as given, by id
   std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids
   std::vector<std::int32_t> free_ids;    ///< min-heap
@@ -51,11 +50,36 @@ struct Hierarchy::Impl {
   double wrap_slack = 0;
   std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
-  bool stores_edges(int level) const { return level >= kFirstStoredLevel; }
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
+  void set_base_radius(Span<const Vec3> positions);
   void set_wrap_slack(Span<const Vec3> positions);
+
+  // The nodes of all levels alike
+  std::int32_t size(int level) const { return level == 0 ? points.size() : levels[level].size(); }
+  std::int32_t alive(int level) const { return level == 0 ? points.alive : levels[level].alive(); }
+  bool is_alive(int level, std::int32_t k) const { return id(level, k) != detail::kNone; }
+  std::int32_t id(int level, std::int32_t k) const { return level == 0 ? points.id[k] : levels[level].id[k]; }
+  Vec3 position(int level, std::int32_t k) const {
+    return level == 0 ? points.position[k] : levels[level].position[k];
+  }
+  std::int32_t parent(int level, std::int32_t k) const {
+    return level == 0 ? points.parent(k) : levels[level].parent[k];
+  }
+  /// Own node in the level above, or kNone.
+  std::int32_t up(int level, std::int32_t k) const {
+    if (level > 0) return levels[level].up[k];
+    const std::int32_t cluster = points.parent(k);
+    return levels[1].down[cluster] == k ? cluster : detail::kNone;
+  }
+  /// Calls f(child) for the children of node `k` of level `level` >= 1.
+  template <class F>
+  void for_each_child(int level, std::int32_t k, const F& f) const {
+    std::int32_t child = levels[level].first_child[k];
+    if (level == 1) return points.for_each(child, f);
+    for (; child != detail::kNone; child = levels[level - 1].next_sibling[child]) f(child);
+  }
 
   // hierarchy.cpp: whole-structure operations
   void reset(const Box& b);
@@ -63,12 +87,14 @@ struct Hierarchy::Impl {
   void push_level();
   void pop_level();
   std::int32_t node_of(std::int32_t id, int level) const;
-
   std::size_t memory_bytes() const;
 
   // hierarchy_links.cpp: parents and children
   void attach(int level, std::int32_t node, std::int32_t parent);
   void detach(int level, std::int32_t node);
+  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
+  void take_point(std::int32_t slot);
+  void disconnect(int level, std::int32_t node);
 
   // hierarchy_update.cpp: places for single points
   struct Cover {
@@ -83,19 +109,25 @@ struct Hierarchy::Impl {
   /// Finds a parent in level `target` or above for a point. Levels >= target must be in order.
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
-  /// Links a node of `level` to its cover, lifting its point through the levels between.
+  /// Gives a point nodes in the levels between `level` and its cover, linked to each other and to the cover.
+  /// Returns the lowest one, or the cover's node if there are none between.
+  template <class Metric>
+  std::int32_t lift(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
+  /// Links a node of `level` >= 1 to its cover.
   template <class Metric>
   void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
+  /// The same for a point, which gets a slot.
+  template <class Metric>
+  void settle_point(const Metric& metric, std::int32_t id, Vec3 at, Cover cover);
   template <class Metric>
   void connect(const Metric& metric, int level, std::int32_t node);
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  std::int32_t insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot);
+  void insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot);
   template <class Metric>
   void remove(const Metric& metric, std::int32_t id);
   void trim_top();
-  void disconnect(int level, std::int32_t node);
 
   // hierarchy_repair.cpp
   void update(Span<const Vec3> positions, const Box& b);
@@ -107,6 +139,8 @@ struct Hierarchy::Impl {
   template <class Metric>
   void repair(const Metric& metric, double check_seconds);
   template <class Metric>
+  void cover_points(const Metric& metric);
+  template <class Metric>
   void cover_level(const Metric& metric, int level);
   template <class Metric>
   void connect_level(const Metric& metric, int level);
@@ -115,9 +149,10 @@ struct Hierarchy::Impl {
 
   // hierarchy_reorder.cpp: puts nodes in depth-first order, siblings side by side
   void reorder();
+  void reorder_points();
 
   // hierarchy_list.cpp
-  /// Appends the neighbors of a node in its level of G_c, stored or not.
+  /// Appends the neighbors of a node in its level of G_c.
   template <class Metric>
   void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
   void list(const ListParams& request, NeighborList& out);
@@ -132,11 +167,13 @@ struct Hierarchy::Impl {
   };
   std::vector<std::vector<Near>> near;  ///< of locate(): by level, the nodes within R_level
   std::vector<std::array<std::int32_t, 2>>
-      too_close;  ///< of connect_level(): pairs that separate_level() settles
+      too_close;                     ///< of connect_level(): pairs that separate_level() settles
+  std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
-  detail::PairBuffer pairs;
+  detail::ClusterRows cluster_rows;
+  NeighborList rows;  ///< as ClusterRows found them, where another order is asked for
   detail::ListAssembler assembler;
 };
 

@@ -12,8 +12,8 @@ namespace dch::detail {
 
 inline constexpr std::int32_t kNone = -1;
 
-/// One level S_i of the hierarchy: its nodes in flat arrays, one entry a node. A dead node has id kNone and
-/// waits in `free` for the next node of this level.
+/// A level S_i, i >= 1, of the hierarchy: its nodes in flat arrays, one entry a node. A dead node has id
+/// kNone and waits in `free` for the next node of this level.
 struct Level {
   double radius = 0, radius2 = 0;        ///< R_i: the level above covers this one within it
   double threshold = 0, threshold2 = 0;  ///< rho_i: edges join nodes within it
@@ -22,12 +22,12 @@ struct Level {
   std::vector<std::int32_t> id;            ///< the caller's name of the point
   std::vector<std::int32_t> parent;        ///< node of the level above; kNone at the top
   std::vector<std::int32_t> up;            ///< own node in the level above (then also the parent), or kNone
-  std::vector<std::int32_t> down;          ///< own node in the level below, or kNone in level 0
-  std::vector<std::int32_t> first_child;   ///< in the level below; kNone if there is none
+  std::vector<std::int32_t> down;          ///< own node in the level below; in level 1 the slot of the point
+  std::vector<std::int32_t> first_child;   ///< in the level below; in level 1 the first block of its points
   std::vector<std::int32_t> next_sibling;  ///< children of one parent form a doubly linked list
   std::vector<std::int32_t> prev_sibling;
   std::vector<std::int32_t> free;
-  AdjacencyRows edges;  ///< both directions; empty in level 0, whose edges are enumerated from level 1
+  AdjacencyRows edges;  ///< both directions
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
   std::int32_t alive() const { return size() - static_cast<std::int32_t>(free.size()); }

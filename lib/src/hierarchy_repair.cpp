@@ -78,25 +78,29 @@ void Hierarchy::Impl::refresh_positions(Span<const Vec3> positions) {
     const std::int32_t slot = slot_of_id[id];
     if (slot == kNone) continue;
     raw[id] = positions[id];
-    levels[0].position[slot] = box.wrap(positions[id]);
+    points.position[slot] = box.wrap(positions[id]);
   }
   for (int i = 1; i <= top(); ++i) {
     Level& level = levels[i];
     for (std::int32_t k = 0; k < level.size(); ++k)
-      if (level.is_alive(k)) level.position[k] = levels[i - 1].position[level.down[k]];
+      if (level.is_alive(k)) level.position[k] = position(i - 1, level.down[k]);
   }
 }
 
 template <class Metric>
 std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
-  std::int64_t orphans = 0;
-  for (int i = 0; i < top(); ++i) {
-    const Level& level = levels[i];
-    for (std::int32_t k = 0; k < level.size(); ++k)
-      orphans += level.is_alive(k) &&
-                 metric.distance2(level.position[k], levels[i + 1].position[level.parent[k]]) > level.radius2;
+  std::int64_t count = 0;
+  for (int i = 1; i <= top(); ++i) {
+    const double limit2 = levels[i - 1].radius2;
+    for (std::int32_t k = 0; k < levels[i].size(); ++k) {
+      if (!levels[i].is_alive(k)) continue;
+      const Vec3 center = levels[i].position[k];
+      for_each_child(i, k, [&](std::int32_t child) {
+        count += metric.distance2(position(i - 1, child), center) > limit2;
+      });
+    }
   }
-  return orphans;
+  return count;
 }
 
 // Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
@@ -113,14 +117,16 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   const auto start = Clock::now();
   const std::int64_t reparented_before = stats.reparented;
   double cover_seconds = 0;
-  for (int i = top(); i >= 0; --i) {
+  for (int i = top(); i > 0; --i) {
     const auto covering = Clock::now();
     if (i < top()) cover_level(metric, i);
     cover_seconds += seconds_since(covering);
-    if (i == 0) break;  // level 0 has no separation to keep, and its edges are the lists
     connect_level(metric, i);
     separate_level(i);
   }
+  const auto covering = Clock::now();
+  cover_points(metric);  // which have no separation to keep, and whose edges are the lists
+  cover_seconds += seconds_since(covering);
   grow_top(metric);
   trim_top();
   ++stats.repairs;
@@ -132,6 +138,28 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   sweep_per_point.observe((seconds_since(start) - orphan_seconds) / n);
   const std::int64_t orphans = stats.reparented - reparented_before;
   if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
+}
+
+template <class Metric>
+void Hierarchy::Impl::cover_points(const Metric& metric) {
+  strays.clear();
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
+    if (!levels[1].is_alive(k)) continue;
+    const Vec3 center = levels[1].position[k];
+    for_each_child(1, k, [&](std::int32_t slot) {
+      if (metric.distance2(points.position[slot], center) > levels[0].radius2)
+        strays.push_back(points.id[slot]);
+    });
+  }
+  for (const std::int32_t stray : strays) {
+    const std::int32_t slot = slot_of_id[stray];
+    const Hint hint{1, points.parent(slot)};
+    const Vec3 at = points.position[slot];
+    take_point(slot);
+    settle_point(metric, stray, at, locate(metric, at, 1, hint));
+    ++stats.reparented;
+    grow_top(metric);
+  }
 }
 
 template <class Metric>
@@ -157,12 +185,8 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   level.edges.resize(level.position.size());
   too_close.clear();
   const double separation2 = levels[i - 1].radius2;
-  // Where edges are not stored, only pairs that violate the separation are looked for.
-  const double limit = stores_edges(i) ? level.threshold : levels[i - 1].radius;
-  const double limit2 = stores_edges(i) ? level.threshold2 : separation2;
-
   const auto connect_node = [&](std::int32_t k) {
-    const std::size_t hits = candidates.select(metric, level.position[k], 0, limit2);
+    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.threshold2);
     row.clear();
     for (std::size_t h = 0; h < hits; ++h) {
       const std::size_t c = candidates.hit(h);
@@ -171,7 +195,7 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
       row.push_back(other);
       if (candidates.distance2(c) <= separation2 && k < other) too_close.push_back({k, other});
     }
-    if (stores_edges(i)) level.edges.assign(k, row.data(), static_cast<std::int32_t>(row.size()));
+    level.edges.assign(k, row.data(), static_cast<std::int32_t>(row.size()));
   };
 
   if (i == top()) {
@@ -183,8 +207,8 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
     return;
   }
   const Level& above = levels[i + 1];
-  const double reach = (limit + level.radius) * kInflate,
-               parent_reach = (limit + 2 * level.radius) * kInflate;
+  const double reach = (level.threshold + level.radius) * kInflate,
+               parent_reach = (level.threshold + 2 * level.radius) * kInflate;
   siblings.fill(level, above);
   for (std::int32_t parent = 0; parent < above.size(); ++parent) {
     if (!above.is_alive(parent)) continue;
@@ -217,10 +241,20 @@ void Hierarchy::Impl::separate_level(int i) {
 
 void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
   Level& level = levels[i];
-  levels[i - 1].up[level.down[node]] = kNone;
-  for (std::int32_t child = level.first_child[node]; child != kNone; child = level.first_child[node]) {
-    detach(i - 1, child);
-    attach(i - 1, child, heir);
+  if (i > 1) {
+    levels[i - 1].up[level.down[node]] = kNone;
+    for (std::int32_t child = level.first_child[node]; child != kNone; child = level.first_child[node]) {
+      detach(i - 1, child);
+      attach(i - 1, child, heir);
+    }
+  } else {
+    std::int32_t last = kNone;
+    for (std::int32_t block = level.first_child[node]; block != kNone; block = points.next[block]) {
+      points.cluster[block] = heir;
+      last = block;
+    }
+    points.next[last] = level.first_child[heir];
+    level.first_child[heir] = level.first_child[node];
   }
   detach(i, node);
   disconnect(i, node);

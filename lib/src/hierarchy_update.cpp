@@ -42,14 +42,12 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
     for (const std::int32_t neighbor : levels[level].edges.row(node)) keep(level, reach * reach, neighbor);
   };
 
-  // Climb to stored edges, and on until the hint's surroundings are wide enough.
+  // Climb until the hint's surroundings are wide enough.
   int start = hint.node == kNone ? top() : hint.level;
   std::int32_t guide = hint.node;
   for (; start < top(); ++start) {
     const double room = levels[start].threshold - reach_of(start) * kInflate;
-    if (stores_edges(start) &&
-        metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= room * room)
-      break;
+    if (metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= room * room) break;
     guide = levels[start].parent[guide];
   }
   look_around(start, guide);
@@ -78,7 +76,6 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
 
 template <class Metric>
 void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
-  if (!stores_edges(level)) return;
   Level& at = levels[level];
   const Vec3 position = at.position[node];
   const auto join = [&](std::int32_t other) {
@@ -102,31 +99,40 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
 }
 
 template <class Metric>
-void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node, Cover cover) {
-  const std::int32_t point = levels[level].id[node];
-  const Vec3 position = levels[level].position[node];
+std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t point, Vec3 at,
+                                   Cover cover) {
   std::int32_t above = cover.parent;
-  bool above_is_own = false;
   // From the top down, since a node's edges are found among the children of its parent's neighbors.
   for (int i = cover.level - 1; i > level; --i) {
-    const std::int32_t lifted = levels[i].add(point, position);
+    const std::int32_t lifted = levels[i].add(point, at);
     if (above != kNone) attach(i, lifted, above);
-    if (above_is_own) {
+    if (i < cover.level - 1) {
       levels[i].up[lifted] = above;
       levels[i + 1].down[above] = lifted;
     }
     connect(metric, i, lifted);
     ++stats.promotions;
     above = lifted;
-    above_is_own = true;
   }
+  return above;
+}
+
+template <class Metric>
+void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node, Cover cover) {
+  const std::int32_t above = lift(metric, level, levels[level].id[node], levels[level].position[node], cover);
   detach(level, node);
   if (above == kNone) return;  // a root
   attach(level, node, above);
-  if (above_is_own) {
-    levels[level].up[node] = above;
-    levels[level + 1].down[above] = node;
-  }
+  if (cover.level == level + 1) return;
+  levels[level].up[node] = above;
+  levels[level + 1].down[above] = node;
+}
+
+template <class Metric>
+void Hierarchy::Impl::settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
+  const std::int32_t above = lift(metric, 0, point, at, cover);
+  const std::int32_t slot = place_point(point, at, above);
+  if (cover.level > 1) levels[1].down[above] = slot;
 }
 
 template <class Metric>
@@ -142,31 +148,33 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
 }
 
 template <class Metric>
-std::int32_t Hierarchy::Impl::insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot) {
+void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, std::int32_t hint_slot) {
   const Vec3 wrapped = box.wrap(at);
-  const Hint hint{1, hint_slot == kNone ? kNone : levels[0].parent[hint_slot]};
-  const std::int32_t node = levels[0].add(id, wrapped);
-  slot_of_id[id] = node;
-  raw[id] = at;
-  settle(metric, 0, node, locate(metric, wrapped, 1, hint));
+  raw[point] = at;
+  const std::int32_t cluster = hint_slot == kNone ? kNone : points.parent(hint_slot);
+  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, {1, cluster}));
   grow_top(metric);
-  return node;
 }
 
 template <class Metric>
-void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
+void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
   // Take the point out of every level first; the children it leaves behind are settled from the top down.
-  std::vector<std::vector<std::int32_t>> orphans(levels.size());
+  std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
   std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
-  std::int32_t node = slot_of_id[id];
-  for (int level = 0; node != kNone; ++level) {
+  std::int32_t node = up(0, slot_of_id[point]);
+  if (node == kNone) {
+    take_point(slot_of_id[point]);
+    trim_top();
+    return;
+  }
+  for (int level = 1; node != kNone; ++level) {
     Level& at = levels[level];
-    if (level > 0) {
-      for (std::int32_t child = at.first_child[node]; child != kNone; child = at.first_child[node]) {
-        detach(level - 1, child);
-        orphans[level - 1].push_back(child);
-      }
-    }
+    for_each_child(level, node, [&](std::int32_t child) {
+      const std::int32_t name = id(level - 1, child);
+      if (name != point) left[level - 1].push_back(level == 1 ? name : child);
+    });
+    if (level > 1)
+      while (at.first_child[node] != kNone) detach(level - 1, at.first_child[node]);
     if (!at.edges.row(node).empty()) {
       hint[level] = {level, at.edges.row(node)[0]};
     } else if (at.up[node] == kNone && at.parent[node] != kNone) {
@@ -174,33 +182,45 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t id) {
     }
     detach(level, node);
     disconnect(level, node);
+    if (level == 1) {
+      std::int32_t next = kNone;
+      for (std::int32_t block = at.first_child[node]; block != kNone; block = next) {
+        next = points.next[block];
+        points.free_block(block);
+      }
+    }
     const std::int32_t own_above = at.up[node];
     at.retire(node);
     if (own_above != kNone) levels[level + 1].down[own_above] = kNone;
     node = own_above;
   }
-  while (top() > 0 && levels.back().alive() == 0) pop_level();
+  slot_of_id[point] = kNone;
+  while (top() > 1 && levels.back().alive() == 0) pop_level();
   for (int level = top() - 1; level > 0; --level)
     if (hint[level].node == kNone) hint[level] = hint[level + 1];
-  for (int level = top(); level >= 0; --level)
-    for (const std::int32_t orphan : orphans[level])
+  for (int level = top(); level > 0; --level)
+    for (const std::int32_t orphan : left[level])
       settle(metric, level, orphan,
              locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
-  slot_of_id[id] = kNone;
+  for (const std::int32_t orphan : left[0]) {
+    const Vec3 at = box.wrap(raw[orphan]);
+    settle_point(metric, orphan, at, locate(metric, at, 1, hint[1]));
+  }
   grow_top(metric);
   trim_top();
 }
 
 void Hierarchy::Impl::trim_top() {
-  while (top() > 0 && levels[top() - 1].alive() <= params.max_roots) pop_level();
+  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots) pop_level();
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                   \
-  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);        \
-  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                 \
-  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                       \
-  template void Hierarchy::Impl::grow_top(const Metric&);                                         \
-  template std::int32_t Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t); \
+#define DCH_INSTANTIATE(Metric)                                                            \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint); \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);          \
+  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);   \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                  \
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t);  \
   template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)

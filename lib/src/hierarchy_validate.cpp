@@ -36,72 +36,92 @@ class Verdict {
   std::string text_;
 };
 
+/// Blocks of points: filled from the front, in the chain of exactly one cluster.
+template <class Impl>
+void check_blocks(const Impl& h, Verdict& verdict) {
+  const detail::PointBlocks& points = h.points;
+  std::int32_t alive = 0;
+  std::vector<char> seen(points.cluster.size(), 0);
+  for (std::int32_t k = 0; k < h.levels[1].size(); ++k) {
+    if (!h.levels[1].is_alive(k)) continue;
+    for (std::int32_t block = h.levels[1].first_child[k]; block != kNone; block = points.next[block]) {
+      if (!verdict.require(!seen[block] && points.cluster[block] == k, 1, "the blocks of point ",
+                           h.levels[1].id[k], " are not its own"))
+        return;
+      seen[block] = 1;
+      alive += points.count[block];
+      for (std::int32_t lane = 0; lane < detail::kBlock; ++lane)
+        verdict.require((points.id[block * detail::kBlock + lane] != kNone) == (lane < points.count[block]),
+                        0, "block ", block, " is not filled from the front");
+    }
+  }
+  verdict.require(alive == points.alive, 0, points.alive, " points, but ", alive, " in blocks");
+  for (std::size_t block = 0; block < seen.size(); ++block)
+    verdict.require(seen[block] || points.cluster[block] == kNone, 0, "block ", block, " is in no chain");
+}
+
 /// Ids, positions and the links between a point's own nodes: S_0 holds every point, S_{i+1} is a subset of
 /// S_i.
-void check_nesting(const std::vector<Level>& levels, const std::vector<std::int32_t>& slot_of_id,
-                   Verdict& verdict) {
-  std::int64_t points = 0;
-  for (std::size_t id = 0; id < slot_of_id.size(); ++id) {
-    const std::int32_t slot = slot_of_id[id];
+template <class Impl>
+void check_nesting(const Impl& h, Verdict& verdict) {
+  std::int64_t count = 0;
+  for (std::size_t id = 0; id < h.slot_of_id.size(); ++id) {
+    const std::int32_t slot = h.slot_of_id[id];
     if (slot == kNone) continue;
-    ++points;
-    verdict.require(slot < levels[0].size() && levels[0].id[slot] == static_cast<std::int32_t>(id), 0,
+    ++count;
+    verdict.require(slot < h.points.size() && h.points.id[slot] == static_cast<std::int32_t>(id), 0,
                     "slot of point ", id, " holds another point");
   }
-  verdict.require(points == levels[0].alive(), 0, points, " points but ", levels[0].alive(), " nodes");
-  for (int i = 0; i < static_cast<int>(levels.size()); ++i) {
-    const Level& level = levels[i];
-    const bool is_top = i + 1 == static_cast<int>(levels.size());
+  verdict.require(count == h.points.alive, 0, count, " points but ", h.points.alive, " nodes");
+  for (int i = 0; i <= h.top(); ++i) {
     std::int64_t lifted = 0;
-    for (std::int32_t k = 0; k < level.size(); ++k) {
-      if (!level.is_alive(k)) continue;
+    for (std::int32_t k = 0; k < h.size(i); ++k) {
+      if (!h.is_alive(i, k)) continue;
       if (i > 0) {
-        const std::int32_t down = level.down[k];
-        if (!verdict.require(
-                down != kNone && levels[i - 1].id[down] == level.id[k] && levels[i - 1].up[down] == k, i,
-                "point ", level.id[k], " does not stand in the level below"))
+        const std::int32_t down = h.levels[i].down[k];
+        if (!verdict.require(down != kNone && h.id(i - 1, down) == h.id(i, k) && h.up(i - 1, down) == k, i,
+                             "point ", h.id(i, k), " does not stand in the level below"))
           return;
-        verdict.require(levels[i - 1].position[down] == level.position[k], i, "position of point ",
-                        level.id[k], " differs from the level below");
+        verdict.require(h.position(i - 1, down) == h.position(i, k), i, "position of point ", h.id(i, k),
+                        " differs from the level below");
       }
-      if (level.up[k] == kNone) continue;
+      if (i == h.top() || h.up(i, k) == kNone) continue;
       ++lifted;
-      verdict.require(!is_top && levels[i + 1].down[level.up[k]] == k && level.parent[k] == level.up[k], i,
-                      "point ", level.id[k], " is not its own parent although it stands in the level above");
+      verdict.require(h.levels[i + 1].down[h.up(i, k)] == k && h.parent(i, k) == h.up(i, k), i, "point ",
+                      h.id(i, k), " is not its own parent although it stands in the level above");
     }
-    if (!is_top) verdict.require(lifted == levels[i + 1].alive(), i + 1, "holds nodes without a node below");
+    if (i < h.top()) verdict.require(lifted == h.alive(i + 1), i + 1, "holds nodes without a node below");
   }
 }
 
 /// Parents cover their children, and the lists of children are exactly the inverse of `parent`.
-template <class Metric>
-void check_coverage(const Metric& metric, const std::vector<Level>& levels, Verdict& verdict) {
-  for (int i = 0; i < static_cast<int>(levels.size()); ++i) {
-    const Level& level = levels[i];
-    const bool is_top = i + 1 == static_cast<int>(levels.size());
-    for (std::int32_t k = 0; k < level.size(); ++k) {
-      if (!level.is_alive(k)) continue;
-      const std::int32_t parent = level.parent[k];
-      if (is_top) {
-        verdict.require(parent == kNone, i, "root ", level.id[k], " has a parent");
+template <class Impl, class Metric>
+void check_coverage(const Metric& metric, const Impl& h, Verdict& verdict) {
+  for (int i = 0; i <= h.top(); ++i) {
+    for (std::int32_t k = 0; k < h.size(i); ++k) {
+      if (!h.is_alive(i, k)) continue;
+      const std::int32_t parent = h.parent(i, k);
+      if (i == h.top()) {
+        verdict.require(parent == kNone, i, "root ", h.id(i, k), " has a parent");
         continue;
       }
-      if (!verdict.require(parent != kNone && levels[i + 1].is_alive(parent), i, "point ", level.id[k],
+      if (!verdict.require(parent != kNone && h.is_alive(i + 1, parent), i, "point ", h.id(i, k),
                            " has no parent"))
         return;
-      verdict.require(metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2, i,
-                      "point ", level.id[k], " is farther than R_i = ", level.radius, " from its parent ",
-                      levels[i + 1].id[parent]);
+      verdict.require(metric.distance2(h.position(i, k), h.position(i + 1, parent)) <= h.levels[i].radius2, i,
+                      "point ", h.id(i, k), " is farther than R_i = ", h.levels[i].radius,
+                      " from its parent ", h.id(i + 1, parent));
     }
-    if (is_top) continue;
+    if (i == 0 || i == h.top()) continue;  // chains of blocks have been checked
+    const Level& level = h.levels[i];
     std::int64_t children = 0;
-    for (std::int32_t parent = 0; parent < levels[i + 1].size(); ++parent) {
-      if (!levels[i + 1].is_alive(parent)) continue;
+    for (std::int32_t parent = 0; parent < h.levels[i + 1].size(); ++parent) {
+      if (!h.levels[i + 1].is_alive(parent)) continue;
       std::int32_t previous = kNone;
-      for (std::int32_t k = levels[i + 1].first_child[parent]; k != kNone; k = level.next_sibling[k]) {
+      for (std::int32_t k = h.levels[i + 1].first_child[parent]; k != kNone; k = level.next_sibling[k]) {
         if (!verdict.require(
                 level.is_alive(k) && level.parent[k] == parent && level.prev_sibling[k] == previous, i,
-                "list of children of ", levels[i + 1].id[parent], " is broken"))
+                "list of children of ", h.id(i + 1, parent), " is broken"))
           return;
         previous = k;
         if (!verdict.require(++children <= level.alive(), i, "lists of children hold a cycle")) return;
@@ -132,32 +152,32 @@ class Marks {
 };
 
 /// Separation (5.3.1(2)) and edges (5.3.1(3)), stored or enumerated, of one level against all pairs.
-template <class Metric, class FindNeighbors>
-void check_pairs(const Metric& metric, const std::vector<Level>& levels, int i,
-                 const FindNeighbors& find_neighbors, Verdict& verdict) {
-  const Level& level = levels[i];
-  const double separation2 = i == 0 ? -1 : levels[i - 1].radius2;  // level 0 may hold coincident points
-  Marks joined(level.size());
+template <class Impl, class Metric>
+void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
+  const double threshold2 = h.levels[i].threshold2;
+  const double separation2 = i == 0 ? -1 : h.levels[i - 1].radius2;  // level 0 may hold coincident points
+  Marks joined(h.size(i));
   std::vector<std::int32_t> row;
-  for (std::int32_t a = 0; a < level.size() && !verdict.failed(); ++a) {
-    verdict.require(level.is_alive(a) || level.edges.row(a).empty(), i, "a dead node has edges");
-    if (!level.is_alive(a)) continue;
+  for (std::int32_t a = 0; a < h.size(i) && !verdict.failed(); ++a) {
+    verdict.require(h.is_alive(i, a) || i == 0 || h.levels[i].edges.row(a).empty(), i,
+                    "a dead node has edges");
+    if (!h.is_alive(i, a)) continue;
     row.clear();
-    find_neighbors(a, row);
-    verdict.require(joined.set(a, row), i, "point ", level.id[a], " has a repeated edge");
-    for (std::int32_t b = 0; b < level.size(); ++b) {
+    h.neighbors(metric, i, a, row);
+    verdict.require(joined.set(a, row), i, "point ", h.id(i, a), " has a repeated edge");
+    for (std::int32_t b = 0; b < h.size(i); ++b) {
       const bool edge = joined.has(a, b);
-      if (a == b || !level.is_alive(b)) {
-        verdict.require(!edge, i, "point ", level.id[a], " has an edge to itself or a dead node");
+      if (a == b || !h.is_alive(i, b)) {
+        verdict.require(!edge, i, "point ", h.id(i, a), " has an edge to itself or a dead node");
         continue;
       }
-      const double d2 = metric.distance2(level.position[a], level.position[b]);
-      if (d2 > separation2 && edge == (d2 <= level.threshold2)) continue;
-      verdict.require(d2 > separation2, i, "points ", level.id[a], " and ", level.id[b], " at distance ",
-                      std::sqrt(d2), " are not separated by more than ", levels[i - 1].radius);
-      verdict.require(edge == (d2 <= level.threshold2), i, "edge between ", level.id[a], " and ", level.id[b],
+      const double d2 = metric.distance2(h.position(i, a), h.position(i, b));
+      if (d2 > separation2 && edge == (d2 <= threshold2)) continue;
+      verdict.require(d2 > separation2, i, "points ", h.id(i, a), " and ", h.id(i, b), " at distance ",
+                      std::sqrt(d2), " are not separated by more than ", h.levels[i == 0 ? 0 : i - 1].radius);
+      verdict.require(edge == (d2 <= threshold2), i, "edge between ", h.id(i, a), " and ", h.id(i, b),
                       " at distance ", std::sqrt(d2), edge ? " should not exist" : " is missing",
-                      " (threshold ", level.threshold, ")");
+                      " (threshold ", h.levels[i].threshold, ")");
     }
   }
 }
@@ -166,19 +186,15 @@ void check_pairs(const Metric& metric, const std::vector<Level>& levels, int i,
 
 std::string Hierarchy::Impl::validate() const {
   Verdict verdict;
-  verdict.require(top() == 0 || levels[top() - 1].alive() > params.max_roots, top(), "is not needed");
+  verdict.require(top() == 1 || levels[top() - 1].alive() > params.max_roots, top(), "is not needed");
   verdict.require(levels.back().alive() <= params.max_roots, top(), "has ", levels.back().alive(),
                   " roots, more than ", params.max_roots);
-  check_nesting(levels, slot_of_id, verdict);
+  check_blocks(*this, verdict);
+  if (!verdict.failed()) check_nesting(*this, verdict);
   if (verdict.failed()) return verdict.text();
   with_metric(box, [&](const auto& metric) {
-    check_coverage(metric, levels, verdict);
-    for (int i = 0; i <= top() && !verdict.failed(); ++i) {
-      const auto find = [&](std::int32_t k, std::vector<std::int32_t>& nodes) {
-        neighbors(metric, i, k, nodes);
-      };
-      check_pairs(metric, levels, i, find, verdict);
-    }
+    check_coverage(metric, *this, verdict);
+    for (int i = 0; i <= top() && !verdict.failed(); ++i) check_pairs(metric, *this, i, verdict);
   });
   return verdict.text();
 }

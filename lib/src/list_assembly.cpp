@@ -5,42 +5,14 @@
 #include <numeric>
 
 namespace dch::detail {
-namespace {
 
 /// Turns counts at [k + 1] into first positions: first[0] = 0, first[k + 1] = first[k] + count of k.
-void accumulate_counts(std::vector<std::int64_t>& first) {
+void ListAssembler::accumulate_counts(std::vector<std::int64_t>& first) {
   std::partial_sum(first.begin(), first.end(), first.begin());
 }
 
-}  // namespace
-
-void ListAssembler::assemble(std::size_t n, ListKind kind, std::int32_t first_ghost, const PairBuffer& buffer,
-                             NeighborList& out) {
-  if (kind == ListKind::half) {
-    assemble_half(n, buffer.pairs(), out);
-    return;
-  }
-  const std::size_t rows = first_ghost < 0 ? n : std::min(n, static_cast<std::size_t>(first_ghost));
-  assemble_half(n, buffer.pairs(), half_);
-  assemble_full(n, rows, out);
-}
-
-void ListAssembler::assemble_half(std::size_t n, Span<const IndexPair> pairs, NeighborList& out) {
-  column_first_.assign(n + 1, 0);
-  out.kind = ListKind::half;
-  out.first.assign(n + 1, 0);
-  for (const auto& [low, high] : pairs) {
-    ++out.first[static_cast<std::size_t>(low) + 1];
-    ++column_first_[static_cast<std::size_t>(high) + 1];
-  }
-  accumulate_counts(out.first);
-  accumulate_counts(column_first_);
-
-  row_of_.resize(pairs.size());
-  next_.assign(column_first_.begin(), column_first_.end());
-  for (const auto& [low, high] : pairs) row_of_[next_[high]++] = low;
-
-  out.j.resize(pairs.size());
+void ListAssembler::fill_rows(std::size_t n, NeighborList& out) {
+  out.j.resize(row_of_.size());
   next_.assign(out.first.begin(), out.first.end());
   for (std::size_t column = 0; column < n; ++column) {
     for (auto k = column_first_[column]; k < column_first_[column + 1]; ++k) {

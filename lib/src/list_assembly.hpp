@@ -19,8 +19,11 @@ class PairBuffer {
   void add(std::int32_t i, std::int32_t j) {
     pairs_.push_back({std::min(i, j), std::max(i, j)});  // no branch: either order is as likely
   }
-  /// The pairs, smaller index first.
-  Span<const IndexPair> pairs() const { return pairs_; }
+  /// Calls f(i, j) for each pair, smaller index first.
+  template <class F>
+  void operator()(const F& f) const {
+    for (const auto& [low, high] : pairs_) f(low, high);
+  }
   std::size_t memory_bytes() const { return pairs_.capacity() * sizeof(IndexPair); }
 
  private:
@@ -32,17 +35,44 @@ class PairBuffer {
 /// in order. O(n + pairs). Owns the scratch memory of those passes.
 class ListAssembler {
  public:
-  /// Writes a list of n rows. In a full list the rows of ghosts (first_ghost and on; none if negative) stay
+  /// Writes a list of n rows from pairs (i, j), i < j, that `for_each(f)` hands to f(i, j), the same ones in
+  /// the same order each time. In a full list the rows of ghosts (first_ghost and on; none if negative) stay
   /// empty.
-  void assemble(std::size_t n, ListKind kind, std::int32_t first_ghost, const PairBuffer& buffer,
-                NeighborList& out);
+  template <class ForEachPair>
+  void assemble(std::size_t n, ListKind kind, std::int32_t first_ghost, const ForEachPair& for_each,
+                NeighborList& out) {
+    if (kind == ListKind::half) {
+      assemble_half(n, for_each, out);
+      return;
+    }
+    const std::size_t rows = first_ghost < 0 ? n : std::min(n, static_cast<std::size_t>(first_ghost));
+    assemble_half(n, for_each, half_);
+    assemble_full(n, rows, out);
+  }
   std::size_t memory_bytes() const;
 
  private:
-  void assemble_half(std::size_t n, Span<const IndexPair> pairs, NeighborList& out);
+  template <class ForEachPair>
+  void assemble_half(std::size_t n, const ForEachPair& for_each, NeighborList& out) {
+    column_first_.assign(n + 1, 0);
+    out.kind = ListKind::half;
+    out.first.assign(n + 1, 0);
+    for_each([&](std::int32_t low, std::int32_t high) {
+      ++out.first[static_cast<std::size_t>(low) + 1];
+      ++column_first_[static_cast<std::size_t>(high) + 1];
+    });
+    accumulate_counts(out.first);
+    accumulate_counts(column_first_);
+    row_of_.resize(static_cast<std::size_t>(out.first.back()));
+    next_.assign(column_first_.begin(), column_first_.end());
+    for_each([&](std::int32_t low, std::int32_t high) { row_of_[next_[high]++] = low; });
+    fill_rows(n, out);
+  }
+  static void accumulate_counts(std::vector<std::int64_t>& first);
+  void fill_rows(std::size_t n, NeighborList& out);
   void assemble_full(std::size_t n, std::size_t rows, NeighborList& out);
 
-  std::vector<std::int64_t> column_first_;  ///< start of each column in row_of_, then its end while filling
+  std::vector<std::int64_t> column_first_;  ///< start of each column in row_of_
   std::vector<std::int32_t> row_of_;        ///< smaller indices, by larger index
   std::vector<std::int64_t> next_;          ///< where the next entry of each row goes
   NeighborList half_;                       ///< upper triangle on the way to a full list

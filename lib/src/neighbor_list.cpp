@@ -10,8 +10,9 @@ std::int64_t NeighborList::pairs() const {
   std::int64_t count = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     const auto neighbors = row(i);
-    count +=
-        neighbors.end() - std::upper_bound(neighbors.begin(), neighbors.end(), static_cast<std::int32_t>(i));
+    const std::int32_t self = particle.empty() ? static_cast<std::int32_t>(i) : particle[i];
+    count += std::count_if(neighbors.begin(), neighbors.end(),
+                           [self](std::int32_t other) { return other > self; });
   }
   return count;
 }

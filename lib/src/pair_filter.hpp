@@ -37,6 +37,12 @@ class PairFilter {
   /// The same for a pair whose distance is not known.
   bool accept(std::int32_t i, std::int32_t j) const;
 
+  /// Whether the distance alone decides, by one cutoff for all pairs.
+  bool is_plain() const { return one_type_ && !restricted_; }
+  bool has_one_cutoff() const { return one_type_; }
+  /// Whether exclusions and ghosts let the pair be in the list.
+  bool is_wanted(std::int32_t i, std::int32_t j) const;
+
  private:
   /// Squared distances of wrapped images that settle the matter, and the limit for the others.
   struct Band {
@@ -47,7 +53,6 @@ class PairFilter {
   const Band& band_of(std::int32_t i, std::int32_t j) const {
     return bands_[static_cast<std::size_t>(types_[i]) * type_count_ + static_cast<std::size_t>(types_[j])];
   }
-  bool is_wanted(std::int32_t i, std::int32_t j) const;
   bool is_within(std::int32_t i, std::int32_t j, double cutoff2) const;
 
   Span<const Vec3> positions_;

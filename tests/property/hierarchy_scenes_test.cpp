@@ -5,6 +5,7 @@
 
 #include <dch/all_pairs.hpp>
 #include <dch/hierarchy.hpp>
+#include <dch/instruction_set.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"
@@ -23,6 +24,8 @@ std::vector<HierarchyParams> variants() {
         params.radius = kRadius;
         params.edge_rule = rule;
         params.c = c;
+        if (rule == EdgeRule::additive)
+          params.base_radius = kRadius / (2 * c);  // small clusters: many levels
         params.max_roots = max_roots;
         all.push_back(params);
       }
@@ -30,6 +33,14 @@ std::vector<HierarchyParams> variants() {
 }
 
 class HierarchyScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
+
+std::vector<InstructionSet> supported_sets() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set :
+       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
+    if (is_supported(set)) sets.push_back(set);  // the widest last: later tests go on with it
+  return sets;
+}
 
 TEST_P(HierarchyScenes, ValidAfterBuild) {
   const Box box = GetParam().box;
@@ -53,12 +64,6 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
       bonds.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1)});
     const Exclusions exclusions = Exclusions::from_bonds(types.size(), bonds, 2);
 
-    Hierarchy hierarchy([] {
-      HierarchyParams params;
-      params.radius = kRadius;
-      return params;
-    }());
-    hierarchy.build(scene.points, box);
     for (const ListKind kind : {ListKind::half, ListKind::full}) {
       ListParams plain;
       plain.cutoffs = TypeCutoffs(0.8);
@@ -72,9 +77,32 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
       ListParams ghosts = plain;
       ghosts.first_ghost = static_cast<std::int32_t>(types.size() / 3);
       for (const ListParams& params : {plain, typed, excluded, ghosts}) {
-        NeighborList list;
-        hierarchy.list(params, list);
-        ASSERT_EQ(first_difference(list, all_pairs(scene.points, box, params)), "") << scene.name;
+        const NeighborList expected = all_pairs(scene.points, box, params);
+        for (const double base_radius : {0.0, 0.2 * kRadius, kRadius}) {
+          HierarchyParams hierarchy_params;
+          hierarchy_params.radius = kRadius;
+          hierarchy_params.base_radius = base_radius;
+          Hierarchy hierarchy(hierarchy_params);
+          hierarchy.build(scene.points, box);
+          NeighborList first_set;
+          for (const InstructionSet set : supported_sets()) {
+            set_instruction_set(set);
+            NeighborList list;
+            hierarchy.list(params, list);
+            ASSERT_EQ(first_difference(list, expected), "")
+                << scene.name << ", R_0 = " << base_radius << ", " << name(set);
+            ListParams as_found = params;
+            as_found.order = RowOrder::by_structure;
+            NeighborList other_order;
+            hierarchy.list(as_found, other_order);
+            if (set == InstructionSet::portable) first_set = other_order;
+            ASSERT_EQ(first_difference(sorted_by_index(other_order, scene.points.size()), expected), "")
+                << scene.name << ", R_0 = " << base_radius << ", " << name(set);
+            ASSERT_EQ(first_difference(other_order, first_set), "") << "by structure, " << name(set);
+            for (std::size_t r = 0; params.first_ghost >= 0 && r < other_order.size(); ++r)
+              ASSERT_TRUE(other_order.particle[r] < params.first_ghost || other_order.row(r).empty());
+          }
+        }
       }
     }
   }
@@ -88,13 +116,21 @@ TEST_P(HierarchyScenes, ListsEqualTheOracleInTheSmallestBox) {
   params.radius = box.max_cutoff();
   ListParams list_params;
   list_params.cutoffs = TypeCutoffs(params.radius);
-  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 150, params.radius / (2 * params.c))) {
-    Hierarchy hierarchy(params);
-    hierarchy.build(scene.points, box);
-    ASSERT_EQ(hierarchy.validate(), "") << scene.name;
-    NeighborList list;
-    hierarchy.list(list_params, list);
-    ASSERT_EQ(first_difference(list, all_pairs(scene.points, box, list_params)), "") << scene.name;
+  for (const double share : {1.0, 0.999, 0.9, 0.7}) {  // of the largest list
+    list_params.cutoffs = TypeCutoffs(share * params.radius);
+    for (const double base_radius : {0.0, 0.3 * params.radius}) {
+      params.base_radius = base_radius;
+      for (const scenes::NamedPoints& scene :
+           scenes::hard_point_sets(box, 150, params.radius / (2 * params.c))) {
+        Hierarchy hierarchy(params);
+        hierarchy.build(scene.points, box);
+        ASSERT_EQ(hierarchy.validate(), "") << scene.name;
+        NeighborList list;
+        hierarchy.list(list_params, list);
+        ASSERT_EQ(first_difference(list, all_pairs(scene.points, box, list_params)), "")
+            << scene.name << ", share " << share << ", R_0 = " << base_radius;
+      }
+    }
   }
 }
 

@@ -47,6 +47,7 @@ inline HierarchyParams repairing(EdgeRule rule = EdgeRule::additive, int max_roo
   params.edge_rule = rule;
   params.max_roots = max_roots;
   params.c = c;
+  if (rule == EdgeRule::additive) params.base_radius = kRadius / (2 * c);  // small clusters: many levels
   return params;
 }
 

@@ -32,6 +32,26 @@ inline std::string first_difference(const NeighborList& actual, const NeighborLi
   return {};
 }
 
+/// A list ordered by structure, of n particles, with rows by index and neighbors ascending.
+inline NeighborList sorted_by_index(const NeighborList& list, std::size_t n) {
+  std::vector<std::vector<std::int32_t>> rows(n);
+  for (std::size_t r = 0; r < list.size(); ++r) {
+    const std::int32_t i = list.particle[r];
+    for (const std::int32_t j : list.row(r)) {
+      const bool is_own = list.kind == ListKind::full || i < j;
+      rows[is_own ? i : j].push_back(is_own ? j : i);
+    }
+  }
+  NeighborList sorted;
+  sorted.kind = list.kind;
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    sorted.j.insert(sorted.j.end(), row.begin(), row.end());
+    sorted.first.push_back(static_cast<std::int64_t>(sorted.j.size()));
+  }
+  return sorted;
+}
+
 /// What keeps this from being a well-formed list of n rows: offsets, ascending rows, indices in range, no
 /// particle its own neighbor, half rows above the diagonal. Empty if nothing does.
 inline std::string malformation(const NeighborList& list, std::size_t n) {

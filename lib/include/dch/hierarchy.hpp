@@ -31,7 +31,11 @@ enum class MaintenancePolicy {
 struct HierarchyParams {
   /// rho_0, the edge threshold of level 0 [length]: cutoff + skin of the list that the level-0 edges are.
   double radius = 0;
-  /// c >= 1.05: the level scale is r0 = radius / (2 c). Larger c: smaller balls, more levels and edges, more
+  /// R_0, the radius within which level 1 covers the points [length]. 0: chosen at each build so that a node
+  /// of level 1 has about 64 children, which makes lists fastest (EdgeRule::additive), or radius / (2 c)
+  /// (EdgeRule::thesis).
+  double base_radius = 0;
+  /// c >= 1.05 of EdgeRule::thesis, rho_i = 2 c R_i. Larger c: smaller balls, more levels and edges, more
   /// slack.
   double c = 1.05;
   EdgeRule edge_rule = EdgeRule::additive;
@@ -46,18 +50,19 @@ struct LevelInfo {
   double covering_radius = 0;  ///< R_i = 2^i r0: level i+1 covers level i within it [length]
   double edge_threshold = 0;   ///< rho_i [length]
   std::int64_t nodes = 0;
-  std::int64_t edges = 0;  ///< of G_c at this level; -1 where they are enumerated, not stored (levels 0, 1)
+  std::int64_t edges = 0;       ///< of G_c at this level; -1 for level 0, where lists enumerate them
   std::int64_t max_degree = 0;  ///< most stored edges of a node
 };
 
 /// The discrete center hierarchy of a point set and its conflict graph (thesis, chapter 5).
 ///
-/// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i r0:
+/// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i R_0:
 /// every node of level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i
-/// apart. G_c joins two nodes of level i within rho_i of each other. r0 is tied to the list, 2 c r0 = radius,
-/// so that the level-0 edges
-/// **are** the neighbor list of that radius; r0 does not depend on the closest pair, so coincident points are
-/// no trouble (one of them stands in level 1).
+/// apart. G_c joins two nodes of level i within rho_i of each other. rho_0 is `radius`, so that the level-0
+/// edges **are** the neighbor list of that radius. With EdgeRule::thesis R_0 is r0 of the thesis, tied to the
+/// list by 2 c r0 = radius; else it is 2^k r0 for a scale r0 with c >= 1.05 whose first k levels no query of
+/// the scene needs and which are therefore not built. R_0 does not depend on the closest pair, so coincident
+/// points are no trouble (one of them stands in level 1).
 ///
 /// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing
 /// lemma 5.3.2 and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion.
@@ -113,9 +118,8 @@ class Hierarchy {
   /// root.
   /// @throws InvalidParameter if the point does not stand in level i.
   std::int32_t parent(std::int32_t id, int i) const;
-  /// Ids of the neighbors in level i of G_c, ascending. Where a level holds
-  /// most of the points its edges are not stored, but enumerated among the children of neighboring parents
-  /// (Lemma 5.3.1(5)).
+  /// Ids of the neighbors in level i of G_c, ascending. Those of level 0 are not stored, but enumerated among
+  /// the children of neighboring parents (Lemma 5.3.1(5)).
   /// @throws InvalidParameter if the point does not stand in level i.
   std::vector<std::int32_t> neighbors(std::int32_t id, int i) const;
 

@@ -14,15 +14,24 @@ enum class ListKind {
   full   ///< each pair in both rows
 };
 
-/// Neighbor list in CSR form; neighbors of i are j[first[i]] .. j[first[i+1]-1], ascending.
+/// How a list is laid out.
+enum class RowOrder {
+  by_index,  ///< row i is particle i, neighbors ascending, each pair of a half list in the row of its smaller
+             ///< index
+  by_structure  ///< rows and neighbors as they lie in the engine's structure, close to each other in space,
+                ///< each pair of a half list in either row: several times faster to make, and kind to caches
+};
+
+/// Neighbor list in CSR form; the neighbors of row k are j[first[k]] .. j[first[k+1]-1].
 struct NeighborList {
   ListKind kind = ListKind::half;
   std::vector<std::int64_t> first{0};
-  std::vector<std::int32_t> j;
+  std::vector<std::int32_t> j{};         ///< may be longer than first.back() if the order is by structure
+  std::vector<std::int32_t> particle{};  ///< whose row it is; empty if row k is particle k
 
   /// Number of rows (particles).
   std::size_t size() const { return first.size() - 1; }
-  /// Number of distinct pairs; O(1) for a half list, O(n lg degree) for a full one, whose rows of ghosts are
+  /// Number of distinct pairs; O(1) for a half list, O(entries) for a full one, whose rows of ghosts are
   /// empty.
   std::int64_t pairs() const;
   Span<const std::int32_t> row(std::size_t i) const {
@@ -64,10 +73,11 @@ struct ListParams {
   double skin = 0;  ///< r_s >= 0 [length], added to every non-zero cutoff; the list is stale once an atom
                     ///< moved more than r_s/2
   ListKind kind = ListKind::half;
+  RowOrder order = RowOrder::by_index;
   Span<const std::int32_t> types{};  ///< one per particle in [0, cutoffs.types()); may be empty for one type
   const Exclusions* exclusions = nullptr;  ///< pairs left out; not owned, may be null
-  /// Particles from this index on are ghosts: pairs of two ghosts are left out, and in a full list the rows
-  /// of ghosts are empty. Negative: there are none.
+  /// Particles from this index on are ghosts: pairs of two ghosts are left out, and the rows of ghosts are
+  /// empty in full lists and in those ordered by structure. Negative: there are none.
   std::int32_t first_ghost = -1;
 
   /// Largest cutoff plus skin: r_list.

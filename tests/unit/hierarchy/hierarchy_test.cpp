@@ -139,11 +139,11 @@ TEST(HierarchyTest, LevelsStayWithinTheBoundOfTheAspectRatio) {
   for (const double far : {1e3, 1e6, 1e12}) {
     HierarchyParams params = with_radius(1);
     params.max_roots = 1;
+    params.base_radius = 0.5;
     Hierarchy h(params);
     h.build(std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {far, 0, 0}}, Box::none());
     EXPECT_EQ(h.validate(), "");
-    const double r0 = params.radius / (2 * params.c);
-    EXPECT_LE(h.levels(), static_cast<int>(std::ceil(std::log2(far / r0))) + 2);
+    EXPECT_LE(h.levels(), static_cast<int>(std::ceil(std::log2(far / h.level(0).covering_radius))) + 2);
     h.update(std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {1, 0, 0}}, Box::none());
     EXPECT_EQ(h.validate(), "");
     EXPECT_LE(h.levels(), 4) << "levels that are no longer needed must go";
@@ -157,9 +157,10 @@ TEST(HierarchyTest, DegreesStayWithinThePackingBound) {
     HierarchyParams params = with_radius(1);
     params.edge_rule = rule;
     params.c = 1.5;
+    if (rule == EdgeRule::additive) params.base_radius = 0.5;
     Hierarchy h(params);
     h.build(scenes::uniform(4000, {8, 8, 8}, 5), Box::orthorhombic({8, 8, 8}));
-    for (int i = 2; i < h.levels(); ++i) {
+    for (int i = 1; i < h.levels(); ++i) {
       const double separation = h.level(i - 1).covering_radius;
       EXPECT_LE(h.level(i).max_degree, std::pow(2 * h.level(i).edge_threshold / separation + 1, 3) - 1) << i;
     }
@@ -171,8 +172,10 @@ TEST(HierarchyTest, ThresholdsFollowTheRule) {
   params.c = 1.5;
   params.max_roots = 1;
   const std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
+  params.base_radius = 1;
   Hierarchy additive(params);
   additive.build(points, Box::none());
+  params.base_radius = 0;
   params.edge_rule = EdgeRule::thesis;
   Hierarchy thesis(params);
   thesis.build(points, Box::none());
@@ -191,7 +194,7 @@ TEST(HierarchyTest, ThresholdsFollowTheRule) {
 
 TEST(HierarchyTest, DistanceOfExactlyTheCoveringRadiusIsCoveredAndNotSeparated) {
   HierarchyParams params = with_radius(3);
-  params.c = 1.5;  // r0 = 1
+  params.base_radius = 1;
   params.max_roots = 1;
   Hierarchy h(params);
   h.build(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none());
@@ -322,7 +325,7 @@ TEST_F(AutomaticPolicyTest, RepairsOnceToLearnItsCost) {
 }
 
 TEST_F(AutomaticPolicyTest, TriesRepairAgainAfterManyBuilds) {
-  pretend_costs(2e-6, 0.5e-6, 1e-3);  // as if a repair had been interrupted for long
+  pretend_costs(2e-6, 1e-8, 1e-3);  // as if a repair had been interrupted for long
   for (std::uint64_t step = 0; step < 100 && hierarchy_.stats().repairs == 0; ++step)
     hierarchy_.update(scenes::uniform(4000, {14, 14, 14}, step), Box::none());
   EXPECT_EQ(hierarchy_.stats().repairs, 1);

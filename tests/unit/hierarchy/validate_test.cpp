@@ -20,14 +20,15 @@ class ValidateTest : public ::testing::Test {
   static HierarchyParams params() {
     HierarchyParams p;
     p.radius = 1.5;
+    p.base_radius = 0.7;
+    p.max_roots = 1;
     return p;
   }
   HierarchyTestAccess::Impl& inside() { return HierarchyTestAccess::impl(hierarchy_); }
   /// A node of the level that does not stand in the level above.
   std::int32_t plain_node(int level) {
-    const auto& at = inside().levels[level];
-    for (std::int32_t k = 0; k < at.size(); ++k)
-      if (at.is_alive(k) && at.up[k] == detail::kNone) return k;
+    for (std::int32_t k = 0; k < inside().size(level); ++k)
+      if (inside().is_alive(level, k) && inside().up(level, k) == detail::kNone) return k;
     ADD_FAILURE() << "no plain node in level " << level;
     return 0;
   }
@@ -46,20 +47,21 @@ TEST_F(ValidateTest, SoundHierarchyPasses) {
 
 TEST_F(ValidateTest, ReportsAPointFarFromItsParent) {
   const std::int32_t k = plain_node(0);
-  inside().levels[0].position[k] = inside().box.wrap(inside().levels[0].position[k] + Vec3{5, 5, 5});
+  Vec3& at = inside().points.position[k];
+  at = inside().box.wrap(at + Vec3{5, 5, 5});
   expect_report("from its parent");
 }
 
 TEST_F(ValidateTest, ReportsAMissingEdge) {
-  auto& level = inside().levels[kFirstStoredLevel];
-  const std::int32_t k = plain_node(kFirstStoredLevel);
+  auto& level = inside().levels[1];
+  const std::int32_t k = plain_node(1);
   ASSERT_FALSE(level.edges.row(k).empty());
   level.edges.erase(k, level.edges.row(k)[0]);
   expect_report("is missing");
 }
 
 TEST_F(ValidateTest, ReportsAnEdgeBeyondTheThreshold) {
-  auto& level = inside().levels[kFirstStoredLevel];
+  auto& level = inside().levels[1];
   level.threshold2 *= 0.01;
   expect_report("should not exist");
 }
@@ -71,21 +73,40 @@ TEST_F(ValidateTest, ReportsCentersThatAreTooClose) {
 }
 
 TEST_F(ValidateTest, ReportsABrokenListOfChildren) {
-  const std::int32_t k = plain_node(0);
-  inside().detach(0, k);
-  inside().levels[0].parent[k] = 0;
+  const std::int32_t k = plain_node(1);
+  inside().detach(1, k);
+  inside().levels[1].parent[k] = inside().levels[1].parent[k == 0 ? 1 : 0];
   expect_report("children");
 }
 
 TEST_F(ValidateTest, ReportsANodeWithoutAParent) {
-  inside().detach(0, plain_node(0));
+  inside().detach(1, plain_node(1));
   expect_report("has no parent");
 }
 
 TEST_F(ValidateTest, ReportsAPointThatIsNotItsOwnParent) {
-  const auto& centers = inside().levels[1];
-  inside().levels[0].up[centers.down[plain_node(1)]] = detail::kNone;
+  const std::int32_t other_slot = inside().levels[1].down[0] == 0 ? 1 : 0;
+  inside().levels[1].down[0] = other_slot;
   expect_report("without a node below");
+}
+
+TEST_F(ValidateTest, ReportsABlockOfAnotherCluster) {
+  inside().points.cluster[inside().levels[1].first_child[0]] = 1;
+  expect_report("are not its own");
+}
+
+TEST_F(ValidateTest, ReportsABlockInNoChain) {
+  auto& level = inside().levels[1];
+  const std::int32_t first = level.first_child[0];
+  level.first_child[0] = inside().points.next[first];
+  expect_report("in blocks");
+}
+
+TEST_F(ValidateTest, ReportsAGapInABlock) {
+  auto& points = inside().points;
+  const std::int32_t block = inside().levels[1].first_child[0];
+  points.id[block * detail::kBlock] = detail::kNone;
+  expect_report("filled from the front");
 }
 
 TEST_F(ValidateTest, ReportsAWrongSlot) {
@@ -99,7 +120,7 @@ TEST_F(ValidateTest, ReportsPositionsThatDifferBetweenLevels) {
 }
 
 TEST_F(ValidateTest, ReportsTooManyRoots) {
-  inside().params.max_roots = 1;
+  inside().params.max_roots = 0;
   expect_report("roots");
 }
 

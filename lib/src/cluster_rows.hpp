@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/neighbor_list.hpp>
+#include <dch/vec3.hpp>
+
+#include "hierarchy_level.hpp"
+#include "pair_filter.hpp"
+#include "point_blocks.hpp"
+#include "simd/list_kernels.hpp"
+
+namespace dch::detail {
+
+/// Writes neighbor lists from clusters of points that the conflict graph joins: the level-0 edges, enumerated
+/// among the children of equal or neighboring level-1 nodes (Lemma 5.3.1(5)).
+///
+/// Points are held relative to the center of their cluster, as 16-bit integers: a test of 32 pairs is a few
+/// instructions, and its precision does not depend on the box. What such a test leaves open, a band of about
+/// a thousandth of the cutoff, is decided by the pair distance in double. The integer arithmetic is the same
+/// on every instruction set, so the rows are too.
+class ClusterRows {
+ public:
+  /// Finds all pairs that the filter accepts, as a half list ordered by structure, ghosts having rows like
+  /// all others. Edges must join all clusters with points within `reach`, the square root of
+  /// filter.largest_distance2().
+  template <class Metric>
+  void find(const Metric& metric, const Box& box, const Level& clusters, const PointBlocks& points,
+            std::int32_t first_ghost, double error, const PairFilter& filter, NeighborList& out);
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Cluster {
+    std::int32_t first_block = 0, blocks = 0;
+    double extent = 0;  ///< distance of the farthest point from the center [length]
+    BlockBox box{};     ///< of all blocks
+    bool owned = true;  ///< whether a point is not a ghost
+  };
+
+  template <class Metric>
+  void measure(const Metric& metric, const Level& clusters, const PointBlocks& points,
+               std::int32_t first_ghost);
+  void quantize(const PointBlocks& points, double reach, double error);
+  template <class Metric>
+  void add_ranges(const Metric& metric, const Box& box, const Level& clusters, std::int32_t k, double reach);
+  void add_range(const Cluster& other, Vec3 between);
+  void find_rows(const Cluster& cluster, const PairFilter& filter, NeighborList& out);
+  void row_block(std::int32_t block, std::int32_t own_index, std::int32_t collected, const PairFilter& filter,
+                 NeighborList& out);
+  std::int32_t restrict_row(std::int32_t particle, std::int32_t* row, std::int32_t count,
+                            const PairFilter& filter) const;
+  template <class Metric>
+  void find_by_distance(const Metric& metric, const Level& clusters, const PointBlocks& points,
+                        const PairFilter& filter, NeighborList& out);
+
+  const ListKernels* kernels_ = nullptr;
+  bool one_image_ = true;  ///< whether only the nearest image of a cluster can matter to another one
+  double point_unit_ = 1, box_unit_ = 1;  ///< [length]
+  std::int16_t box_limit_ = 0;            ///< see ListKernels::select
+  std::int16_t in_ = 0, out_ = 0;         ///< see ListKernels::test
+  double largest_extent_ = 0;             ///< of a cluster
+  double largest_size_ = 0;               ///< of a block along an axis
+
+  std::vector<Cluster> clusters_;
+  std::vector<std::int32_t> source_;  ///< by block: the block of PointBlocks
+  std::vector<Vec3> offset_;          ///< by slot: position relative to the cluster's center
+  std::vector<BlockPoints> points_;
+  std::vector<BlockBox> boxes_;
+  std::vector<std::array<std::int32_t, kBlock>> ids_;
+  std::vector<std::uint8_t> lanes_;  ///< by block: number of points
+  std::vector<std::uint8_t> owned_;  ///< by block: whether a point is not a ghost
+
+  // of the cluster at hand
+  std::vector<BlockRange> ranges_;
+  std::vector<std::int32_t> block_, range_, index_;
+  std::array<std::vector<std::int16_t>, 6> corners_;
+  std::vector<std::int16_t> x_, y_, z_;
+  std::vector<std::int32_t> candidate_;
+  std::vector<std::uint32_t> valid_, mask_;
+  std::vector<Unsettled> unsettled_;
+};
+
+}  // namespace dch::detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <dch/instruction_set.hpp>
+
+namespace dch::detail {
+
+/// Points of one block; the first dimension of a test is a block.
+inline constexpr int kBlock = 8;
+/// Candidates of one chunk; the second dimension of a test is made of chunks. A mask holds one bit for each.
+inline constexpr int kChunk = 32;
+inline constexpr int kBlocksInChunk = kChunk / kBlock;
+
+// Coordinates are 16-bit integers, in units chosen by the caller, and are subtracted modulo 2^16: right where
+// the true difference is within 32767 units. Squares are halved twice over in between so that they fit:
+//   square(d) = (d * d + 2^14) >> 15,
+// and sums saturate at 32767. All sets do this the same, so all find the same.
+
+/// A box as its lower and its negated upper corner: (lo_x, lo_y, lo_z, 0, -hi_x, -hi_y, -hi_z, 0).
+struct alignas(16) BlockBox {
+  std::int16_t v[8];
+};
+
+/// Coordinates of a block's points; lanes without a point hold anything.
+struct alignas(16) BlockPoints {
+  std::int16_t x[kBlock], y[kBlock], z[kBlock];
+};
+
+/// Blocks that lie side by side and have a common shift.
+struct BlockRange {
+  std::int32_t first, count;
+  BlockBox box_shift;           ///< to add to their boxes: (d, 0, -d, 0)
+  std::int16_t point_shift[4];  ///< to add to their points: (d, 0)
+};
+
+/// Boxes of candidate blocks, shifted, one array a corner coordinate in the order of BlockBox (the zeros left
+/// out), each of a capacity that is a multiple of kChunk.
+struct BoxColumns {
+  std::int16_t* corner[6];
+};
+
+/// Entries of a row-by-chunk mask that a test could not settle.
+struct Unsettled {
+  std::int32_t row, chunk;
+  std::uint32_t lanes;
+};
+
+/// The loops that lists are made with, compiled for one instruction set. No function allocates.
+struct ListKernels {
+  /// Finds the blocks of some ranges whose boxes are near a box: sum of square(gap) <= limit over the axes.
+  /// Writes block and range of each and, as columns, its shifted box. Returns how many. Room for all blocks
+  /// of all ranges, rounded up to kChunk, is needed.
+  std::int32_t (*collect)(const BlockBox& box, std::int16_t limit, const BlockBox* boxes,
+                          const BlockRange* ranges, std::int32_t range_count, std::int32_t* block,
+                          std::int32_t* range, BoxColumns columns);
+
+  /// Indices k >= first of columns whose box is near a box. Returns how many.
+  std::int32_t (*select)(const BlockBox& box, std::int16_t limit, BoxColumns columns, std::int32_t first,
+                         std::int32_t count, std::int32_t* index);
+
+  /// Tests the points of a block against `chunks` chunks of candidates (x, y, z, and the lanes that hold
+  /// one): with t = sum of square(difference), mask[row * stride + chunk] gets the lanes with t < in, and
+  /// those with in <= t < out are told apart in `unsettled`. Returns how many of the latter there are; room
+  /// for kBlock * chunks is needed.
+  std::int32_t (*test)(const BlockPoints& points, const std::int16_t* x, const std::int16_t* y,
+                       const std::int16_t* z, const std::uint32_t* valid, std::int32_t chunks,
+                       std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
+                       Unsettled* unsettled);
+
+  /// Copies the ids whose bit is set, in order. Returns how many; up to 16 entries beyond them are
+  /// overwritten.
+  std::int32_t (*compress)(const std::uint32_t* mask, std::int32_t chunks, const std::int32_t* ids,
+                           std::int32_t* out);
+};
+
+/// The kernels of a set that is supported.
+const ListKernels& list_kernels(InstructionSet set);
+
+}  // namespace dch::detail

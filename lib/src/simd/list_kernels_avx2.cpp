@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "list_kernels_loops.hpp"
+#include "list_kernels_sets.hpp"
+#include "x86_boxes.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// By a mask of 8 lanes: the chosen lanes, first come first.
+struct PackTable {
+  alignas(32) unsigned char lanes[256][8];
+  constexpr PackTable() : lanes() {
+    for (int mask = 0; mask < 256; ++mask) {
+      int to = 0;
+      for (int lane = 0; lane < 8; ++lane)
+        if ((mask >> lane & 1) != 0) lanes[mask][to++] = static_cast<unsigned char>(lane);
+    }
+  }
+};
+constexpr PackTable kPack;
+
+struct Avx2 : X86Boxes {
+  using V = __m256i;
+  static constexpr int kLanes = 16;
+  static constexpr std::uint32_t kAll = 0xFFFF;
+
+  static V load(const std::int16_t* p) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)); }
+  static V set1(std::int16_t v) { return _mm256_set1_epi16(v); }
+  static V sub(V a, V b) { return _mm256_sub_epi16(a, b); }
+  static V adds(V a, V b) { return _mm256_adds_epi16(a, b); }
+  static V max(V a, V b) { return _mm256_max_epi16(a, b); }
+  static V square(V d) { return _mm256_mulhrs_epi16(d, d); }
+  static std::uint32_t bits_greater(V a, V b) {
+    const __m256i greater = _mm256_cmpgt_epi16(a, b);
+    const __m128i bytes =
+        _mm_packs_epi16(_mm256_castsi256_si128(greater), _mm256_extracti128_si256(greater, 1));
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
+  }
+  static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    std::int32_t written = 0;
+    for (int k = 0; k < kChunk; k += 8, mask >>= 8) {
+      const std::uint32_t eight = mask & 255;
+      const __m256i order =
+          _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPack.lanes[eight])));
+      const __m256i from = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids + k));
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + written),
+                          _mm256_permutevar8x32_epi32(from, order));
+      written += __builtin_popcount(eight);
+    }
+    return written;
+  }
+};
+
+}  // namespace
+
+const ListKernels& list_kernels_avx2() {
+  static constexpr ListKernels kKernels = kernels_of<Avx2>;
+  return kKernels;
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "list_kernels_loops.hpp"
+#include "list_kernels_sets.hpp"
+#include "x86_boxes.hpp"
+
+namespace dch::detail {
+namespace {
+
+struct Avx512 : X86Boxes {
+  using V = __m512i;
+  static constexpr int kLanes = 32;
+  static constexpr std::uint32_t kAll = 0xFFFFFFFF;
+
+  static V load(const std::int16_t* p) { return _mm512_loadu_si512(p); }
+  static V set1(std::int16_t v) { return _mm512_set1_epi16(v); }
+  static V sub(V a, V b) { return _mm512_sub_epi16(a, b); }
+  static V adds(V a, V b) { return _mm512_adds_epi16(a, b); }
+  static V max(V a, V b) { return _mm512_max_epi16(a, b); }
+  static V square(V d) { return _mm512_mulhrs_epi16(d, d); }
+  static std::uint32_t bits_greater(V a, V b) { return _mm512_cmpgt_epi16_mask(a, b); }
+  // Compressed in a register, then stored whole: a compressing store is many times slower on some processors.
+  static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    const auto low = static_cast<__mmask16>(mask), high = static_cast<__mmask16>(mask >> 16);
+    const int first = __builtin_popcount(mask & 0xFFFF);
+    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(low, _mm512_loadu_si512(ids)));
+    _mm512_storeu_si512(out + first, _mm512_maskz_compress_epi32(high, _mm512_loadu_si512(ids + 16)));
+    return __builtin_popcount(mask);
+  }
+};
+
+}  // namespace
+
+const ListKernels& list_kernels_avx512() {
+  static constexpr ListKernels kKernels = kernels_of<Avx512>;
+  return kKernels;
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "list_kernels_loops.hpp"
+#include "list_kernels_sets.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// One lane at a time.
+struct Portable {
+  using V = std::int16_t;
+  static constexpr int kLanes = 1;
+  static constexpr std::uint32_t kAll = 1;
+
+  static V saturated(int v) { return static_cast<V>(v > 32767 ? 32767 : v < -32768 ? -32768 : v); }
+  static V load(const std::int16_t* p) { return *p; }
+  static V set1(std::int16_t v) { return v; }
+  static V sub(V a, V b) {
+    return static_cast<V>(static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b));
+  }
+  static V adds(V a, V b) { return saturated(a + b); }
+  static V max(V a, V b) { return a > b ? a : b; }
+  // -32768 squared does not fit: it comes out as -32768, as in the vector instruction
+  static V square(V d) { return static_cast<V>(static_cast<std::uint16_t>((d * d + 0x4000) >> 15)); }
+  static std::uint32_t bits_greater(V a, V b) { return a > b; }
+
+  static BlockBox load_box(const BlockBox& box) { return box; }
+  static void store_box(BlockBox& to, const BlockBox& box) { to = box; }
+  static BlockBox shift_box(BlockBox box, const BlockBox& shift) {
+    for (int k = 0; k < 8; ++k) box.v[k] = adds(box.v[k], shift.v[k]);
+    return box;
+  }
+  static int box_gap2(const BlockBox& box, const BlockBox& opposite) {
+    V sum = 0;
+    for (int k = 0; k < 8; ++k) sum = adds(sum, square(max(saturated(box.v[k] - opposite.v[k]), 0)));
+    return sum;
+  }
+  static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    std::int32_t written = 0;
+    for (; mask != 0; mask &= mask - 1) out[written++] = ids[__builtin_ctz(mask)];
+    return written;
+  }
+};
+
+}  // namespace
+
+const ListKernels& list_kernels_portable() {
+  static constexpr ListKernels kKernels = kernels_of<Portable>;
+  return kKernels;
+}
+
+}  // namespace dch::detail

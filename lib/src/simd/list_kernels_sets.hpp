@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "list_kernels.hpp"
+
+namespace dch::detail {
+
+const ListKernels& list_kernels_portable();
+#ifdef DCH_X86_KERNELS
+const ListKernels& list_kernels_sse42();
+const ListKernels& list_kernels_avx2();
+const ListKernels& list_kernels_avx512();
+#endif
+
+}  // namespace dch::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "list_kernels_loops.hpp"
+#include "list_kernels_sets.hpp"
+#include "x86_boxes.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// By a mask of 4 lanes: the bytes that move the chosen lanes to the front.
+struct PackTable {
+  alignas(16) unsigned char bytes[16][16];
+  constexpr PackTable() : bytes() {
+    for (int mask = 0; mask < 16; ++mask) {
+      int to = 0;
+      for (int lane = 0; lane < 4; ++lane)
+        for (int byte = 0; (mask >> lane & 1) != 0 && byte < 4; ++byte)
+          bytes[mask][to++] = static_cast<unsigned char>(4 * lane + byte);
+    }
+  }
+};
+constexpr PackTable kPack;
+
+struct Sse42 : X86Boxes {
+  using V = __m128i;
+  static constexpr int kLanes = 8;
+  static constexpr std::uint32_t kAll = 0xFF;
+
+  static V load(const std::int16_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
+  static V set1(std::int16_t v) { return _mm_set1_epi16(v); }
+  static V sub(V a, V b) { return _mm_sub_epi16(a, b); }
+  static V adds(V a, V b) { return _mm_adds_epi16(a, b); }
+  static V max(V a, V b) { return _mm_max_epi16(a, b); }
+  static V square(V d) { return _mm_mulhrs_epi16(d, d); }
+  static std::uint32_t bits_greater(V a, V b) {
+    const __m128i greater = _mm_cmpgt_epi16(a, b);
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(greater, _mm_setzero_si128())));
+  }
+  static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    std::int32_t written = 0;
+    for (int k = 0; k < kChunk; k += 4, mask >>= 4) {
+      const std::uint32_t four = mask & 15;
+      const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack.bytes[four]));
+      const __m128i from = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ids + k));
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(out + written), _mm_shuffle_epi8(from, order));
+      written += __builtin_popcount(four);
+    }
+    return written;
+  }
+};
+
+}  // namespace
+
+const ListKernels& list_kernels_sse42() {
+  static constexpr ListKernels kKernels = kernels_of<Sse42>;
+  return kKernels;
+}
+
+}  // namespace dch::detail
