@@ -67,14 +67,14 @@ int ListFiller::special_kind(int i, int j) const {
   return 0;
 }
 
-int ListFiller::fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
-                         bool newton, int* out) const {
+int ListFiller::fill_row(std::size_t point, dch::Span<const std::int32_t> candidates,
+                         const AtomPoints& points, bool newton, int* out) const {
   const int owned = atom->nlocal;
-  const int i = points.atoms()[row];
+  const int i = points.atoms()[point];
   const bool ghost_row = i >= owned;
   const bool molecular = atom->molecular != Atom::ATOMIC && !ghost_row;
   const double* cutsq = (ghost_row ? neighbor->cutneighghostsq : neighbor->cutneighsq)[atom->type[i]];
-  const dch::Vec3 xi = points.positions()[row];
+  const dch::Vec3 xi = points.positions()[point];
   int n = 0;
   for (const std::int32_t candidate : candidates) {
     const auto q = static_cast<std::size_t>(candidate);
@@ -100,14 +100,18 @@ int ListFiller::fill_row(std::size_t row, dch::Span<const std::int32_t> candidat
 void ListFiller::fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
                       NeighList& list) const {
   const auto owned = static_cast<std::size_t>(points.owned());
-  const std::size_t rows = served.ghost ? points.atoms().size() : owned;
-  const auto bound = static_cast<std::size_t>(candidates.first[rows]);
+  const auto bound = static_cast<std::size_t>(candidates.first.back());
   if (served.storage.size() < bound) served.storage.resize(bound);
   int* out = served.storage.data();
-  for (std::size_t row = 0; row < rows; ++row) {
-    const int i = points.atoms()[row];
-    const int n = fill_row(row, candidates.row(row), points, served.newton, out);
-    list.ilist[row] = i;
+  std::size_t rows = owned;
+  for (std::size_t r = 0; r < candidates.size(); ++r) {
+    const std::size_t point =
+        candidates.particle.empty() ? r : static_cast<std::size_t>(candidates.particle[r]);
+    if (point >= owned && !served.ghost) continue;
+    const int i = points.atoms()[point];
+    const int n = fill_row(point, candidates.row(r), points, served.newton, out);
+    list.ilist[point] = i;  // the order of the atoms in memory, whatever the order of the rows
+    rows = std::max(rows, point + 1);
     list.firstneigh[i] = out;
     list.numneigh[i] = n;
     out += n;

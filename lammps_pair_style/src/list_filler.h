@@ -62,7 +62,7 @@ class ListFiller : protected Pointers {
             NeighList& list) const;
 
  private:
-  int fill_row(std::size_t row, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
+  int fill_row(std::size_t point, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
                bool newton, int* out) const;
   bool stored_here(int i, int ghost) const;
   int special_kind(int i, int j) const;

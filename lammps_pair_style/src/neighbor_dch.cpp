@@ -299,6 +299,7 @@ void NeighborDCH::build_ours() {
 dch::ListParams NeighborDCH::list_params(const ServedList& served) const {
   dch::ListParams params;
   params.kind = served.full ? dch::ListKind::full : dch::ListKind::half;
+  params.order = dch::RowOrder::by_structure;
   params.first_ghost = served.ghost ? -1 : points_.owned();
   params.cutoffs = dch::TypeCutoffs(params_.radius);
   if (!served.ghost && atom->ntypes > 1 && cutneighmin < cutneighmax) {
@@ -376,8 +377,8 @@ dch::lammps::RunReport NeighborDCH::report() const {
                                    static_cast<std::int64_t>(bytes),
                                    atom->nlocal};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T, MPI_SUM, world);
-  std::array<std::int64_t, 3> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
-                                      now.levels};
+  std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
+                                      now.levels, now.refreshes - before_run_.refreshes};
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_INT64_T, MPI_MAX, world);
   std::array<double, 6> times{run_.points_seconds, run_.structure_seconds,       run_.rows_seconds,
                               run_.fill_seconds,   run_.verified_native_seconds, run_.verified_dch_seconds};
@@ -407,6 +408,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.structures_built = largest[0];
   report.repairs = largest[1];
   report.levels = static_cast<int>(largest[2]);
+  report.refreshes = largest[3];
   report.lists = notes_;
   return report;
 }

@@ -42,9 +42,11 @@ std::string work_table(const RunReport& r) {
   const RunCounters& n = r.counters;
   std::string text;
   text += line("  builds in the last run  %lld", static_cast<long long>(n.builds));
-  text += line("  structure               radius %g, c %g, %d levels; built %lld times, repaired %lld times",
-               r.radius, r.c, r.levels, static_cast<long long>(r.structures_built),
-               static_cast<long long>(r.repairs));
+  text += line(
+      "  structure               radius %g, c %g, %d levels; built %lld times, repaired %lld times, "
+      "neither %lld times",
+      r.radius, r.c, r.levels, static_cast<long long>(r.structures_built), static_cast<long long>(r.repairs),
+      static_cast<long long>(r.refreshes));
   text += line("  promotions, demotions   %lld, %lld", static_cast<long long>(r.promotions),
                static_cast<long long>(r.demotions));
   text += line("  points added, removed   %lld, %lld", static_cast<long long>(r.inserted),

@@ -43,7 +43,7 @@ struct RunReport {
   double c = 0;
   RunCounters counters;  ///< entries summed, builds and times the largest of any process
   std::int64_t atoms = 0;
-  std::int64_t structures_built = 0, repairs = 0;                         ///< the largest of any process
+  std::int64_t structures_built = 0, repairs = 0, refreshes = 0;          ///< the largest of any process
   std::int64_t promotions = 0, demotions = 0, inserted = 0, removed = 0;  ///< summed
   int levels = 0;                                                         ///< the largest of any process
   std::int64_t memory_bytes = 0;                                          ///< structures and lists, summed

@@ -84,10 +84,10 @@ void CellSearch::update(Span<const Vec3> positions, const Box& box, Span<const s
   clear();
   check_keys(keys, positions.size());
   detail::check_radius(radius_, box);
-  detail::check_positions(positions, box);
+  const double reach = detail::check_positions(positions, box);
 
   const detail::WrapError error(box);
-  wrap_error_ = error.bound(error.largest_reach(positions));
+  wrap_error_ = error.bound(reach);
   wrapped_.assign(positions.begin(), positions.end());
   for (Vec3& p : wrapped_) p = box.wrap(p);
   grid_.build(wrapped_, box, (radius_ + wrap_error_) / divisions_);

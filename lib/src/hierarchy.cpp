@@ -27,7 +27,8 @@ double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_ra
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
   if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
-  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + wrap_slack;
+  const double motion = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
+  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + motion + wrap_slack;
 }
 
 void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
@@ -36,7 +37,9 @@ void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
   } else if (params.edge_rule == EdgeRule::thesis) {
     base_radius = params.radius / (2 * params.c);
   } else {
-    base_radius = detail::base_radius_for(positions, box, params.radius);
+    const double r0 = params.radius / (2 * params.c);
+    const double wanted = detail::base_radius_for(positions, box, params.radius);
+    base_radius = std::ldexp(r0, static_cast<int>(std::lround(std::log2(wanted / r0))));
   }
   for (int i = 0; i <= top(); ++i) {
     levels[i].radius = radius_of_level(i);
@@ -44,9 +47,8 @@ void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
   }
 }
 
-void Hierarchy::Impl::set_wrap_slack(Span<const Vec3> positions) {
-  const detail::WrapError error(box);
-  wrap_slack = 2 * error.bound(error.largest_reach(positions));  // twice, so that insertions seldom exceed it
+void Hierarchy::Impl::set_wrap_slack() {
+  wrap_slack = 2 * detail::WrapError(box).bound(largest_reach);  // twice, so that insertions seldom exceed it
   for (int i = 0; i <= top(); ++i) {
     levels[i].threshold = threshold_of_level(i);
     levels[i].threshold2 = levels[i].threshold * levels[i].threshold;
@@ -91,7 +93,9 @@ void Hierarchy::Impl::reset(const Box& b) {
   box = b;
   base_radius = params.base_radius > 0 ? params.base_radius : params.radius / (2 * params.c);
   wrap_slack = 0;
+  largest_reach = 0;
   strayed = 0;
+  pending = measured = false;
   levels.clear();
   points.clear();
   raw.clear();
@@ -105,11 +109,11 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   const auto start = Clock::now();
   const std::int64_t promotions = stats.promotions;
   reset(b);
-  detail::check_positions(positions, b);
+  largest_reach = detail::check_positions(positions, b);
   detail::check_radius(params.radius, b);
   const auto n = positions.size();
   set_base_radius(positions);
-  set_wrap_slack(positions);
+  set_wrap_slack();
   raw.assign(n, Vec3{});
   slot_of_id.assign(n, kNone);
   with_metric(box, [&](const auto& metric) {
@@ -174,11 +178,14 @@ void Hierarchy::update(Span<const Vec3> positions, const Box& box) {
 }
 
 std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
-  detail::check_positions(Span<const Vec3>(&position, 1), box());
+  const double reach = detail::check_positions(Span<const Vec3>(&position, 1), box());
   if (near != kNone && !contains(near))
     throw InvalidParameter("insert(): there is no point with id " + std::to_string(near) +
                            " to look near of");
   Impl& h = *impl_;
+  h.repair_if_pending();
+  h.largest_reach = std::max(h.largest_reach, reach);
+  h.measured = false;
   std::int32_t id;
   if (h.free_ids.empty()) {
     id = static_cast<std::int32_t>(h.slot_of_id.size());
@@ -199,6 +206,8 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
 void Hierarchy::remove(std::int32_t id) {
   if (!contains(id)) throw InvalidParameter("remove(): there is no point with id " + std::to_string(id));
   Impl& h = *impl_;
+  h.repair_if_pending();
+  h.measured = false;
   with_metric(h.box, [&](const auto& metric) { h.remove(metric, id); });
   h.free_ids.push_back(id);
   std::push_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
@@ -207,6 +216,7 @@ void Hierarchy::remove(std::int32_t id) {
 
 void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
   Impl& h = *impl_;
+  h.measured = false;
   if (old_of_new.size() != size())
     throw InvalidParameter("renumber() got " + std::to_string(old_of_new.size()) + " ids for " +
                            std::to_string(size()) + " points");
@@ -295,6 +305,8 @@ std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
 }
 
 void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->list(params, out); }
+bool Hierarchy::repair_pending() const { return impl_->pending; }
+void Hierarchy::repair() { impl_->repair_if_pending(); }
 std::string Hierarchy::validate() const { return impl_->validate(); }
 
 const SearchStats& Hierarchy::stats() const {

@@ -22,6 +22,10 @@ namespace dch {
 /// rounding in the triangle inequality cannot hide a node.
 inline constexpr double kInflate = 1 + 1e-12;
 
+/// How far points may move, in units of R_0, before the edges of level 1 have to be made anew, where repair
+/// is put off. More: fewer repairs, more edges for lists to dismiss.
+inline constexpr double kMotionSlack = 0.2;
+
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 inline constexpr double kMinRadius = 1e-100;
 
@@ -48,13 +52,20 @@ struct Hierarchy::Impl {
   /// Added to the thresholds of all levels but 0: how far the distance of wrapped points may be from the pair
   /// distance that lists go by. About 1e-13 of the box, more if a point lies very many boxes away.
   double wrap_slack = 0;
-  std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
+  double largest_reach = 0;  ///< largest WrapError::reach of the points [length]
+
+  /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
+  /// same to join all clusters with points within rho_0 of each other, and lists need no more.
+  bool pending = false;
+  std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
+  bool measured = false;      ///< whether cluster_rows holds the points as they are now
+  std::int64_t strayed = 0;   ///< nodes that changed their parent since the nodes were last put in order
 
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
   void set_base_radius(Span<const Vec3> positions);
-  void set_wrap_slack(Span<const Vec3> positions);
+  void set_wrap_slack();
 
   // The nodes of all levels alike
   std::int32_t size(int level) const { return level == 0 ? points.size() : levels[level].size(); }
@@ -131,10 +142,15 @@ struct Hierarchy::Impl {
 
   // hierarchy_repair.cpp
   void update(Span<const Vec3> positions, const Box& b);
-  void check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
+  double check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
   void refresh_positions(Span<const Vec3> positions);
   template <class Metric>
   std::int64_t count_orphans(const Metric& metric) const;
+  template <class Metric>
+  void measure(const Metric& metric);
+  template <class Metric>
+  bool edges_are_certified(const Metric& metric);
+  void repair_if_pending();
   bool repair_pays(std::int64_t orphans) const;
   template <class Metric>
   void repair(const Metric& metric, double check_seconds);

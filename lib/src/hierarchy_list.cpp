@@ -51,10 +51,9 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
 void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
   const auto start = std::chrono::steady_clock::now();
   detail::check_list_params(request, raw.size(), params.radius);
-  const detail::WrapError wrap(box);
-  const double wrap_error = wrap.bound(wrap.largest_reach(raw));
+  const double wrap_error = detail::WrapError(box).bound(largest_reach);
   if (wrap_error > wrap_slack) {  // points inserted since the last update lie much farther out
-    set_wrap_slack(raw);
+    set_wrap_slack();
     with_metric(box, [&](const auto& metric) { repair(metric, 0); });
   }
   const double rounding =
@@ -65,7 +64,8 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
       request.order == RowOrder::by_structure && request.kind == ListKind::half && request.first_ghost < 0;
   NeighborList& found = as_found ? out : rows;
   with_metric(box, [&](const auto& metric) {
-    cluster_rows.find(metric, box, levels[1], points, request.first_ghost, error, filter, found);
+    measure(metric);
+    cluster_rows.find(metric, box, levels[1], points, slot_of_id, request.first_ghost, error, filter, found);
   });
   if (request.order == RowOrder::by_index) {
     const auto for_each_pair = [&](const auto& f) {

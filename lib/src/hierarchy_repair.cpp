@@ -13,6 +13,7 @@
 // separated.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
@@ -37,16 +38,24 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   ++stats.updates;
   const auto start = Clock::now();
   try {
-    check_positions_of_points(positions, b);
+    largest_reach = check_positions_of_points(positions, b);
     detail::check_radius(params.radius, b);
     const bool fresh = stats.builds == 0;
     if (fresh || (params.policy == MaintenancePolicy::always_rebuild && free_ids.empty())) {
       build(positions, b);
     } else {
+      const bool same_box = box == b;
       box = b;
+      if (!pending) anchors = levels[1].position;
       with_metric(box, [&](const auto& metric) {
         refresh_positions(positions);
-        set_wrap_slack(raw);
+        measured = false;
+        if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
+          pending = true;
+          ++stats.refreshes;
+          return;
+        }
+        set_wrap_slack();
         const auto counting = Clock::now();
         const std::int64_t orphans = count_orphans(metric);
         const double check_seconds = seconds_since(counting);
@@ -65,12 +74,12 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   stats.maintain_seconds += seconds_since(start);
 }
 
-void Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
+double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
   if (free_ids.empty()) return detail::check_positions(positions, b);
   std::vector<Vec3> live(positions.begin(), positions.end());
   for (std::size_t id = 0; id < live.size(); ++id)
     if (slot_of_id[id] == kNone) live[id] = b.origin();
-  detail::check_positions(live, b);
+  return detail::check_positions(live, b);
 }
 
 void Hierarchy::Impl::refresh_positions(Span<const Vec3> positions) {
@@ -103,6 +112,34 @@ std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
   return count;
 }
 
+template <class Metric>
+void Hierarchy::Impl::measure(const Metric& metric) {
+  if (!measured) cluster_rows.measure(metric, levels[1], points);
+  measured = true;
+}
+
+// Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
+// more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster.
+template <class Metric>
+bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
+  if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
+  measure(metric);
+  const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
+    if (!levels[1].is_alive(k)) continue;
+    const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
+    if (cluster_rows.extent(k) + moved > limit) return false;
+  }
+  return true;
+}
+
+void Hierarchy::Impl::repair_if_pending() {
+  if (!pending) return;
+  set_wrap_slack();
+  with_metric(box, [&](const auto& metric) { repair(metric, 0); });
+}
+
 // Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
 // of its repairs so far. Until both have been seen once, repair, which is what measures them.
 bool Hierarchy::Impl::repair_pays(std::int64_t orphans) const {
@@ -130,6 +167,7 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   grow_top(metric);
   trim_top();
   ++stats.repairs;
+  pending = measured = false;
   strayed += stats.reparented - reparented_before;
   if (static_cast<double>(strayed) > kStrayed * static_cast<double>(raw.size())) reorder();
 
@@ -264,6 +302,7 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
 
 #define DCH_INSTANTIATE(Metric)                                              \
   template std::int64_t Hierarchy::Impl::count_orphans(const Metric&) const; \
+  template void Hierarchy::Impl::measure(const Metric&);                     \
   template void Hierarchy::Impl::repair(const Metric&, double);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)

@@ -182,6 +182,25 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
   }
 }
 
+/// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined
+/// parents.
+template <class Impl, class Metric>
+void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict) {
+  Marks joined(h.size(1));
+  for (std::int32_t k = 0; k < h.size(1) && !verdict.failed(); ++k) {
+    if (!h.is_alive(1, k)) continue;
+    joined.set(k, h.levels[1].edges.row(k));
+    h.for_each_child(1, k, [&](std::int32_t a) {
+      for (std::int32_t b = 0; b < h.size(0); ++b) {
+        if (!h.is_alive(0, b) || h.parent(0, b) == k || joined.has(k, h.parent(0, b))) continue;
+        const double d2 = metric.distance2(h.position(0, a), h.position(0, b));
+        verdict.require(d2 > h.levels[0].threshold2, 0, "repair is pending, and points ", h.id(0, a), " and ",
+                        h.id(0, b), " at distance ", std::sqrt(d2), " have parents that no edge joins");
+      }
+    });
+  }
+}
+
 }  // namespace
 
 std::string Hierarchy::Impl::validate() const {
@@ -193,6 +212,7 @@ std::string Hierarchy::Impl::validate() const {
   if (!verdict.failed()) check_nesting(*this, verdict);
   if (verdict.failed()) return verdict.text();
   with_metric(box, [&](const auto& metric) {
+    if (pending) return check_reachable_pairs(metric, *this, verdict);
     check_coverage(metric, *this, verdict);
     for (int i = 0; i <= top() && !verdict.failed(); ++i) check_pairs(metric, *this, i, verdict);
   });

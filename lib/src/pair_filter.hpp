@@ -37,9 +37,11 @@ class PairFilter {
   /// The same for a pair whose distance is not known.
   bool accept(std::int32_t i, std::int32_t j) const;
 
-  /// Whether the distance alone decides, by one cutoff for all pairs.
-  bool is_plain() const { return one_type_ && !restricted_; }
   bool has_one_cutoff() const { return one_type_; }
+  /// Whether more than the distance by one cutoff decides about some pair of i.
+  bool restricts(std::int32_t i) const {
+    return !one_type_ || exclusions_ != nullptr || (first_ghost_ >= 0 && i >= first_ghost_);
+  }
   /// Whether exclusions and ghosts let the pair be in the list.
   bool is_wanted(std::int32_t i, std::int32_t j) const;
 

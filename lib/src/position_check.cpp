@@ -76,13 +76,11 @@ double WrapError::reach(Vec3 p) const {
   return sum;
 }
 
-double WrapError::largest_reach(Span<const Vec3> positions) const {
-  double largest = 0;
-  for (const Vec3 p : positions) largest = std::max(largest, reach(p));
-  return largest;
+double WrapError::reach_within(double error) const {
+  return amplification_ > 0 ? error / amplification_ - cell_size_ : std::numeric_limits<double>::infinity();
 }
 
-void check_positions(Span<const Vec3> positions, const Box& box) {
+double check_positions(Span<const Vec3> positions, const Box& box) {
   if (positions.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw InvalidParameter(std::to_string(positions.size()) +
                            " particles; particle indices are 32-bit, so at most " +
@@ -90,20 +88,25 @@ void check_positions(Span<const Vec3> positions, const Box& box) {
   }
   const WrapError error(box);
   const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
+  const double farthest = error.reach_within(tolerance);
+  double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3 p = positions[i];
     if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
       throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
                             "; check the coordinates of this frame");
     }
-    if (const double uncertain = error.bound(error.reach(p)); uncertain > tolerance) {
+    const double reach = error.reach(p);
+    largest = std::max(largest, reach);
+    if (reach > farthest) {
       throw InvalidPosition(
           position_text(i, p) +
           " is so far outside the periodic box that rounding leaves its place there uncertain by " +
-          describe(uncertain) + "; at most " + describe(tolerance) +
+          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
           " is allowed, wrap the coordinates first");
     }
   }
+  return largest;
 }
 
 void check_radius(double radius, const Box& box) {

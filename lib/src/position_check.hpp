@@ -21,7 +21,8 @@ class WrapError {
   double bound(double reach) const { return amplification_ * (reach + cell_size_); }
   /// How far out a point lies along the axes that shifts change [length].
   double reach(Vec3 p) const;
-  double largest_reach(Span<const Vec3> positions) const;
+  /// Largest reach() with which bound() stays within `error` [length].
+  double reach_within(double error) const;
 
  private:
   Vec3 origin_;
@@ -34,7 +35,8 @@ class WrapError {
 /// @throws InvalidPosition naming index and value if a coordinate is not finite or beyond kMaxCoordinate, or
 /// so far
 ///   outside a periodic box that rounding leaves its place in the box uncertain by half the box.
-void check_positions(Span<const Vec3> positions, const Box& box);
+/// @return the largest WrapError::reach of the positions, 0 if there are none [length].
+double check_positions(Span<const Vec3> positions, const Box& box);
 
 /// @throws CutoffTooLarge if the radius (cutoff + skin) exceeds box.max_cutoff().
 void check_radius(double radius, const Box& box);

@@ -40,6 +40,37 @@ TEST_P(HierarchyMotion, DegenerateScenesStayValid) {
   }
 }
 
+// Small steps, so that displacements add up over several updates between two repairs.
+TEST_P(HierarchyMotion, ListsStayExactWhileRepairIsPutOff) {
+  const Box box = GetParam().box;
+  for (const double base_radius : {0.0, 0.4 * kRadius})
+    for (const double step : {0.002, 0.02, 0.05}) {
+      HierarchyParams params;
+      params.radius = kRadius;
+      params.base_radius = base_radius;
+      Hierarchy hierarchy(params);
+      std::vector<Vec3> points = scenes::uniform_in(box, 400, 9);
+      hierarchy.build(points, box);
+      scenes::Random random(10);
+      for (int s = 0; s < 60; ++s) {
+        for (Vec3& p : points) p = p + random.in_cube(step);
+        hierarchy.update(points, box);
+        ASSERT_EQ(hierarchy.validate(), "") << "step " << s << " of " << step << ", R_0 = " << base_radius;
+        NeighborList list;
+        hierarchy.list(whole_list(), list);
+        ASSERT_EQ(first_difference(list, all_pairs(points, box, whole_list())), "")
+            << "step " << s << " of " << step << ", R_0 = " << base_radius;
+      }
+      if (step == 0.002) {
+        EXPECT_GT(hierarchy.stats().refreshes, 10);
+      }
+      EXPECT_EQ(hierarchy.stats().refreshes + hierarchy.stats().repairs + hierarchy.stats().builds, 61);
+      if (step == 0.05) {
+        EXPECT_LT(hierarchy.stats().refreshes, 60) << "no repair was ever due";
+      }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Boxes, HierarchyMotion, ::testing::ValuesIn(scenes::all_boxes(5.0)),
                          [](const auto& p) { return p.param.name; });
 

@@ -23,7 +23,8 @@ enum class EdgeRule {
 
 /// When update() repairs and when it builds anew.
 enum class MaintenancePolicy {
-  automatic,      ///< whichever the structure's own timings say is cheaper
+  automatic,      ///< nothing as long as lists are certified to be complete without, then whichever the
+                  ///< structure's own timings say is cheaper
   always_repair,  ///< build once, then repair
   always_rebuild  ///< build at every update
 };
@@ -31,12 +32,12 @@ enum class MaintenancePolicy {
 struct HierarchyParams {
   /// rho_0, the edge threshold of level 0 [length]: cutoff + skin of the list that the level-0 edges are.
   double radius = 0;
-  /// R_0, the radius within which level 1 covers the points [length]. 0: chosen at each build so that a node
-  /// of level 1 has about 64 children, which makes lists fastest (EdgeRule::additive), or radius / (2 c)
-  /// (EdgeRule::thesis).
+  /// R_0, the radius within which level 1 covers the points [length]. 0: with EdgeRule::additive 2^k r0 for
+  /// the k that gives a node of level 1 about 64 children, which suits lists (measured at each build); with
+  /// EdgeRule::thesis r0.
   double base_radius = 0;
-  /// c >= 1.05 of EdgeRule::thesis, rho_i = 2 c R_i. Larger c: smaller balls, more levels and edges, more
-  /// slack.
+  /// c >= 1.05, ties the scale of the levels to the list: 2 c r0 = radius. EdgeRule::thesis: larger c means
+  /// smaller balls, more levels and edges, more slack.
   double c = 1.05;
   EdgeRule edge_rule = EdgeRule::additive;
   MaintenancePolicy policy = MaintenancePolicy::automatic;
@@ -59,10 +60,10 @@ struct LevelInfo {
 /// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i R_0:
 /// every node of level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i
 /// apart. G_c joins two nodes of level i within rho_i of each other. rho_0 is `radius`, so that the level-0
-/// edges **are** the neighbor list of that radius. With EdgeRule::thesis R_0 is r0 of the thesis, tied to the
-/// list by 2 c r0 = radius; else it is 2^k r0 for a scale r0 with c >= 1.05 whose first k levels no query of
-/// the scene needs and which are therefore not built. R_0 does not depend on the closest pair, so coincident
-/// points are no trouble (one of them stands in level 1).
+/// edges **are** the neighbor list of that radius. The scale r0 is tied to the list by 2 c r0 = radius. With
+/// EdgeRule::thesis R_0 = r0; else R_0 = 2^k r0, and the first k levels, which no query of the scene needs,
+/// are not built. R_0 does not depend on the closest pair, so coincident points are no trouble (one of them
+/// stands in level 1).
 ///
 /// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing
 /// lemma 5.3.2 and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion.
@@ -83,11 +84,20 @@ class Hierarchy {
   /// @throws InvalidPosition, CutoffTooLarge. The hierarchy is empty after a throw.
   void build(Span<const Vec3> positions, const Box& box);
 
-  /// Brings the structure up to date with new positions, indexed by id, in a possibly changed box: black-box
-  /// repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement, O(n + k lg alpha) for k
-  /// changes; or a build, as the policy decides. Entries of ids that were removed are ignored.
+  /// Takes new positions, indexed by id, in a possibly changed box. With MaintenancePolicy::automatic repair
+  /// is put off as long as the displacements so far certify that the edges of level 1 still join all clusters
+  /// with points within `radius` of each other: lists are exact all the same. Else the structure is brought
+  /// up to date by black-box repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement,
+  /// O(n + k lg alpha) for k changes; or a build, as the policy decides. Entries of ids that were removed are
+  /// ignored.
   /// @throws InvalidParameter if the number of positions is not capacity(); as build() otherwise.
   void update(Span<const Vec3> positions, const Box& box);
+
+  /// Whether points have moved since the structure was last in order. Parents and edges then are those of
+  /// that time, and validate() checks what lists rely on instead.
+  bool repair_pending() const;
+  /// Does now what update() put off. insert() and remove() do so first.
+  void repair();
 
   /// Adds a point, with its edges in every level: O(lg alpha), or O(1) levels if `near` (optional) is the id
   /// of a point close by. Returns the new id: the smallest free one.

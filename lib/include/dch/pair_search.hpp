@@ -15,6 +15,7 @@ namespace dch {
 struct SearchStats {
   std::int64_t updates = 0;     ///< calls of update()
   std::int64_t builds = 0;      ///< structures built from scratch
+  std::int64_t refreshes = 0;   ///< updates that needed no repair yet: positions only (DCH)
   std::int64_t repairs = 0;     ///< structures brought up to date under motion (0 for engines that cannot)
   std::int64_t promotions = 0;  ///< nodes lifted one level (DCH)
   std::int64_t demotions = 0;   ///< nodes removed from one level (DCH)

@@ -28,6 +28,11 @@ struct alignas(16) BlockPoints {
   std::int16_t x[kBlock], y[kBlock], z[kBlock];
 };
 
+/// A box in the units of points.
+struct BlockSpan {
+  std::int16_t center[3], half_width[3];
+};
+
 /// Blocks that lie side by side and have a common shift.
 struct BlockRange {
   std::int32_t first, count;
@@ -35,10 +40,10 @@ struct BlockRange {
   std::int16_t point_shift[4];  ///< to add to their points: (d, 0)
 };
 
-/// Boxes of candidate blocks, shifted, one array a corner coordinate in the order of BlockBox (the zeros left
-/// out), each of a capacity that is a multiple of kChunk.
-struct BoxColumns {
-  std::int16_t* corner[6];
+/// Points side by side: coordinates in one array each, and whose they are.
+struct Candidates {
+  std::int16_t *x, *y, *z;
+  std::int32_t* id;
 };
 
 /// Entries of a row-by-chunk mask that a test could not settle.
@@ -50,22 +55,27 @@ struct Unsettled {
 /// The loops that lists are made with, compiled for one instruction set. No function allocates.
 struct ListKernels {
   /// Finds the blocks of some ranges whose boxes are near a box: sum of square(gap) <= limit over the axes.
-  /// Writes block and range of each and, as columns, its shifted box. Returns how many. Room for all blocks
-  /// of all ranges, rounded up to kChunk, is needed.
+  /// Writes block and range of each. Returns how many; room for one more is needed.
   std::int32_t (*collect)(const BlockBox& box, std::int16_t limit, const BlockBox* boxes,
                           const BlockRange* ranges, std::int32_t range_count, std::int32_t* block,
-                          std::int32_t* range, BoxColumns columns);
+                          std::int32_t* range);
 
-  /// Indices k >= first of columns whose box is near a box. Returns how many.
-  std::int32_t (*select)(const BlockBox& box, std::int16_t limit, BoxColumns columns, std::int32_t first,
-                         std::int32_t count, std::int32_t* index);
+  /// Copies the points of `count` blocks side by side, shifted by their ranges, with all lanes of each.
+  void (*gather)(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
+                 const BlockRange* ranges, const BlockPoints* points,
+                 const std::int32_t* ids,  ///< kBlock a block
+                 const Candidates& to);
 
-  /// Tests the points of a block against `chunks` chunks of candidates (x, y, z, and the lanes that hold
-  /// one): with t = sum of square(difference), mask[row * stride + chunk] gets the lanes with t < in, and
-  /// those with in <= t < out are told apart in `unsettled`. Returns how many of the latter there are; room
-  /// for kBlock * chunks is needed.
-  std::int32_t (*test)(const BlockPoints& points, const std::int16_t* x, const std::int16_t* y,
-                       const std::int16_t* z, const std::uint32_t* valid, std::int32_t chunks,
+  /// Copies, in order, those of `count` candidates whose bit is set in `valid` (all, if that is null) and
+  /// that are near a box: sum of square(gap) < limit, with gap = max(|coordinate - center| - half_width, 0)
+  /// along each axis. Returns how many. `from` is read and `to` overwritten up to kChunk entries beyond.
+  std::int32_t (*filter)(const BlockSpan& box, std::int16_t limit, const Candidates& from,
+                         const std::uint32_t* valid, std::int32_t count, const Candidates& to);
+
+  /// Tests the points of a block against `count` candidates: with t = sum of square(difference), mask[row *
+  /// stride + chunk] gets the lanes with t < in, and those with in <= t < out are told apart in `unsettled`.
+  /// Returns how many of the latter there are; room for kBlock times the chunks is needed.
+  std::int32_t (*test)(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
                        std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
                        Unsettled* unsettled);
 

@@ -18,6 +18,7 @@ struct PackTable {
   }
 };
 constexpr PackTable kPack;
+constexpr PackTable16 kPack16;
 
 struct Avx2 : X86Boxes {
   using V = __m256i;
@@ -28,7 +29,8 @@ struct Avx2 : X86Boxes {
   static V set1(std::int16_t v) { return _mm256_set1_epi16(v); }
   static V sub(V a, V b) { return _mm256_sub_epi16(a, b); }
   static V adds(V a, V b) { return _mm256_adds_epi16(a, b); }
-  static V max(V a, V b) { return _mm256_max_epi16(a, b); }
+  static V abs(V a) { return _mm256_abs_epi16(a); }
+  static V above(V a, V b) { return _mm256_subs_epu16(a, b); }
   static V square(V d) { return _mm256_mulhrs_epi16(d, d); }
   static std::uint32_t bits_greater(V a, V b) {
     const __m256i greater = _mm256_cmpgt_epi16(a, b);
@@ -36,9 +38,26 @@ struct Avx2 : X86Boxes {
         _mm_packs_epi16(_mm256_castsi256_si128(greater), _mm256_extracti128_si256(greater, 1));
     return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
   }
+  static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
+                                    std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
+    const unsigned char* low = kPack16.bytes[lanes & 255];
+    const unsigned char* high = kPack16.bytes[lanes >> 8];
+    const int first = __builtin_popcount(lanes & 255);
+    store(x, packed16(_mm256_castsi256_si128(px), low));
+    store(x + first, packed16(_mm256_extracti128_si256(px, 1), high));
+    store(y, packed16(_mm256_castsi256_si128(py), low));
+    store(y + first, packed16(_mm256_extracti128_si256(py, 1), high));
+    store(z, packed16(_mm256_castsi256_si128(pz), low));
+    store(z + first, packed16(_mm256_extracti128_si256(pz, 1), high));
+    return compress_lanes(lanes, kLanes, from, to);
+  }
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    return compress_lanes(mask, kChunk, ids, out);
+  }
+  static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
+                                     std::int32_t* out) {
     std::int32_t written = 0;
-    for (int k = 0; k < kChunk; k += 8, mask >>= 8) {
+    for (int k = 0; k < lanes; k += 8, mask >>= 8) {
       const std::uint32_t eight = mask & 255;
       const __m256i order =
           _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPack.lanes[eight])));

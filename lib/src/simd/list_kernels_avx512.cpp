@@ -15,15 +15,24 @@ struct Avx512 : X86Boxes {
   static V set1(std::int16_t v) { return _mm512_set1_epi16(v); }
   static V sub(V a, V b) { return _mm512_sub_epi16(a, b); }
   static V adds(V a, V b) { return _mm512_adds_epi16(a, b); }
-  static V max(V a, V b) { return _mm512_max_epi16(a, b); }
+  static V abs(V a) { return _mm512_abs_epi16(a); }
+  static V above(V a, V b) { return _mm512_subs_epu16(a, b); }
   static V square(V d) { return _mm512_mulhrs_epi16(d, d); }
   static std::uint32_t bits_greater(V a, V b) { return _mm512_cmpgt_epi16_mask(a, b); }
+  static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
+                                    std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
+    _mm512_storeu_si512(x, _mm512_maskz_compress_epi16(lanes, px));
+    _mm512_storeu_si512(y, _mm512_maskz_compress_epi16(lanes, py));
+    _mm512_storeu_si512(z, _mm512_maskz_compress_epi16(lanes, pz));
+    return compress_chunk(lanes, from, to);
+  }
   // Compressed in a register, then stored whole: a compressing store is many times slower on some processors.
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     const auto low = static_cast<__mmask16>(mask), high = static_cast<__mmask16>(mask >> 16);
     const int first = __builtin_popcount(mask & 0xFFFF);
-    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(low, _mm512_loadu_si512(ids)));
-    _mm512_storeu_si512(out + first, _mm512_maskz_compress_epi32(high, _mm512_loadu_si512(ids + 16)));
+    const __m512i ids_low = _mm512_loadu_si512(ids), ids_high = _mm512_loadu_si512(ids + 16);
+    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(low, ids_low));
+    _mm512_storeu_si512(out + first, _mm512_maskz_compress_epi32(high, ids_high));
     return __builtin_popcount(mask);
   }
 };

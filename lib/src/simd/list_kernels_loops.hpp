@@ -14,7 +14,7 @@ namespace {
 
 template <class Simd>
 std::int32_t collect(const BlockBox& box, std::int16_t limit, const BlockBox* boxes, const BlockRange* ranges,
-                     std::int32_t range_count, std::int32_t* block, std::int32_t* range, BoxColumns columns) {
+                     std::int32_t range_count, std::int32_t* block, std::int32_t* range) {
   // lo_j - hi and lo - hi_j in one subtraction
   const BlockBox opposite{{static_cast<std::int16_t>(-box.v[4]), static_cast<std::int16_t>(-box.v[5]),
                            static_cast<std::int16_t>(-box.v[6]), 0, static_cast<std::int16_t>(-box.v[0]),
@@ -24,52 +24,61 @@ std::int32_t collect(const BlockBox& box, std::int16_t limit, const BlockBox* bo
   for (std::int32_t r = 0; r < range_count; ++r) {
     const auto shift = Simd::load_box(ranges[r].box_shift);
     for (std::int32_t b = ranges[r].first; b < ranges[r].first + ranges[r].count; ++b) {
-      const auto shifted = Simd::shift_box(Simd::load_box(boxes[b]), shift);
       block[found] = b;
       range[found] = r;
-      BlockBox corners;
-      Simd::store_box(corners, shifted);
-      for (int k = 0; k < 3; ++k) {
-        columns.corner[k][found] = corners.v[k];
-        columns.corner[k + 3][found] = corners.v[k + 4];
-      }
-      found += Simd::box_gap2(shifted, other) <= limit;
+      found += Simd::box_gap2(Simd::shift_box(Simd::load_box(boxes[b]), shift), other) <= limit;
     }
   }
   return found;
 }
 
 template <class Simd>
-std::int32_t select(const BlockBox& box, std::int16_t limit, BoxColumns columns, std::int32_t first,
-                    std::int32_t count, std::int32_t* index) {
+void gather(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
+            const BlockRange* ranges, const BlockPoints* points, const std::int32_t* ids,
+            const Candidates& to) {
+  for (std::int32_t n = 0; n < count; ++n) {
+    const BlockPoints& from = points[block[n]];
+    const std::int16_t* shift = ranges[range[n]].point_shift;
+    Simd::copy_shifted(from.x, shift[0], to.x + n * kBlock);
+    Simd::copy_shifted(from.y, shift[1], to.y + n * kBlock);
+    Simd::copy_shifted(from.z, shift[2], to.z + n * kBlock);
+    Simd::copy_ids(ids + static_cast<std::int64_t>(block[n]) * kBlock, to.id + n * kBlock);
+  }
+}
+
+template <class Simd>
+std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& from,
+                    const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
   using V = typename Simd::V;
-  const V lo[3] = {Simd::set1(box.v[0]), Simd::set1(box.v[1]), Simd::set1(box.v[2])};
-  const V minus_hi[3] = {Simd::set1(box.v[4]), Simd::set1(box.v[5]), Simd::set1(box.v[6])};
-  const V zero = Simd::set1(0), most = Simd::set1(limit);
-  std::int32_t found = 0;
-  for (std::int32_t k = first / Simd::kLanes * Simd::kLanes; k < count; k += Simd::kLanes) {
-    V sum = zero;
-    for (int axis = 0; axis < 3; ++axis) {
-      const V above = Simd::adds(Simd::load(columns.corner[axis] + k), minus_hi[axis]);
-      const V below = Simd::adds(Simd::load(columns.corner[axis + 3] + k), lo[axis]);
-      const V gap = Simd::max(Simd::max(above, below), zero);
-      sum = Simd::adds(sum, Simd::square(gap));
-    }
-    std::uint32_t near = ~Simd::bits_greater(sum, most) & Simd::kAll;
-    if (k < first) near &= Simd::kAll << (first - k);
-    if (count - k < Simd::kLanes) near &= ~(Simd::kAll << (count - k));
-    for (; near != 0; near &= near - 1) index[found++] = k + __builtin_ctz(near);
+  const V cx = Simd::set1(box.center[0]), cy = Simd::set1(box.center[1]), cz = Simd::set1(box.center[2]);
+  const V hx = Simd::set1(box.half_width[0]), hy = Simd::set1(box.half_width[1]),
+          hz = Simd::set1(box.half_width[2]);
+  const V most = Simd::set1(limit);
+  std::int32_t kept = 0;
+  for (std::int32_t k = 0; k < count; k += Simd::kLanes) {
+    const V px = Simd::load(from.x + k), py = Simd::load(from.y + k), pz = Simd::load(from.z + k);
+    const V gx = Simd::above(Simd::abs(Simd::sub(px, cx)), hx);
+    const V gy = Simd::above(Simd::abs(Simd::sub(py, cy)), hy);
+    const V gz = Simd::above(Simd::abs(Simd::sub(pz, cz)), hz);
+    const V t = Simd::adds(Simd::adds(Simd::square(gx), Simd::square(gy)), Simd::square(gz));
+    std::uint32_t lanes = Simd::bits_greater(most, t) & Simd::kAll;
+    if (valid) lanes &= valid[k / kChunk] >> (k % kChunk);
+    if (count - k < Simd::kLanes) lanes &= ~(~0u << (count - k));
+    kept += Simd::move_to_front(lanes, px, py, pz, from.id + k, to.x + kept, to.y + kept, to.z + kept,
+                                to.id + kept);
   }
-  return found;
+  return kept;
 }
 
 template <class Simd>
-std::int32_t test(const BlockPoints& points, const std::int16_t* x, const std::int16_t* y,
-                  const std::int16_t* z, const std::uint32_t* valid, std::int32_t chunks, std::int16_t in,
-                  std::int16_t out, std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
+std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
+                  std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
+                  Unsettled* unsettled) {
   using V = typename Simd::V;
   constexpr int kParts = kChunk / Simd::kLanes;
   const V limit_in = Simd::set1(in), limit_out = Simd::set1(out);
+  const std::int32_t chunks = (count + kChunk - 1) / kChunk;
+  const std::uint32_t last = ~0u >> ((kChunk - count % kChunk) % kChunk);
   std::int32_t left = 0;
   for (int row = 0; row < kBlock; ++row) {
     const V px = Simd::set1(points.x[row]), py = Simd::set1(points.y[row]), pz = Simd::set1(points.z[row]);
@@ -77,15 +86,16 @@ std::int32_t test(const BlockPoints& points, const std::int16_t* x, const std::i
       std::uint32_t inside = 0, maybe = 0;
       for (int part = 0; part < kParts; ++part) {
         const std::int32_t k = chunk * kChunk + part * Simd::kLanes;
-        const V dx = Simd::sub(Simd::load(x + k), px);
-        const V dy = Simd::sub(Simd::load(y + k), py);
-        const V dz = Simd::sub(Simd::load(z + k), pz);
+        const V dx = Simd::sub(Simd::load(candidates.x + k), px);
+        const V dy = Simd::sub(Simd::load(candidates.y + k), py);
+        const V dz = Simd::sub(Simd::load(candidates.z + k), pz);
         const V t = Simd::adds(Simd::adds(Simd::square(dx), Simd::square(dy)), Simd::square(dz));
         inside |= Simd::bits_greater(limit_in, t) << (part * Simd::kLanes % kChunk);
         maybe |= Simd::bits_greater(limit_out, t) << (part * Simd::kLanes % kChunk);
       }
-      mask[row * stride + chunk] = inside & valid[chunk];
-      const std::uint32_t open = maybe & ~inside & valid[chunk];
+      const std::uint32_t lanes = chunk + 1 == chunks ? last : ~0u;
+      mask[row * stride + chunk] = inside & lanes;
+      const std::uint32_t open = maybe & ~inside & lanes;
       if (open != 0) unsettled[left++] = {row, chunk, open};
     }
   }
@@ -104,7 +114,7 @@ std::int32_t compress(const std::uint32_t* mask, std::int32_t chunks, const std:
 // NOLINTEND(bugprone-easily-swappable-parameters)
 
 template <class Simd>
-constexpr ListKernels kernels_of{collect<Simd>, select<Simd>, test<Simd>, compress<Simd>};
+constexpr ListKernels kernels_of{collect<Simd>, gather<Simd>, filter<Simd>, test<Simd>, compress<Simd>};
 
 }  // namespace
 }  // namespace dch::detail

@@ -19,6 +19,7 @@ struct PackTable {
   }
 };
 constexpr PackTable kPack;
+constexpr PackTable16 kPack16;
 
 struct Sse42 : X86Boxes {
   using V = __m128i;
@@ -29,15 +30,27 @@ struct Sse42 : X86Boxes {
   static V set1(std::int16_t v) { return _mm_set1_epi16(v); }
   static V sub(V a, V b) { return _mm_sub_epi16(a, b); }
   static V adds(V a, V b) { return _mm_adds_epi16(a, b); }
-  static V max(V a, V b) { return _mm_max_epi16(a, b); }
+  static V abs(V a) { return _mm_abs_epi16(a); }
+  static V above(V a, V b) { return _mm_subs_epu16(a, b); }
   static V square(V d) { return _mm_mulhrs_epi16(d, d); }
   static std::uint32_t bits_greater(V a, V b) {
     const __m128i greater = _mm_cmpgt_epi16(a, b);
     return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(greater, _mm_setzero_si128())));
   }
+  static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
+                                    std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
+    store(x, packed16(px, kPack16.bytes[lanes]));
+    store(y, packed16(py, kPack16.bytes[lanes]));
+    store(z, packed16(pz, kPack16.bytes[lanes]));
+    return compress_lanes(lanes, kLanes, from, to);
+  }
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    return compress_lanes(mask, kChunk, ids, out);
+  }
+  static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
+                                     std::int32_t* out) {
     std::int32_t written = 0;
-    for (int k = 0; k < kChunk; k += 4, mask >>= 4) {
+    for (int k = 0; k < lanes; k += 4, mask >>= 4) {
       const std::uint32_t four = mask & 15;
       const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack.bytes[four]));
       const __m128i from = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ids + k));

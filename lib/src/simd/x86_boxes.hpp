@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the x86 sets have in common: boxes fill one 128-bit register. See list_kernels_loops.hpp for the
-// rules.
+// What the x86 sets have in common: a box, or one coordinate of a block's points, fills a 128-bit register.
+// See list_kernels_loops.hpp for the rules.
 #pragma once
 
 #include <immintrin.h>
@@ -11,11 +11,29 @@
 namespace dch::detail {
 namespace {
 
+/// By a mask of 8 lanes of 16 bits: the bytes that move the chosen lanes to the front.
+struct PackTable16 {
+  alignas(16) unsigned char bytes[256][16];
+  constexpr PackTable16() : bytes() {
+    for (int mask = 0; mask < 256; ++mask) {
+      int to = 0;
+      for (int lane = 0; lane < 8; ++lane)
+        for (int byte = 0; (mask >> lane & 1) != 0 && byte < 2; ++byte)
+          bytes[mask][to++] = static_cast<unsigned char>(2 * lane + byte);
+    }
+  }
+};
+
 struct X86Boxes {
+  static __m128i packed16(__m128i lanes, const unsigned char* order) {
+    return _mm_shuffle_epi8(lanes, _mm_load_si128(reinterpret_cast<const __m128i*>(order)));
+  }
+  static void store(std::int16_t* to, __m128i lanes) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), lanes);
+  }
   static __m128i load_box(const BlockBox& box) {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(box.v));
   }
-  static void store_box(BlockBox& to, __m128i box) { _mm_store_si128(reinterpret_cast<__m128i*>(to.v), box); }
   static __m128i shift_box(__m128i box, __m128i shift) { return _mm_adds_epi16(box, shift); }
   static int box_gap2(__m128i box, __m128i opposite) {
     const __m128i gap = _mm_max_epi16(_mm_subs_epi16(box, opposite), _mm_setzero_si128());
@@ -24,6 +42,16 @@ struct X86Boxes {
     sum = _mm_adds_epi16(sum, _mm_srli_si128(sum, 4));
     sum = _mm_adds_epi16(sum, _mm_srli_si128(sum, 2));
     return static_cast<std::int16_t>(_mm_cvtsi128_si32(sum));
+  }
+  static void copy_shifted(const std::int16_t* from, std::int16_t shift, std::int16_t* to) {
+    const __m128i points = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_add_epi16(points, _mm_set1_epi16(shift)));
+  }
+  static void copy_ids(const std::int32_t* from, std::int32_t* to) {
+    const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + 4));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), low);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 4), high);
   }
 };
 

@@ -201,6 +201,7 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
   record.list_ms = 1e3 * (after.list_seconds - before.list_seconds);
   record.maintain_ms =
       std::max(0.0, update_ms - record.list_ms);  // the structure's upkeep and the stale test
+  record.refreshes = after.refreshes - before.refreshes;
   record.repairs = after.repairs - before.repairs;
   record.rebuilds = after.builds - before.builds;
   record.promotions = after.promotions - before.promotions;

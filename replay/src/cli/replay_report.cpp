@@ -14,6 +14,7 @@ ReplayTotals ReplayReport::totals() const {
     sum.pairs_max = std::max(sum.pairs_max, frame.pairs);
     sum.pairs_mean += static_cast<double>(frame.pairs);
     sum.list_rebuilds += frame.list_rebuilt ? 1 : 0;
+    sum.refreshes += frame.refreshes;
     sum.repairs += frame.repairs;
     sum.rebuilds += frame.rebuilds;
     sum.promotions += frame.promotions;

@@ -22,7 +22,7 @@ struct FrameRecord {
   std::optional<double> time;  ///< in the file's unit
   std::int64_t pairs = 0;      ///< in the list
   bool list_rebuilt = true;
-  std::int64_t repairs = 0, rebuilds = 0, promotions = 0, demotions = 0;
+  std::int64_t refreshes = 0, repairs = 0, rebuilds = 0, promotions = 0, demotions = 0;
   int levels = 0;
   double read_ms = 0, maintain_ms = 0, list_ms = 0;
 };
@@ -32,7 +32,7 @@ struct ReplayTotals {
   std::int64_t pairs_min = 0, pairs_max = 0;
   double pairs_mean = 0;
   std::int64_t list_rebuilds = 0;
-  std::int64_t repairs = 0, rebuilds = 0, promotions = 0, demotions = 0;
+  std::int64_t refreshes = 0, repairs = 0, rebuilds = 0, promotions = 0, demotions = 0;
   double read_ms = 0, maintain_ms = 0, list_ms = 0;
 };
 

@@ -81,8 +81,9 @@ std::string changes_card(const ReplayReport& report) {
       "Repairs",
       explained(report,
                 fmt::format("Nodes of the hierarchy lifted (up) and removed from (down) a level as the "
-                            "atoms moved: {}, {} from scratch.",
-                            counted(totals.repairs, "repair"), counted(totals.rebuilds, "build"))),
+                            "atoms moved: {}, {} from scratch, {} that needed neither.",
+                            counted(totals.repairs, "repair"), counted(totals.rebuilds, "build"),
+                            counted(totals.refreshes, "update"))),
       up_down_bars(chart));
 }
 

@@ -73,6 +73,7 @@ Json per_frame_json(const ReplayReport& report) {
       column(report, [](const FrameRecord& f) { return f.time ? number_or_null(*f.time) : Json(nullptr); });
   json["atoms"] = column(report, [](const FrameRecord& f) { return f.atoms; });
   json["list_rebuilt"] = column(report, [](const FrameRecord& f) { return f.list_rebuilt; });
+  json["refreshes"] = column(report, [](const FrameRecord& f) { return f.refreshes; });
   json["repairs"] = column(report, [](const FrameRecord& f) { return f.repairs; });
   json["rebuilds"] = column(report, [](const FrameRecord& f) { return f.rebuilds; });
   json["promotions"] = column(report, [](const FrameRecord& f) { return f.promotions; });
@@ -114,6 +115,7 @@ std::string render_json(const ReplayReport& report) {
   json["pairs_per_frame"] = column(report, [](const FrameRecord& frame) { return frame.pairs; });
   json["pairs"] = {{"min", totals.pairs_min}, {"mean", totals.pairs_mean}, {"max", totals.pairs_max}};
   json["list_rebuilds"] = totals.list_rebuilds;
+  json["refreshes"] = totals.refreshes;
   json["repairs"] = totals.repairs;
   json["rebuilds"] = totals.rebuilds;
   json["promotions"] = totals.promotions;

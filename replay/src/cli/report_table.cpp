@@ -97,8 +97,9 @@ std::vector<Row> report_rows(const ReplayReport& report) {
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
                                                readable(totals.pairs_mean), grouped(totals.pairs_max))});
   rows.push_back({"list rebuilds", grouped(totals.list_rebuilds)});
-  rows.push_back({"structure", fmt::format("{}, {}", counted(totals.repairs, "repair"),
-                                           counted(totals.rebuilds, "rebuild"))});
+  rows.push_back(
+      {"structure", fmt::format("{}, {}, {} without either", counted(totals.repairs, "repair"),
+                                counted(totals.rebuilds, "rebuild"), counted(totals.refreshes, "update"))});
   if (!report.levels.empty()) {
     rows.push_back({"promotions", grouped(totals.promotions)});
     rows.push_back({"demotions", grouped(totals.demotions)});

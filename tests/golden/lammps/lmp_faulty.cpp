@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // lmp-dch with a search that makes one mistake, to see that `dch verify` finds it:
 //     lmp_faulty drop|repeat|none [LAMMPS options]
-// From its third list on the search leaves the first pair out, or lists the second pair of a row in its place
-// as well.
+// From its third list on the search leaves a pair of owned atoms out, or lists the one after it in its place
+// as well. (Of a pair with a ghost LAMMPS uses one of two copies, which need not be the first.)
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <input.h>
 #include <lammps_host.h>
@@ -32,23 +33,32 @@ class FaultySearch : public dch::PairSearch {
   void list(const dch::ListParams& params, dch::NeighborList& out) override {
     good_->list(params, out);
     if (++lists_ < 3) return;
-    if (fault == Fault::drop) drop_first_pair(out);
-    if (fault == Fault::repeat) repeat_second_pair(out);
+    if (fault == Fault::none) return;
+    const auto [row, k] = first_two_owned(out, params.first_ghost);
+    if (fault == Fault::repeat) {
+      out.j[k] = out.j[k + 1];
+      return;
+    }
+    out.j.erase(out.j.begin() + static_cast<std::ptrdiff_t>(k));
+    for (std::size_t after = row; after < out.size(); ++after) --out.first[after + 1];
   }
   const dch::SearchStats& stats() const override { return good_->stats(); }
   std::string name() const override { return "faulty"; }
 
  private:
-  static std::size_t first_row(const dch::NeighborList& list) {
-    std::size_t row = 0;
-    while (list.first[row + 1] == 0) ++row;
-    return row;
+  struct Entry {
+    std::size_t row, k;
+  };
+  /// The first entry of a list that, like the one after it in its row, pairs two owned atoms.
+  static Entry first_two_owned(const dch::NeighborList& list, std::int32_t first_ghost) {
+    for (std::size_t row = 0; row < list.size(); ++row) {
+      if (list.particle[row] >= first_ghost) continue;
+      for (auto k = list.first[row]; k + 1 < list.first[row + 1]; ++k)
+        if (list.j[k] < first_ghost && list.j[k + 1] < first_ghost) return {row, static_cast<std::size_t>(k)};
+    }
+    std::fprintf(stderr, "no row with two owned neighbors to plant the fault in\n");
+    std::abort();
   }
-  static void drop_first_pair(dch::NeighborList& list) {
-    list.j.erase(list.j.begin());
-    for (std::size_t row = first_row(list); row < list.size(); ++row) --list.first[row + 1];
-  }
-  static void repeat_second_pair(dch::NeighborList& list) { list.j[0] = list.j[1]; }
 
   std::unique_ptr<dch::PairSearch> good_;
   int lists_ = 0;

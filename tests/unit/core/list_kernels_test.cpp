@@ -30,42 +30,50 @@ class ListKernelsTest : public ::testing::TestWithParam<InstructionSet> {
   const ListKernels& kernels() const { return list_kernels(GetParam()); }
 };
 
+/// Random candidates with room for what kernels read and write beyond.
+struct CandidateArrays {
+  CandidateArrays(std::size_t count, int most, scenes::Random& random)
+      : x(count + kChunk), y(count + kChunk), z(count + kChunk), id(count + kChunk) {
+    for (auto* axis : {&x, &y, &z})
+      for (std::int16_t& at : *axis) at = coordinate(random, most);
+    for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::int32_t>(random.below(1000000));
+  }
+  Candidates view() { return {x.data(), y.data(), z.data(), id.data()}; }
+  std::vector<std::int16_t> x, y, z;
+  std::vector<std::int32_t> id;
+};
+
 TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
   scenes::Random random(1);
   for (int trial = 0; trial < 300; ++trial) {
     const int most = trial % 3 == 0 ? 16383 : 4000;  // differences up to twice that
-    const auto chunks = static_cast<std::int32_t>(1 + random.below(5)), stride = chunks + trial % 2;
-    const std::size_t candidates = static_cast<std::size_t>(chunks) * kChunk;
+    const std::size_t count = random.below(170);
+    const auto chunks = static_cast<std::int32_t>((count + kChunk - 1) / kChunk), stride = chunks + trial % 2;
     BlockPoints points;
-    std::vector<std::int16_t> x(candidates), y(candidates), z(candidates);
-    for (int lane = 0; lane < kBlock; ++lane)
-      points.x[lane] = coordinate(random, most), points.y[lane] = coordinate(random, most),
+    for (int lane = 0; lane < kBlock; ++lane) {
+      points.x[lane] = coordinate(random, most);
+      points.y[lane] = coordinate(random, most);
       points.z[lane] = coordinate(random, most);
-    for (std::size_t k = 0; k < candidates; ++k)
-      x[k] = coordinate(random, most), y[k] = coordinate(random, most), z[k] = coordinate(random, most);
-    std::vector<std::uint32_t> valid(static_cast<std::size_t>(chunks)),
-        mask(static_cast<std::size_t>(kBlock * stride));
-    for (std::uint32_t& lanes : valid) lanes = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32));
+    }
+    CandidateArrays candidates(count, most, random);
+    std::vector<std::uint32_t> mask(static_cast<std::size_t>(kBlock * stride));
     std::vector<Unsettled> unsettled(static_cast<std::size_t>(kBlock * chunks));
     const auto in = static_cast<std::int16_t>(random.below(trial % 2 ? 3000 : 32767));
     const auto out = static_cast<std::int16_t>(std::min<std::size_t>(32767, in + random.below(400)));
-    const std::int32_t left = kernels().test(points, x.data(), y.data(), z.data(), valid.data(), chunks, in,
+    const std::int32_t left = kernels().test(points, candidates.view(), static_cast<std::int32_t>(count), in,
                                              out, mask.data(), stride, unsettled.data());
     std::int32_t expected_left = 0;
     for (int row = 0; row < kBlock; ++row)
       for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
         std::uint32_t inside = 0, open = 0;
-        for (int lane = 0; lane < kChunk; ++lane) {
-          const std::size_t k = static_cast<std::size_t>(chunk * kChunk + lane);
-          const int t = saturated(
-              saturated(square(wrapped(x[k] - points.x[row])) + square(wrapped(y[k] - points.y[row]))) +
-              square(wrapped(z[k] - points.z[row])));
-          if ((valid[static_cast<std::size_t>(chunk)] >> lane & 1) == 0) continue;
-          if (t < in) inside |= 1u << lane;
-          if (t >= in && t < out) open |= 1u << lane;
+        for (std::size_t k = chunk * kChunk; k < std::min<std::size_t>(count, (chunk + 1) * kChunk); ++k) {
+          const int t = saturated(saturated(square(wrapped(candidates.x[k] - points.x[row])) +
+                                            square(wrapped(candidates.y[k] - points.y[row]))) +
+                                  square(wrapped(candidates.z[k] - points.z[row])));
+          if (t < in) inside |= 1u << (k % kChunk);
+          if (t >= in && t < out) open |= 1u << (k % kChunk);
         }
-        ASSERT_EQ(mask[static_cast<std::size_t>(row * stride + chunk)], inside)
-            << "row " << row << " chunk " << chunk;
+        ASSERT_EQ(mask[static_cast<std::size_t>(row * stride + chunk)], inside) << row << ", " << chunk;
         if (open == 0) continue;
         ASSERT_LT(expected_left, left);
         const Unsettled& entry = unsettled[static_cast<std::size_t>(expected_left++)];
@@ -75,6 +83,78 @@ TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
       }
     ASSERT_EQ(left, expected_left);
   }
+}
+
+TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
+  scenes::Random random(4);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int most = trial % 3 == 0 ? 16383 : 4000;
+    const std::size_t count = random.below(170);
+    CandidateArrays from(count, most, random), to(count + kChunk, most, random);
+    std::vector<std::uint32_t> valid(count / kChunk + 1);
+    for (std::uint32_t& lanes : valid) lanes = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32));
+    const std::uint32_t* const chosen = trial % 2 ? valid.data() : nullptr;
+    BlockSpan box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.center[axis] = coordinate(random, most);
+      box.half_width[axis] = static_cast<std::int16_t>(random.below(3000));
+    }
+    const auto limit = static_cast<std::int16_t>(random.below(8000));
+    CandidateArrays expected = from;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int16_t at[3] = {from.x[k], from.y[k], from.z[k]};
+      int t = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        t = saturated(
+            t + square(std::max(0, std::abs(wrapped(at[axis] - box.center[axis])) - box.half_width[axis])));
+      if (t >= limit || (chosen && (valid[k / kChunk] >> (k % kChunk) & 1) == 0)) continue;
+      expected.x[kept] = from.x[k];
+      expected.y[kept] = from.y[k];
+      expected.z[kept] = from.z[k];
+      expected.id[kept++] = from.id[k];
+    }
+    const bool in_place = trial % 5 == 0;
+    const Candidates target = in_place ? from.view() : to.view();
+    const auto size = static_cast<std::int32_t>(count);
+    ASSERT_EQ(kernels().filter(box, limit, from.view(), chosen, size, target),
+              static_cast<std::int32_t>(kept));
+    for (std::size_t k = 0; k < kept; ++k) {
+      ASSERT_EQ(target.x[k], expected.x[k]);
+      ASSERT_EQ(target.y[k], expected.y[k]);
+      ASSERT_EQ(target.z[k], expected.z[k]);
+      ASSERT_EQ(target.id[k], expected.id[k]);
+    }
+  }
+}
+
+TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
+  scenes::Random random(5);
+  std::vector<BlockPoints> points(20);
+  std::vector<std::int32_t> ids(points.size() * kBlock);
+  for (BlockPoints& block : points)
+    for (auto* axis : {block.x, block.y, block.z})
+      for (int lane = 0; lane < kBlock; ++lane) axis[lane] = coordinate(random, 32767);
+  for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = static_cast<std::int32_t>(3 * k);
+  std::vector<BlockRange> ranges(4);
+  for (BlockRange& range : ranges)
+    for (int axis = 0; axis < 3; ++axis) range.point_shift[axis] = coordinate(random, 32767);
+  std::vector<std::int32_t> block(9), range(9);
+  for (std::size_t n = 0; n < block.size(); ++n) {
+    block[n] = static_cast<std::int32_t>(random.below(points.size()));
+    range[n] = static_cast<std::int32_t>(random.below(ranges.size()));
+  }
+  CandidateArrays to(block.size() * kBlock, 1, random);
+  kernels().gather(block.data(), range.data(), 9, ranges.data(), points.data(), ids.data(), to.view());
+  for (std::size_t n = 0; n < block.size(); ++n)
+    for (std::size_t lane = 0; lane < kBlock; ++lane) {
+      const BlockPoints& from = points[block[n]];
+      const std::int16_t* shift = ranges[range[n]].point_shift;
+      ASSERT_EQ(to.x[n * kBlock + lane], wrapped(from.x[lane] + shift[0]));
+      ASSERT_EQ(to.y[n * kBlock + lane], wrapped(from.y[lane] + shift[1]));
+      ASSERT_EQ(to.z[n * kBlock + lane], wrapped(from.z[lane] + shift[2]));
+      ASSERT_EQ(to.id[n * kBlock + lane], ids[static_cast<std::size_t>(block[n]) * kBlock + lane]);
+    }
 }
 
 TEST_P(ListKernelsTest, CompressKeepsTheOrder) {
@@ -118,7 +198,7 @@ BlockBox random_box(scenes::Random& random, int most) {
   return box;
 }
 
-TEST_P(ListKernelsTest, CollectAndSelectFindTheBoxesThatAreNear) {
+TEST_P(ListKernelsTest, CollectFindsTheBoxesThatAreNear) {
   scenes::Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<BlockBox> boxes(1 + random.below(90));
@@ -128,49 +208,33 @@ TEST_P(ListKernelsTest, CollectAndSelectFindTheBoxesThatAreNear) {
     for (BlockRange& range : ranges) {
       range = {};
       range.first = static_cast<std::int32_t>(random.below(boxes.size()));
-      range.count =
-          static_cast<std::int32_t>(random.below(boxes.size() - static_cast<std::size_t>(range.first) + 1));
+      const std::size_t rest = boxes.size() - static_cast<std::size_t>(range.first);
+      range.count = static_cast<std::int32_t>(random.below(rest + 1));
       total += static_cast<std::size_t>(range.count);
       for (int axis = 0; axis < 3; ++axis) {
         range.box_shift.v[axis] = coordinate(random, 20000);
         range.box_shift.v[axis + 4] = static_cast<std::int16_t>(-range.box_shift.v[axis]);
       }
     }
-    const std::size_t room = (total + kChunk) / kChunk * kChunk;
-    std::vector<std::int32_t> block(room), range(room), index(room);
-    std::array<std::vector<std::int16_t>, 6> corners;
-    BoxColumns columns;
-    for (std::size_t c = 0; c < 6; ++c) {
-      corners[c].resize(room);
-      columns.corner[c] = corners[c].data();
-    }
+    std::vector<std::int32_t> block(total + 1), range(total + 1);
     const BlockBox around = random_box(random, 12000);
     const auto limit = static_cast<std::int16_t>(random.below(4000));
     const std::int32_t found =
         kernels().collect(around, limit, boxes.data(), ranges.data(),
-                          static_cast<std::int32_t>(ranges.size()), block.data(), range.data(), columns);
-    std::vector<BlockBox> collected;
+                          static_cast<std::int32_t>(ranges.size()), block.data(), range.data());
+    std::int32_t expected = 0;
     for (std::size_t r = 0; r < ranges.size(); ++r)
       for (std::int32_t b = ranges[r].first; b < ranges[r].first + ranges[r].count; ++b) {
         BlockBox shifted = boxes[static_cast<std::size_t>(b)];
         for (int k = 0; k < 8; ++k)
           shifted.v[k] = static_cast<std::int16_t>(saturated(shifted.v[k] + ranges[r].box_shift.v[k]));
         if (gap2(around, shifted) > limit) continue;
-        ASSERT_LT(static_cast<std::int32_t>(collected.size()), found);
-        ASSERT_EQ(block[collected.size()], b);
-        ASSERT_EQ(range[collected.size()], static_cast<std::int32_t>(r));
-        collected.push_back(shifted);
+        ASSERT_LT(expected, found);
+        ASSERT_EQ(block[static_cast<std::size_t>(expected)], b);
+        ASSERT_EQ(range[static_cast<std::size_t>(expected)], static_cast<std::int32_t>(r));
+        ++expected;
       }
-    ASSERT_EQ(found, static_cast<std::int32_t>(collected.size()));
-
-    const BlockBox one = random_box(random, 12000);
-    const auto first = static_cast<std::int32_t>(random.below(collected.size() + 1));
-    const std::int32_t selected = kernels().select(one, limit, columns, first, found, index.data());
-    std::vector<std::int32_t> expected;
-    for (std::int32_t k = first; k < found; ++k)
-      if (gap2(one, collected[static_cast<std::size_t>(k)]) <= limit) expected.push_back(k);
-    ASSERT_EQ(selected, static_cast<std::int32_t>(expected.size()));
-    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), index.begin()));
+    ASSERT_EQ(found, expected);
   }
 }
 

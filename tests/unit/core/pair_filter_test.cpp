@@ -19,7 +19,7 @@ namespace {
 void expect_agreement(const std::vector<Vec3>& points, const Box& box, const ListParams& params,
                       const std::string& scene) {
   const WrapError error(box);
-  const PairFilter filter(points, box, params, error.bound(error.largest_reach(points)));
+  const PairFilter filter(points, box, params, error.bound(check_positions(points, box)));
   const NeighborList expected = all_pairs(points, box, params);
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(points.size()); ++i) {
     const auto row = expected.row(static_cast<std::size_t>(i));

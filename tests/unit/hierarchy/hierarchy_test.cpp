@@ -173,6 +173,7 @@ TEST(HierarchyTest, ThresholdsFollowTheRule) {
   params.max_roots = 1;
   const std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
   params.base_radius = 1;
+  params.policy = MaintenancePolicy::always_repair;  // which has no thresholds that allow for motion
   Hierarchy additive(params);
   additive.build(points, Box::none());
   params.base_radius = 0;
@@ -196,6 +197,7 @@ TEST(HierarchyTest, DistanceOfExactlyTheCoveringRadiusIsCoveredAndNotSeparated) 
   HierarchyParams params = with_radius(3);
   params.base_radius = 1;
   params.max_roots = 1;
+  params.policy = MaintenancePolicy::always_repair;
   Hierarchy h(params);
   h.build(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none());
   EXPECT_EQ(h.level(1).nodes, 1);
@@ -284,6 +286,51 @@ TEST(HierarchyTest, PolicyIsObeyed) {
   EXPECT_EQ(rebuilding.stats().repairs, 0);
   EXPECT_EQ(repairing.stats().builds, 1);
   EXPECT_EQ(repairing.stats().repairs, 5);
+}
+
+TEST(HierarchyTest, RepairIsPutOffWhileTheEdgesAreCertified) {
+  Hierarchy h(with_radius(1));
+  std::vector<Vec3> points = scenes::uniform(3000, {12, 12, 12}, 6);
+  const Box box = Box::orthorhombic({12, 12, 12});
+  h.build(points, box);
+  EXPECT_FALSE(h.repair_pending());
+  for (Vec3& p : points) p.x += 1e-3;
+  h.update(points, box);
+  EXPECT_TRUE(h.repair_pending());
+  EXPECT_EQ(h.stats().refreshes, 1);
+  EXPECT_EQ(h.stats().repairs, 0);
+  EXPECT_EQ(h.validate(), "");
+  NeighborList list;
+  h.list(list_of(1), list);
+  EXPECT_EQ(list.j, all_pairs(points, box, list_of(1)).j);
+
+  h.repair();
+  EXPECT_FALSE(h.repair_pending());
+  EXPECT_EQ(h.stats().repairs, 1);
+  EXPECT_EQ(h.validate(), "");
+
+  h.update(points, Box::orthorhombic({12.001, 12, 12}));  // displacements say nothing in another box
+  EXPECT_FALSE(h.repair_pending());
+  EXPECT_EQ(h.validate(), "");
+}
+
+TEST(HierarchyTest, InsertionAndRemovalDoThePendingRepairFirst) {
+  Hierarchy h(with_radius(1));
+  std::vector<Vec3> points = scenes::uniform(500, {6, 6, 6}, 6);
+  h.build(points, Box::none());
+  points[3].x += 1e-3;
+  h.update(points, Box::none());
+  ASSERT_TRUE(h.repair_pending());
+  h.remove(3);
+  EXPECT_FALSE(h.repair_pending());
+  EXPECT_EQ(h.validate(), "");
+  h.update(points, Box::none());
+  points[4].x += 1e-3;
+  h.update(points, Box::none());
+  ASSERT_TRUE(h.repair_pending());
+  EXPECT_EQ(h.insert({1, 1, 1}), 3);
+  EXPECT_FALSE(h.repair_pending());
+  EXPECT_EQ(h.validate(), "");
 }
 
 /// The automatic policy on given costs, since the measured ones depend on what else the machine does.

@@ -119,6 +119,16 @@ TEST_F(ValidateTest, ReportsPositionsThatDifferBetweenLevels) {
   expect_report("differs from the level below");
 }
 
+TEST_F(ValidateTest, ReportsAMissingEdgeWhileRepairIsPending) {
+  std::vector<Vec3> points;
+  for (std::int32_t id = 0; id < 400; ++id) points.push_back(hierarchy_.position(id));
+  hierarchy_.update(points, hierarchy_.box());
+  ASSERT_TRUE(hierarchy_.repair_pending());
+  EXPECT_EQ(hierarchy_.validate(), "");
+  inside().levels[1].edges.clear_row(0);
+  expect_report("have parents that no edge joins");
+}
+
 TEST_F(ValidateTest, ReportsTooManyRoots) {
   inside().params.max_roots = 0;
   expect_report("roots");

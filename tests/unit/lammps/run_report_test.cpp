@@ -22,6 +22,7 @@ RunReport example() {
   r.atoms = 100;
   r.structures_built = 1;
   r.repairs = 3;
+  r.refreshes = 5;
   r.promotions = 17;
   r.demotions = 19;
   r.memory_bytes = 3 << 20;
@@ -39,7 +40,7 @@ TEST(RunReport, SaysWhoseEachListIsAndWhy) {
 
 TEST(RunReport, GivesCountsAndMeans) {
   const std::string text = format_report(example());
-  EXPECT_THAT(text, HasSubstr("built 1 times, repaired 3 times"));
+  EXPECT_THAT(text, HasSubstr("built 1 times, repaired 3 times, neither 5 times"));
   EXPECT_THAT(text, HasSubstr("promotions, demotions   17, 19"));
   EXPECT_THAT(text, HasSubstr("3000 (30 an atom)"));
   EXPECT_THAT(text, HasSubstr("3 ms: points 0, structure 2, rows 0, lists 1"));
