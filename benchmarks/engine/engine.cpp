@@ -12,6 +12,8 @@
 #include <dch/all_pairs.hpp>
 #include <dch/hierarchy.hpp>
 
+#include "simd_grid.hpp"
+
 namespace {
 
 constexpr double kDensity = 0.8442, kListRadius = 2.8, kStep = 0.05;
@@ -43,8 +45,9 @@ class Liquid {
   std::mt19937_64 engine_;
 };
 
-dch::ListParams list_params() {
+dch::ListParams list_params(dch::RowOrder order = dch::RowOrder::by_index) {
   dch::ListParams params;
+  params.order = order;
   params.cutoffs = dch::TypeCutoffs(2.5);
   params.skin = kListRadius - 2.5;
   return params;
@@ -64,20 +67,21 @@ void check(dch::PairSearch& search) {
 }
 
 template <class MakeSearch>
-void rebuilds(benchmark::State& state, MakeSearch make_search) {
+void rebuilds(benchmark::State& state, MakeSearch make_search,
+              dch::RowOrder order = dch::RowOrder::by_index) {
   check(*make_search());
   const auto search = make_search();
   Liquid liquid(state.range(0));
   dch::NeighborList list;
   search->update(liquid.positions, liquid.box);
-  search->list(list_params(), list);
+  search->list(list_params(order), list);
   const double maintain_before = search->stats().maintain_seconds, list_before = search->stats().list_seconds;
   for (auto _ : state) {
     state.PauseTiming();
     liquid.step();
     state.ResumeTiming();
     search->update(liquid.positions, liquid.box);
-    search->list(list_params(), list);
+    search->list(list_params(order), list);
     benchmark::DoNotOptimize(list.j.data());
   }
   const double atoms = static_cast<double>(liquid.positions.size());
@@ -97,6 +101,12 @@ dch::HierarchyParams hierarchy(dch::MaintenancePolicy policy) {
   return params;
 }
 
+/// As hosts use it: repair when due, lists in the order of the structure.
+void dch_lists(benchmark::State& state) {
+  rebuilds(
+      state, [] { return dch::make_dch_search(hierarchy(dch::MaintenancePolicy::automatic)); },
+      dch::RowOrder::by_structure);
+}
 void dch_repair(benchmark::State& state) {
   rebuilds(state, [] { return dch::make_dch_search(hierarchy(dch::MaintenancePolicy::always_repair)); });
 }
@@ -110,6 +120,38 @@ void cell_list_half_cells(benchmark::State& state) {
   rebuilds(state, [] { return dch::make_cell_search(kListRadius, 2); });
 }
 
+/// The baseline with the same kernels; range(1) is the cell width in tenths, to be swept for the least time.
+template <dch::bench::SimdGrid::Cells cells>
+void simd_grid(benchmark::State& state) {
+  Liquid liquid(state.range(0));
+  dch::bench::SimdGrid grid(kListRadius, 0.1 * static_cast<double>(state.range(1)), cells);
+  dch::NeighborList list;
+  grid.list(liquid.positions, liquid.box, list);
+  const auto cells_of_ours = dch::make_cell_search(kListRadius);
+  cells_of_ours->update(liquid.positions, liquid.box);
+  if (list.pairs() != cells_of_ours->list(list_params()).pairs()) {
+    state.SkipWithError("the number of pairs is wrong");
+    return;
+  }
+  for (auto _ : state) {
+    state.PauseTiming();
+    liquid.step();
+    state.ResumeTiming();
+    grid.list(liquid.positions, liquid.box, list);
+    benchmark::DoNotOptimize(list.j.data());
+  }
+}
+
+BENCHMARK(dch_lists)->Arg(4000)->Arg(32000)->Arg(256000)->Unit(benchmark::kMillisecond);
+BENCHMARK(simd_grid<dch::bench::SimdGrid::Cells::dense>)
+    ->Name("simd_grid_dense")
+    ->ArgsProduct({{32000}, {20, 25, 28, 31, 35}})
+    ->Args({256000, 28})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(simd_grid<dch::bench::SimdGrid::Cells::hash>)
+    ->Name("simd_grid_hash")
+    ->Args({32000, 28})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(dch_repair)->Arg(4000)->Arg(32000)->Arg(256000)->Unit(benchmark::kMillisecond);
 BENCHMARK(dch_rebuild)->Arg(4000)->Arg(32000)->Unit(benchmark::kMillisecond);
 BENCHMARK(cell_list)->Arg(4000)->Arg(32000)->Arg(256000)->Unit(benchmark::kMillisecond);

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kSamples = 15;        ///< points around which others are counted
 constexpr std::size_t kLeastOthers = 8192;  ///< points that are counted, or one in kStride if that is more
 constexpr std::size_t kStride = 16;
-// Of the points within R_0 of a center about a third are its children: 64 of them, eight blocks.
-constexpr double kPointsWithinRadius = 200;
+// Of the points within R_0 of a center about a third are its children.
+constexpr double kPointsWithinRadius = 450;
 constexpr double kLeastFactor = 0.25, kMostFactor = 4;  ///< R_0 / radius
 
 }  // namespace

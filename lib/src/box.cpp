@@ -165,6 +165,9 @@ double nearest_along(double d, double period) {
 /// The image of x in [low, low + period).
 double wrap_along(double x, double low, double period) {
   if (x >= low && x < low + period) return x;
+  // Most points outside are in the next cell.
+  const double image = x < low ? x + period : x - period;
+  if (image >= low && image < low + period) return image;
   double offset = std::fmod(x - low, period);
   if (offset < 0) offset += period;
   const double inside = low + offset;

@@ -12,11 +12,18 @@ namespace {
 
 /// Candidate radii (never decisions) are inflated by this factor.
 constexpr double kInflateReach = 1 + 1e-12;
+constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
 constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 /// The nearest integer, modulo 2^16.
+std::int16_t rounded(float v) {
+  const float shifted = v + 0x1.8p23f;  // now the integer stands in the low bits
+  std::int32_t bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
 std::int16_t rounded(double v) {
-  const double shifted = v + 0x1.8p52;  // now the integer stands in the low bits
+  const double shifted = v + 0x1.8p52;
   std::int64_t bits;
   std::memcpy(&bits, &shifted, sizeof bits);
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
@@ -77,52 +84,66 @@ void ClusterRows::find(const Metric& metric, const Box& box, const Level& cluste
 template <class Metric>
 void ClusterRows::measure(const Metric& metric, const Level& clusters, const PointBlocks& points) {
   clusters_.assign(clusters.position.size(), Cluster());
-  source_.clear();
-  offset_.resize(points.position.size() + kBlock);
-  largest_extent_ = largest_size_ = 0;
-  lanes_.clear();
-  counts_.clear();
+  const std::size_t most = points.cluster.size();
+  source_.resize(most);
+  counts_.resize(most);
+  low_.resize(most);
+  high_.resize(most);
+  offset_.resize(most * kBlock);
+  largest_extent_ = largest_width_ = largest_size_ = 0;
+  std::int32_t blocks = 0;
   for (std::int32_t k = 0; k < clusters.size(); ++k) {
     if (!clusters.is_alive(k)) continue;
     const Vec3 center = clusters.position[k];
     Cluster& cluster = clusters_[k];
-    cluster.first_block = static_cast<std::int32_t>(source_.size());
+    cluster.first_block = blocks;
     double extent2 = 0;
+    Vec3 cluster_low{}, cluster_high{};  // the center is in the box
     for (std::int32_t block = clusters.first_child[k]; block != kNone; block = points.next[block]) {
-      Vec3* to = offset_.data() + source_.size() * kBlock;
-      Vec3 low{}, high{};
-      for (std::int32_t lane = 0; lane < points.count[block]; ++lane) {
-        const std::int32_t slot = block * kBlock + lane;
-        const Vec3 at = metric.displacement(center, points.position[slot]);
-        to[lane] = at;
+      Offset* to = offset_.data() + static_cast<std::size_t>(blocks) * kBlock;
+      const Vec3* from = points.position.data() + static_cast<std::size_t>(block) * kBlock;
+      Vec3 low = metric.displacement(center, from[0]), high = low;
+      const std::int32_t count = points.count[block];
+      for (std::int32_t lane = 0; lane < count; ++lane) {
+        const Vec3 at = metric.displacement(center, from[lane]);
+        to[lane] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
         extent2 = std::max(extent2, norm2(at));
-        for (int axis = 0; axis < 3; ++axis) {
-          low[axis] = lane == 0 ? at[axis] : std::min(low[axis], at[axis]);
-          high[axis] = lane == 0 ? at[axis] : std::max(high[axis], at[axis]);
-        }
+        low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
       }
-      for (int axis = 0; axis < 3; ++axis) largest_size_ = std::max(largest_size_, high[axis] - low[axis]);
-      source_.push_back(block);
-      lanes_.push_back(static_cast<std::uint8_t>((1u << points.count[block]) - 1));
-      counts_.push_back(static_cast<std::uint8_t>(points.count[block]));
+      const Vec3 size = high - low;
+      largest_size_ = std::max(largest_size_, std::max(size.x, std::max(size.y, size.z)));
+      low_[blocks] = low;
+      high_[blocks] = high;
+      cluster_low = {std::min(cluster_low.x, low.x), std::min(cluster_low.y, low.y),
+                     std::min(cluster_low.z, low.z)};
+      cluster_high = {std::max(cluster_high.x, high.x), std::max(cluster_high.y, high.y),
+                      std::max(cluster_high.z, high.z)};
+      source_[blocks] = block;
+      counts_[blocks++] = static_cast<std::uint8_t>(count);
     }
-    cluster.blocks = static_cast<std::int32_t>(source_.size()) - cluster.first_block;
+    const Vec3 width = cluster_high - cluster_low;
+    largest_width_ = std::max(largest_width_, std::max(width.x, std::max(width.y, width.z)));
+    cluster.blocks = blocks - cluster.first_block;
     cluster.extent = std::sqrt(extent2);
     largest_extent_ = std::max(largest_extent_, cluster.extent);
   }
+  blocks_ = blocks;
 }
 
 // Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
-// points and a shift, each rounded), hence a distance d <= reach by sqrt(3) 3/2, and its square by
-// 3 sqrt(3) reach + 27/4; halved 15 times over, and three roundings of 1/2 added.
+// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance d
+// <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
+// roundings of 1/2 added.
 void ClusterRows::quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error) {
-  // From a block to another one, and from the middle of a cluster to a block near it.
-  const double widest = reach + largest_size_ + std::max(largest_size_, largest_extent_);
+  // The largest difference of coordinates that is taken: between a point of a cluster and one within reach of
+  // the cluster's box, or between the middle of the box and a point of a block within reach of it.
+  const double widest = reach + std::max(largest_width_, 0.5 * largest_width_ + largest_size_);
   point_unit_ = widest * (1 + 1e-9) / kLargest;
   box_unit_ = (reach + 6 * largest_extent_) * (1 + 1e-9) / kLargest;
   const double in_units = reach / point_unit_;
   const double limit = in_units * in_units / 0x1p15;
-  const double off = std::sqrt(27.0) / 2 + 2 * error / point_unit_;
+  const double off = std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit_;
   const double band = (2 * off * in_units + off * off) / 0x1p15 + 1.5 + 1e-6;
   in_ = static_cast<std::int16_t>(std::clamp(std::floor(limit - band) + 1, 0.0, 32767.0));
   out_ = static_cast<std::int16_t>(std::clamp(std::floor(limit + band) + 1, 0.0, 32767.0));
@@ -130,7 +151,7 @@ void ClusterRows::quantize(const PointBlocks& points, std::int32_t first_ghost, 
   const double box_reach = reach / box_unit_ + 2;
   box_limit_ = static_cast<std::int16_t>(std::min(std::ceil(box_reach * box_reach / 0x1p15 + 1.5), 32767.0));
 
-  const std::size_t blocks = source_.size();
+  const auto blocks = static_cast<std::size_t>(blocks_);
   points_.resize(blocks);
   boxes_.resize(blocks);
   ids_.resize(blocks);
@@ -138,33 +159,29 @@ void ClusterRows::quantize(const PointBlocks& points, std::int32_t first_ghost, 
   owned_.assign(blocks, first_ghost < 0);
   per_point_unit_ = 1 / point_unit_;
   per_box_unit_ = 1 / box_unit_;
+  const auto per_unit = static_cast<float>(per_point_unit_);
   for (Cluster& cluster : clusters_) {
-    Vec3 cluster_low{}, cluster_high{};
+    Vec3 low{}, high{};
     cluster.owned = first_ghost < 0;
     for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
-      const Vec3* at = offset_.data() + static_cast<std::size_t>(b) * kBlock;
-      Vec3 low = at[0], high = at[0];
-      for (int lane = 0; lane < counts_[b]; ++lane) {
-        points_[b].x[lane] = rounded(at[lane].x * per_point_unit_);
-        points_[b].y[lane] = rounded(at[lane].y * per_point_unit_);
-        points_[b].z[lane] = rounded(at[lane].z * per_point_unit_);
-        for (int axis = 0; axis < 3; ++axis) {
-          low[axis] = std::min(low[axis], at[lane][axis]);
-          high[axis] = std::max(high[axis], at[lane][axis]);
-        }
+      const Offset* at = offset_.data() + static_cast<std::size_t>(b) * kBlock;
+      for (int lane = 0; lane < kBlock; ++lane) {  // whatever empty lanes hold
+        points_[b].x[lane] = rounded(at[lane].x * per_unit);
+        points_[b].y[lane] = rounded(at[lane].y * per_unit);
+        points_[b].z[lane] = rounded(at[lane].z * per_unit);
       }
-      boxes_[b] = box_around(low, high, per_box_unit_);
-      spans_[b] = span_around(low, high, per_point_unit_);
+      boxes_[b] = box_around(low_[b], high_[b], per_box_unit_);
+      spans_[b] = span_around(low_[b], high_[b], per_point_unit_);
       std::copy_n(points.id.data() + static_cast<std::size_t>(source_[b]) * kBlock, kBlock, ids_[b].data());
       for (int lane = 0; lane < counts_[b] && !owned_[b]; ++lane) owned_[b] = ids_[b][lane] < first_ghost;
       cluster.owned |= owned_[b] != 0;
       for (int axis = 0; axis < 3; ++axis) {
-        cluster_low[axis] = std::min(cluster_low[axis], low[axis]);
-        cluster_high[axis] = std::max(cluster_high[axis], high[axis]);
+        low[axis] = std::min(low[axis], low_[b][axis]);
+        high[axis] = std::max(high[axis], high_[b][axis]);
       }
     }
-    cluster.box = box_around(cluster_low, cluster_high, per_box_unit_);
-    cluster.span = span_around(cluster_low, cluster_high, per_point_unit_);
+    cluster.box = box_around(low, high, per_box_unit_);
+    cluster.span = span_around(low, high, per_point_unit_);
   }
 }
 
@@ -256,6 +273,7 @@ void ClusterRows::find_rows(const Cluster& cluster, const PairFilter& filter,
     mask_.resize(room / kBlocksInChunk * kBlock);
     unsettled_.resize(room / kBlocksInChunk * kBlock);
     around_cluster_.make_room(room * kBlock);
+    around_group_.make_room(room * kBlock);
     around_block_.make_room(room * kBlock);
   }
   std::int32_t collected =
@@ -265,14 +283,36 @@ void ClusterRows::find_rows(const Cluster& cluster, const PairFilter& filter,
   kernels_->gather(block_.data(), range_.data(), collected, ranges_.data(), points_.data(),
                    ids_.data()->data(), around_cluster_.at(0));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
-  for (std::int32_t n = 0; n < collected; ++n) lanes[n] = lanes_[block_[n]];
+  for (std::int32_t n = 0; n < collected; ++n)
+    lanes[n] = static_cast<std::uint8_t>((1u << counts_[block_[n]]) - 1);
   const std::int32_t count = kernels_->filter(cluster.span, out_, around_cluster_.at(0), valid_.data(),
                                               collected * kBlock, around_cluster_.at(0));
+  // First for a few blocks that lie together, so that each has less to look through.
   std::int32_t own_before = 0;
-  for (std::int32_t own = cluster.first_block; own < cluster.first_block + cluster.blocks; ++own) {
-    row_block(own, cluster.owned, own_before, count, filter, wrapped_distance2, out);
-    if (cluster.owned) own_before += counts_[own];
+  for (std::int32_t first = cluster.first_block; first < cluster.first_block + cluster.blocks;
+       first += kGroup) {
+    const std::int32_t last = std::min(first + kGroup, cluster.first_block + cluster.blocks);
+    const std::int32_t near =
+        kernels_->filter(span_of_blocks(first, last), out_, around_cluster_.at(own_before), nullptr,
+                         count - own_before, around_group_.at(0));
+    std::int32_t before = 0;
+    for (std::int32_t own = first; own < last; ++own) {
+      row_block(own, cluster.owned, before, near, filter, wrapped_distance2, out);
+      if (cluster.owned) before += counts_[own];
+    }
+    own_before += before;
   }
+}
+
+BlockSpan ClusterRows::span_of_blocks(std::int32_t first, std::int32_t last) const {
+  Vec3 low = low_[first], high = high_[first];
+  for (std::int32_t b = first + 1; b < last; ++b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], low_[b][axis]);
+      high[axis] = std::max(high[axis], high_[b][axis]);
+    }
+  }
+  return span_around(low, high, per_point_unit_);
 }
 
 /// Two ghosts are no pair. Returns how many blocks are left.
@@ -286,14 +326,14 @@ std::int32_t ClusterRows::keep_owned_blocks(std::int32_t collected) {
   return kept;
 }
 
-/// The rows of one block's points, with the candidates around the cluster from `begin` on, the first of which
+/// The rows of one block's points, with the candidates around its group from `begin` on, the first of which
 /// are these points themselves if the block `meets_itself`.
 template <class Distance2>
 void ClusterRows::row_block(std::int32_t block, bool meets_itself, std::int32_t begin, std::int32_t end,
                             const PairFilter& filter, const Distance2& wrapped_distance2, NeighborList& out) {
   const Candidates candidates = around_block_.at(0);
   const std::int32_t count =
-      kernels_->filter(spans_[block], out_, around_cluster_.at(begin), nullptr, end - begin, candidates);
+      kernels_->filter(spans_[block], out_, around_group_.at(begin), nullptr, end - begin, candidates);
   const std::int32_t chunks = rounded_up(count, kChunk) / kChunk;
   const std::int32_t left =
       kernels_->test(points_[block], candidates, count, in_, out_, mask_.data(), chunks, unsettled_.data());
@@ -367,10 +407,11 @@ void ClusterRows::find_by_distance(const Metric& metric, const Level& clusters, 
 std::size_t ClusterRows::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   std::size_t bytes = bytes_of(clusters_) + bytes_of(source_) + bytes_of(offset_) + bytes_of(points_) +
-                      bytes_of(boxes_) + bytes_of(spans_) + bytes_of(ids_) + bytes_of(lanes_) +
-                      bytes_of(counts_) + bytes_of(owned_) + bytes_of(ranges_) + bytes_of(block_) +
-                      bytes_of(range_) + bytes_of(valid_) + bytes_of(mask_) + bytes_of(unsettled_);
-  for (const CandidateStore* store : {&around_cluster_, &around_block_})
+                      bytes_of(boxes_) + bytes_of(spans_) + bytes_of(ids_) + bytes_of(low_) +
+                      bytes_of(high_) + bytes_of(counts_) + bytes_of(owned_) + bytes_of(ranges_) +
+                      bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) + bytes_of(mask_) +
+                      bytes_of(unsettled_);
+  for (const CandidateStore* store : {&around_cluster_, &around_group_, &around_block_})
     bytes += 3 * bytes_of(store->x) + bytes_of(store->id);
   return bytes;
 }

@@ -50,6 +50,9 @@ class ClusterRows {
     bool owned = true;  ///< whether a point is not a ghost
   };
 
+  struct Offset {
+    float x, y, z;
+  };
   struct CandidateStore {
     std::vector<std::int16_t> x, y, z;
     std::vector<std::int32_t> id;
@@ -65,6 +68,7 @@ class ClusterRows {
   void find_rows(const Cluster& cluster, const PairFilter& filter, const Distance2& wrapped_distance2,
                  NeighborList& out);
   std::int32_t keep_owned_blocks(std::int32_t collected);
+  BlockSpan span_of_blocks(std::int32_t first, std::int32_t last) const;
   template <class Distance2>
   void row_block(std::int32_t block, bool meets_itself, std::int32_t begin, std::int32_t end,
                  const PairFilter& filter, const Distance2& wrapped_distance2, NeighborList& out);
@@ -81,23 +85,25 @@ class ClusterRows {
   std::int16_t box_limit_ = 0;     ///< see ListKernels::select
   std::int16_t in_ = 0, out_ = 0;  ///< see ListKernels::test
   double largest_extent_ = 0;      ///< of a cluster
+  double largest_width_ = 0;       ///< of a cluster along an axis
   double largest_size_ = 0;        ///< of a block along an axis
 
   std::vector<Cluster> clusters_;
+  std::int32_t blocks_ = 0;
   std::vector<std::int32_t> source_;  ///< by block: the block of PointBlocks
-  std::vector<Vec3> offset_;          ///< by slot: position relative to the cluster's center
+  std::vector<Offset> offset_;        ///< by slot: position relative to the cluster's center
+  std::vector<Vec3> low_, high_;      ///< by block: corners of the box around its points, likewise
   std::vector<BlockPoints> points_;
   std::vector<BlockBox> boxes_;
   std::vector<BlockSpan> spans_;
   std::vector<std::array<std::int32_t, kBlock>> ids_;
-  std::vector<std::uint8_t> lanes_;  ///< by block: a bit for each lane with a point
-  std::vector<std::uint8_t> counts_;
-  std::vector<std::uint8_t> owned_;  ///< by block: whether a point is not a ghost
+  std::vector<std::uint8_t> counts_;  ///< by block: number of points
+  std::vector<std::uint8_t> owned_;   ///< by block: whether a point is not a ghost
 
   // of the cluster at hand
   std::vector<BlockRange> ranges_;
   std::vector<std::int32_t> block_, range_;
-  CandidateStore around_cluster_, around_block_;
+  CandidateStore around_cluster_, around_group_, around_block_;
   std::vector<std::uint32_t> valid_, mask_;
   std::vector<Unsettled> unsettled_;
 };

@@ -83,11 +83,17 @@ double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, co
 }
 
 void Hierarchy::Impl::refresh_positions(Span<const Vec3> positions) {
+  raw.assign(positions.begin(), positions.end());
+  const Vec3 low = box.origin();
+  const Vec3 high = low + Vec3{box.vector(0).x, box.vector(1).y, box.vector(2).z};
+  const bool is_brick = box.kind() == Box::Kind::orthorhombic;
   for (std::size_t id = 0; id < raw.size(); ++id) {
     const std::int32_t slot = slot_of_id[id];
     if (slot == kNone) continue;
-    raw[id] = positions[id];
-    points.position[slot] = box.wrap(positions[id]);
+    const Vec3 p = positions[id];
+    const bool is_inside = is_brick && p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < high.x &&
+                           p.y < high.y && p.z < high.z;
+    points.position[slot] = is_inside ? p : box.wrap(p);
   }
   for (int i = 1; i <= top(); ++i) {
     Level& level = levels[i];

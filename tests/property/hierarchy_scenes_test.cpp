@@ -108,6 +108,28 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
   }
 }
 
+// Clusters of hundreds of points, and of one or two; coordinates differ by many list radii within one.
+TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfClusters) {
+  const Box box = GetParam().box;
+  ListParams list_params;
+  list_params.cutoffs = TypeCutoffs(0.5 * kRadius);
+  for (const double radius : {0.5, 0.25}) {
+    list_params.cutoffs = TypeCutoffs(radius);
+    const std::vector<Vec3> points = scenes::uniform_in(box, 2500, 12);
+    const NeighborList expected = all_pairs(points, box, list_params);
+    for (const double factor : {0.0, 0.25, 1.0, 2.0, 4.0, 8.0, 40.0}) {
+      HierarchyParams params;
+      params.radius = radius;
+      params.base_radius = factor * radius;
+      Hierarchy hierarchy(params);
+      hierarchy.build(points, box);
+      NeighborList list;
+      hierarchy.list(list_params, list);
+      ASSERT_EQ(first_difference(list, expected), "") << "R_0 = " << factor << " list radii";
+    }
+  }
+}
+
 // All periodic heights equal two list radii: the largest list a box can serve, and the worst for wrapping.
 TEST_P(HierarchyScenes, ListsEqualTheOracleInTheSmallestBox) {
   const Box box = GetParam().box;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/neighbor_list.hpp>
+#include <dch/span.hpp>
+
+#include "simd/list_kernels.hpp"
+
+namespace dch::bench {
+
+/// The best neighbor list that we know how to make from a grid of cells with the kernels that the hierarchy's
+/// lists use: the baseline that keeps us honest. Points are put in the order of their cells as 16-bit
+/// integers, the half stencil around a cell is copied side by side, thinned to what is near the cell's own
+/// points, then to what is near eight of them, and tested. Built from scratch for every list.
+///
+/// Orthorhombic and open boxes, one cutoff, no exclusions; periodic boxes at least three list radii wide.
+class SimdGrid {
+ public:
+  enum class Cells {
+    dense,  ///< an array over the whole box
+    hash    ///< a table of occupied cells, for points that fill little of the box
+  };
+  /// @param cell_width [length]; to be swept by the caller for the least time.
+  SimdGrid(double radius, double cell_width, Cells cells)
+      : radius_(radius), width_(cell_width), kind_(cells) {}
+
+  /// Half list by structure of all pairs within the radius.
+  void list(Span<const Vec3> positions, const Box& box, NeighborList& out);
+
+ private:
+  using Cell = std::array<std::int32_t, 3>;
+  struct Run {
+    std::int32_t begin = 0, end = 0;
+  };
+  struct Candidates {
+    std::vector<std::int16_t> x, y, z;
+    std::vector<std::int32_t> id;
+    void make_room(std::size_t count);
+    detail::Candidates at(std::size_t k) { return {x.data() + k, y.data() + k, z.data() + k, id.data() + k}; }
+  };
+
+  void lay_out(Span<const Vec3> positions, const Box& box);
+  void make_stencil();
+  void sort_points(Span<const Vec3> positions);
+  void number_cells();
+  Run points_of(std::int64_t key) const;
+  void rows_of_cell(Run own, const Cell& at, Span<const Vec3> positions, const Box& box, NeighborList& out);
+  void append_row(const Cell& at, std::int32_t dy, std::int32_t dz, std::int32_t first, std::int32_t last);
+  void append(Run run, const std::array<std::int16_t, 3>& shift);
+  void rows_of_block(Run block, std::int32_t before, Span<const Vec3> positions, const Box& box,
+                     NeighborList& out);
+  std::int64_t key_of(const Cell& at) const {
+    return (static_cast<std::int64_t>(at[2]) * counts_[1] + at[1]) * counts_[0] + at[0];
+  }
+
+  double radius_, width_;
+  Cells kind_;
+  std::array<bool, 3> periodic_{};
+  Vec3 low_, length_, cell_;
+  std::array<std::int32_t, 3> counts_{};
+  std::array<std::int32_t, 3> reach_{};  ///< cells that the stencil extends
+  double unit_ = 1;
+  std::int16_t in_ = 0, out_ = 0;
+
+  struct Row {
+    std::int32_t dy, dz, dx;  ///< cells x - dx .. x + dx of a row
+  };
+  std::vector<Row> stencil_;    ///< rows after the own one
+  std::int32_t own_reach_ = 0;  ///< cells after the own one in its row
+
+  std::vector<std::int64_t> key_;       ///< by point
+  std::vector<std::int32_t> cell_of_;   ///< by point
+  std::vector<std::int32_t> first_;     ///< by cell (dense) or occupied cell (hash): where its points begin
+  std::vector<std::int64_t> occupied_;  ///< keys of occupied cells (hash)
+  struct Slot {
+    std::int64_t key;
+    std::int32_t cell;
+  };
+  std::vector<Slot> table_;  ///< open addressing
+  Candidates sorted_, around_, near_;
+  std::int32_t count_ = 0;  ///< of around_
+  std::vector<std::int32_t> next_;
+  std::vector<std::uint32_t> mask_;
+  std::vector<detail::Unsettled> unsettled_;
+  const detail::ListKernels* kernels_ = nullptr;
+};
+
+}  // namespace dch::bench
