@@ -33,7 +33,7 @@ struct HierarchyParams {
   /// rho_0, the edge threshold of level 0 [length]: cutoff + skin of the list that the level-0 edges are.
   double radius = 0;
   /// R_0, the radius within which level 1 covers the points [length]. 0: with EdgeRule::additive 2^k r0 for
-  /// the k that gives a node of level 1 about 64 children, which suits lists (measured at each build); with
+  /// the k that gives a node of level 1 about 150 children, which suits lists (measured at each build); with
   /// EdgeRule::thesis r0.
   double base_radius = 0;
   /// c >= 1.05, ties the scale of the levels to the list: 2 c r0 = radius. EdgeRule::thesis: larger c means

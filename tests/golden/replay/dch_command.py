@@ -29,8 +29,9 @@ class Checks:
         sys.exit(1 if self.failed or not self.done else 0)
 
 
-def run(command, *arguments, timeout=600, cwd=None, largest_file=None):
-    """Runs the command to its end; with `largest_file`, writing more bytes to a file fails, as on a full disk."""
+def run(command, *arguments, timeout=600, cwd=None, largest_file=None, environment=None):
+    """Runs the command to its end; with `largest_file`, writing more bytes to a file fails, as on a full disk.
+    `environment` holds variables to set besides those of this process."""
 
     def limit():
         if largest_file is not None:
@@ -38,13 +39,13 @@ def run(command, *arguments, timeout=600, cwd=None, largest_file=None):
 
     # Python ignores SIGXFSZ, and so does the command then: the write itself fails
     return subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, cwd=cwd,
-                          preexec_fn=limit, restore_signals=False)
+                          preexec_fn=limit, restore_signals=False, env={**os.environ, **(environment or {})})
 
 
-def expect_failure(checks, command, arguments, status, parts, largest_file=None):
+def expect_failure(checks, command, arguments, status, parts, largest_file=None, environment=None):
     """The command ends with this status and a message of its own that holds all parts, and leaves no file behind."""
     with tempfile.TemporaryDirectory() as folder:
-        result = run(command, *arguments, cwd=folder, largest_file=largest_file)
+        result = run(command, *arguments, cwd=folder, largest_file=largest_file, environment=environment)
         what = "dch " + " ".join(map(str, arguments))
         checks.that(result.returncode == status, f"{what}: status {result.returncode}, not {status}: {result.stderr}")
         checks.that(result.stderr.startswith("dch: "), f"{what}: no message: {result.stderr!r}")

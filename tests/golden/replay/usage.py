@@ -4,6 +4,7 @@
     usage.py DCH FOLDER_OF_TRAJECTORIES
 """
 
+import json
 import os
 import sys
 import tempfile
@@ -95,6 +96,23 @@ def check_full_disk(checks, command, data):
         print(message.strip(), flush=True)
 
 
+def check_instruction_sets(checks, command, data):
+    """DCH_FORCE_ISA: the same list from every set, and a message for a set that there is none of."""
+    polymer = os.path.join(data, "polymer.lammpstrj")
+    arguments = ["replay", polymer, "--cutoff", "6", "--frames", "::20", "--report", "report.json"]
+    message = expect_failure(checks, command, arguments, 2, ["DCH_FORCE_ISA is 'mmx'", "choose one of", "portable"],
+                             environment={"DCH_FORCE_ISA": "mmx"})
+    sets = message.split("choose one of ")[1].strip().split(", ")
+    hashes = set()
+    for name in sets:
+        with tempfile.TemporaryDirectory() as folder:
+            result = run(command, *arguments, cwd=folder, environment={"DCH_FORCE_ISA": name})
+            checks.that(result.returncode == 0, f"DCH_FORCE_ISA={name}: {result.stderr}")
+            with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+                hashes.add(json.load(file)["list_hash"])
+    checks.that(len(hashes) == 1, f"{', '.join(sets)} give {len(hashes)} different lists")
+
+
 def check_help(checks, command):
     for arguments, parts in ((["--help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
                              (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
@@ -118,6 +136,7 @@ def main(command, data):
         print(message.strip(), flush=True)
     check_outputs_that_cannot_be(checks, command, data)
     check_full_disk(checks, command, data)
+    check_instruction_sets(checks, command, data)
     check_help(checks, command)
     checks.finish()
 
