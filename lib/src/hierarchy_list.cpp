@@ -65,7 +65,8 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
   NeighborList& found = as_found ? out : rows;
   with_metric(box, [&](const auto& metric) {
     measure(metric);
-    cluster_rows.find(metric, box, levels[1], points, slot_of_id, request.first_ghost, error, filter, found);
+    cluster_rows.find(metric, box, levels[1], points, slot_of_id, request.first_ghost, error, filter,
+                      params.executor, found);
   });
   if (request.order == RowOrder::by_index) {
     const auto for_each_pair = [&](const auto& f) {

@@ -120,7 +120,7 @@ std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_rows.measure(metric, levels[1], points);
+  if (!measured) cluster_rows.measure(metric, levels[1], points, params.executor);
   measured = true;
 }
 

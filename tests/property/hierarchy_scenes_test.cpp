@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <dch/all_pairs.hpp>
+#include <dch/executor.hpp>
 #include <dch/hierarchy.hpp>
 #include <dch/instruction_set.hpp>
 
@@ -128,6 +129,32 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfClusters) {
       ASSERT_EQ(first_difference(list, expected), "") << "R_0 = " << factor << " list radii";
     }
   }
+}
+
+TEST_P(HierarchyScenes, ListsDoNotDependOnTheNumberOfThreads) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 3000, 13);
+  ListParams list_params;
+  list_params.cutoffs = TypeCutoffs(0.4);
+  list_params.order = RowOrder::by_structure;
+  NeighborList expected;
+  for (const int threads : {1, 2, 3, 8}) {
+    const auto pool = make_thread_pool(threads);
+    HierarchyParams params;
+    params.radius = 0.4;
+    params.base_radius = 0.7;
+    params.executor = pool.get();
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    NeighborList list;
+    for (int repeat = 0; repeat < 2; ++repeat) hierarchy.list(list_params, list);
+    if (threads == 1) expected = list;
+    ASSERT_EQ(list.particle, expected.particle) << threads << " threads";
+    ASSERT_EQ(first_difference(list, expected), "") << threads << " threads";
+  }
+  list_params.order = RowOrder::by_index;
+  EXPECT_EQ(first_difference(sorted_by_index(expected, points.size()), all_pairs(points, box, list_params)),
+            "");
 }
 
 // All periodic heights equal two list radii: the largest list a box can serve, and the worst for wrapping.

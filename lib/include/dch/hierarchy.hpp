@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/executor.hpp>
 #include <dch/neighbor_list.hpp>
 #include <dch/pair_search.hpp>
 #include <dch/span.hpp>
@@ -44,6 +45,8 @@ struct HierarchyParams {
   /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and
   /// all pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
   int max_roots = 16;
+  /// Threads to make lists with; null for that of the caller alone. Not owned; results do not depend on it.
+  Executor* executor = nullptr;
 };
 
 /// One level of a hierarchy, for tests, statistics and plots.

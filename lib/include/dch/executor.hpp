@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace dch {
+
+/// Runs the parts of a task, perhaps side by side: how a host lends its threads. Results do not depend on how
+/// many there are.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  /// How many parts can run at once, at least 1.
+  virtual int threads() const = 0;
+
+  /// Calls task(0) .. task(parts - 1), each once, on any threads and in any order, and returns when all have
+  /// ended. If some threw, one of the exceptions is thrown on, after all have ended.
+  virtual void run(int parts, const std::function<void(int)>& task) = 0;
+};
+
+/// A pool of `threads` - 1 standing threads and the one that calls run().
+/// @throws InvalidParameter unless 1 <= threads <= 4096.
+std::unique_ptr<Executor> make_thread_pool(int threads);
+
+}  // namespace dch

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "cluster_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "metric.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
+
+Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+double longest(Vec3 sides) { return std::max(sides.x, std::max(sides.y, sides.z)); }
+
+BlockBox box_around(Vec3 low, Vec3 high, double per_unit) {
+  BlockBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.v[axis] = static_cast<std::int16_t>(rounded(low[axis] * per_unit) - 1);
+    box.v[axis + 4] = static_cast<std::int16_t>(-rounded(high[axis] * per_unit) - 1);
+  }
+  return box;
+}
+
+/// Holds the rounded points between the corners.
+BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
+  BlockSpan span{};
+  for (int axis = 0; axis < 3; ++axis) {
+    span.center[axis] = rounded(0.5 * (low[axis] + high[axis]) * per_unit);
+    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5 * (high[axis] - low[axis]) * per_unit) + 2);
+  }
+  return span;
+}
+
+}  // namespace
+
+template <class Metric>
+void ClusterPoints::measure(const Metric& metric, const Level& centers, const PointBlocks& from,
+                            Executor* executor) {
+  clusters.assign(centers.position.size(), Cluster());
+  const std::size_t most = from.cluster.size();
+  source.resize(most);
+  count.resize(most);
+  low.resize(most);
+  high.resize(most);
+  offset.resize(most * kBlock);
+  blocks = 0;
+  for (std::int32_t k = 0; k < centers.size(); ++k) {
+    clusters[k].first_block = blocks;
+    if (!centers.is_alive(k)) continue;
+    for (std::int32_t block = centers.first_child[k]; block != kNone; block = from.next[block])
+      source[blocks++] = block;
+    clusters[k].blocks = blocks - clusters[k].first_block;
+  }
+  for_ranges(executor, centers.size(), [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t k = first; k < last; ++k)
+      if (centers.is_alive(k)) measure_cluster(metric, centers.position[k], from, clusters[k]);
+  });
+  largest_extent = largest_width = largest_block_width = 0;
+  for (const Cluster& cluster : clusters) {
+    largest_extent = std::max(largest_extent, cluster.extent);
+    largest_width = std::max(largest_width, cluster.width);
+    largest_block_width = std::max(largest_block_width, cluster.block_width);
+  }
+}
+
+template <class Metric>
+void ClusterPoints::measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& from,
+                                    Cluster& cluster) {
+  double extent2 = 0, block_width = 0;
+  Vec3 cluster_low{}, cluster_high{};  // the center is in the box
+  for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
+    Offset* to = offset.data() + static_cast<std::size_t>(b) * kBlock;
+    const Vec3* position = from.position.data() + static_cast<std::size_t>(source[b]) * kBlock;
+    Vec3 block_low = metric.displacement(center, position[0]), block_high = block_low;
+    const std::int32_t lanes = from.count[source[b]];
+    for (std::int32_t lane = 0; lane < lanes; ++lane) {
+      const Vec3 at = metric.displacement(center, position[lane]);
+      to[lane] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+      extent2 = std::max(extent2, norm2(at));
+      block_low = lower(block_low, at);
+      block_high = upper(block_high, at);
+    }
+    low[b] = block_low;
+    high[b] = block_high;
+    count[b] = static_cast<std::uint8_t>(lanes);
+    block_width = std::max(block_width, longest(block_high - block_low));
+    cluster_low = lower(cluster_low, block_low);
+    cluster_high = upper(cluster_high, block_high);
+  }
+  cluster.extent = std::sqrt(extent2);
+  cluster.width = longest(cluster_high - cluster_low);
+  cluster.block_width = block_width;
+}
+
+// Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
+// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance
+// d <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
+// roundings of 1/2 added.
+void ClusterPoints::quantize(const PointBlocks& from, std::int32_t first_ghost, double reach, double error,
+                             Executor* executor) {
+  // The largest difference of coordinates that is taken: between a point of a cluster and one within reach of
+  // the cluster's box, or between the middle of the box and a point of a block within reach of it.
+  const double widest = reach + std::max(largest_width, 0.5 * largest_width + largest_block_width);
+  const double point_unit = widest * (1 + 1e-9) / kLargest;
+  const double box_unit = (reach + 6 * largest_extent) * (1 + 1e-9) / kLargest;
+  const double in_units = reach / point_unit;
+  const double limit = in_units * in_units / 0x1p15;
+  const double off = std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit;
+  const double band = (2 * off * in_units + off * off) / 0x1p15 + 1.5 + 1e-6;
+  in = static_cast<std::int16_t>(std::clamp(std::floor(limit - band) + 1, 0.0, 32767.0));
+  out = static_cast<std::int16_t>(std::clamp(std::floor(limit + band) + 1, 0.0, 32767.0));
+  // Box corners are rounded outward; their shift and the squares are rounded too.
+  const double box_reach = reach / box_unit + 2;
+  box_limit = static_cast<std::int16_t>(std::min(std::ceil(box_reach * box_reach / 0x1p15 + 1.5), 32767.0));
+  per_point_unit = 1 / point_unit;
+  per_box_unit = 1 / box_unit;
+
+  const auto all = static_cast<std::size_t>(blocks);
+  points.resize(all);
+  boxes.resize(all);
+  ids.resize(all);
+  spans.resize(all);
+  owned.resize(all);
+  for_ranges(executor, static_cast<std::int32_t>(clusters.size()),
+             [&](std::int32_t first, std::int32_t last) {
+               for (std::int32_t k = first; k < last; ++k) quantize_cluster(from, first_ghost, clusters[k]);
+             });
+}
+
+void ClusterPoints::quantize_cluster(const PointBlocks& from, std::int32_t first_ghost, Cluster& cluster) {
+  const auto per_unit = static_cast<float>(per_point_unit);
+  Vec3 cluster_low{}, cluster_high{};
+  cluster.owned = first_ghost < 0;
+  for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
+    const Offset* at = offset.data() + static_cast<std::size_t>(b) * kBlock;
+    for (int lane = 0; lane < kBlock; ++lane) {  // whatever empty lanes hold
+      points[b].x[lane] = rounded(at[lane].x * per_unit);
+      points[b].y[lane] = rounded(at[lane].y * per_unit);
+      points[b].z[lane] = rounded(at[lane].z * per_unit);
+    }
+    boxes[b] = box_around(low[b], high[b], per_box_unit);
+    spans[b] = span_around(low[b], high[b], per_point_unit);
+    std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
+    owned[b] = first_ghost < 0;
+    for (int lane = 0; lane < count[b] && !owned[b]; ++lane) owned[b] = ids[b][lane] < first_ghost;
+    cluster.owned |= owned[b] != 0;
+    cluster_low = lower(cluster_low, low[b]);
+    cluster_high = upper(cluster_high, high[b]);
+  }
+  cluster.box = box_around(cluster_low, cluster_high, per_box_unit);
+  cluster.span = span_around(cluster_low, cluster_high, per_point_unit);
+}
+
+BlockSpan ClusterPoints::span_of(std::int32_t first, std::int32_t last) const {
+  Vec3 all_low = low[first], all_high = high[first];
+  for (std::int32_t b = first + 1; b < last; ++b) {
+    all_low = lower(all_low, low[b]);
+    all_high = upper(all_high, high[b]);
+  }
+  return span_around(all_low, all_high, per_point_unit);
+}
+
+std::size_t ClusterPoints::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  return bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offset) + bytes_of(low) +
+         bytes_of(high) + bytes_of(points) + bytes_of(boxes) + bytes_of(spans) + bytes_of(ids) +
+         bytes_of(owned);
+}
+
+#define DCH_INSTANTIATE(Metric) \
+  template void ClusterPoints::measure(const Metric&, const Level&, const PointBlocks&, Executor*);
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <dch/executor.hpp>
+#include <dch/vec3.hpp>
+
+#include "hierarchy_level.hpp"
+#include "point_blocks.hpp"
+#include "simd/list_kernels.hpp"
+
+namespace dch::detail {
+
+/// The points as lists are made from them: relative to the center of their cluster (a node of level 1), in
+/// blocks with a box around each, first as lengths, then as 16-bit integers. The blocks of a cluster lie side
+/// by side.
+struct ClusterPoints {
+  struct Cluster {
+    std::int32_t first_block = 0, blocks = 0;
+    double extent = 0;       ///< distance of the farthest point from the center [length]
+    double width = 0;        ///< of the box around the points and the center, along its longest side [length]
+    double block_width = 0;  ///< the same of the widest block
+    BlockBox box{};          ///< of all blocks
+    BlockSpan span{};        ///< the same in the units of points
+    bool owned = true;       ///< whether a point is not a ghost
+  };
+  struct Offset {
+    float x, y, z;
+  };
+
+  /// Takes the positions. To be called again when a point has moved, come or gone.
+  template <class Metric>
+  void measure(const Metric& metric, const Level& centers, const PointBlocks& points, Executor* executor);
+
+  /// Fits the units to lists within `reach` and rounds everything to them. `error` bounds how far the
+  /// distance of two positions may be from their pair distance [length].
+  void quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error,
+                Executor* executor);
+
+  /// Box around blocks [first, last) of a cluster, in the units of points.
+  BlockSpan span_of(std::int32_t first, std::int32_t last) const;
+
+  std::size_t memory_bytes() const;
+
+  std::vector<Cluster> clusters;  ///< by node of level 1
+  std::int32_t blocks = 0;
+  std::vector<std::int32_t> source;  ///< by block: the block of PointBlocks
+  std::vector<std::uint8_t> count;   ///< by block: number of points
+  std::vector<Offset> offset;        ///< by slot: position relative to the cluster's center [length]
+  std::vector<Vec3> low, high;       ///< by block: corners of the box around its points [length]
+  double largest_extent = 0;         ///< of a cluster
+  double largest_width = 0;
+  double largest_block_width = 0;
+
+  // What quantize() makes
+  double per_point_unit = 1, per_box_unit = 1;  ///< [1/length]
+  std::int16_t box_limit = 0;                   ///< see ListKernels::collect
+  std::int16_t in = 0, out = 0;                 ///< see ListKernels::test
+  std::vector<BlockPoints> points;              ///< by block, as all below
+  std::vector<BlockBox> boxes;
+  std::vector<BlockSpan> spans;
+  std::vector<std::array<std::int32_t, kBlock>> ids;
+  std::vector<std::uint8_t> owned;  ///< whether a point is not a ghost
+
+ private:
+  template <class Metric>
+  void measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& points, Cluster& cluster);
+  void quantize_cluster(const PointBlocks& points, std::int32_t first_ghost, Cluster& cluster);
+};
+
+/// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.
+inline std::int16_t rounded(float v) {
+  const float shifted = v + 0x1.8p23f;  // now the integer stands in the low bits
+  std::int32_t bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+inline std::int16_t rounded(double v) {
+  const double shifted = v + 0x1.8p52;
+  std::int64_t bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+/// Runs task(first, last) over parts of [0, count), on the threads of `executor` or, if that is null, as one
+/// part.
+template <class Task>
+void for_ranges(Executor* executor, std::int32_t count, const Task& task) {
+  if (!executor || executor->threads() == 1) {
+    task(0, count);
+    return;
+  }
+  const int parts = executor->threads();
+  executor->run(parts, [&](int part) {
+    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{count} * k / parts); };
+    task(cut(part), cut(part + 1));
+  });
+}
+
+}  // namespace dch::detail
