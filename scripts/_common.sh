@@ -5,7 +5,8 @@
 # cores would put those of two tests that run side by side on the same core.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_rmaps_base_oversubscribe=1
-jobs=$(nproc)  # asked before the next line, which nproc heeds
+# What OMP_NUM_THREADS says of the tests, in this script or the one that called it, is not how many builds may run.
+jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
 export OMP_NUM_THREADS=1
 
 die() {
