@@ -10,10 +10,16 @@
 #include <dch/vec3.hpp>
 
 #include "hierarchy_level.hpp"
+#include "pair_filter.hpp"
 #include "point_blocks.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::detail {
+
+/// Lengths of one unit of the integers that lists are made with.
+struct ListUnits {
+  double point = 1, box = 1;  ///< of points, and of the boxes of blocks [length]
+};
 
 /// The points as lists are made from them: relative to the center of their cluster (a node of level 1), in
 /// blocks with a box around each, first as lengths, then as 16-bit integers. The blocks of a cluster lie side
@@ -36,13 +42,14 @@ struct ClusterPoints {
   template <class Metric>
   void measure(const Metric& metric, const Level& centers, const PointBlocks& points, Executor* executor);
 
-  /// Fits the units to lists within `reach` and rounds everything to them. `error` bounds how far the
-  /// distance of two positions may be from their pair distance [length].
-  void quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error,
-                Executor* executor);
+  /// Rounds everything to the units. `filter` says what the cutoffs of pairs depend on.
+  void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
+                const PairFilter& filter, Executor* executor);
 
   /// Box around blocks [first, last) of a cluster, in the units of points.
   BlockSpan span_of(std::int32_t first, std::int32_t last) const;
+  /// Largest tag in blocks [first, last), which have tags.
+  std::int16_t largest_tag(std::int32_t first, std::int32_t last) const;
 
   std::size_t memory_bytes() const;
 
@@ -57,19 +64,21 @@ struct ClusterPoints {
   double largest_block_width = 0;
 
   // What quantize() makes
-  double per_point_unit = 1, per_box_unit = 1;  ///< [1/length]
-  std::int16_t box_limit = 0;                   ///< see ListKernels::collect
-  std::int16_t in = 0, out = 0;                 ///< see ListKernels::test
-  std::vector<BlockPoints> points;              ///< by block, as all below
+  ListUnits units;
+  std::vector<BlockPoints> points;  ///< by block, as all below
   std::vector<BlockBox> boxes;
   std::vector<BlockSpan> spans;
-  std::vector<std::array<std::int32_t, kBlock>> ids;
-  std::vector<std::uint8_t> owned;  ///< whether a point is not a ghost
+  std::vector<std::array<std::int32_t, kBlock>> ids;   ///< particles
+  std::vector<std::array<std::int16_t, kBlock>> tags;  ///< what their cutoffs depend on, 0 in empty lanes:
+                                                       ///< radii in units or types; empty if nothing
+  std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
   template <class Metric>
   void measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& points, Cluster& cluster);
-  void quantize_cluster(const PointBlocks& points, std::int32_t first_ghost, Cluster& cluster);
+  void quantize_cluster(const PointBlocks& points, Span<const std::int32_t> particle_of_id,
+                        const PairFilter& filter, Cluster& cluster);
+  void tag_block(std::int32_t block, const PairFilter& filter);
 };
 
 /// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.

@@ -8,10 +8,11 @@
 #include <dch/hierarchy.hpp>
 
 #include "candidate_buffer.hpp"
-#include "cluster_rows.hpp"
+#include "cluster_points.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
-#include "list_assembly.hpp"
+#include "list_finder.hpp"
+#include "list_source.hpp"
 #include "metric.hpp"
 #include "point_blocks.hpp"
 #include "sibling_store.hpp"
@@ -58,8 +59,10 @@ struct Hierarchy::Impl {
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
   std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
-  bool measured = false;      ///< whether cluster_rows holds the points as they are now
-  std::int64_t strayed = 0;   ///< nodes that changed their parent since the nodes were last put in order
+  double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
+  detail::ClusterPoints cluster_points;
+  bool measured = false;     ///< whether cluster_points holds the points as they are now
+  std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
@@ -171,7 +174,11 @@ struct Hierarchy::Impl {
   /// Appends the neighbors of a node in its level of G_c.
   template <class Metric>
   void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
-  void list(const ListParams& request, NeighborList& out);
+  void lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  /// Brings up to date what lists are made from. Returns how far the distance of two wrapped positions may be
+  /// from their pair distance [length].
+  double prepare_for_lists();
+  detail::ListSource list_source(Span<const std::int32_t> particle_of_id);
 
   // hierarchy_validate.cpp
   std::string validate() const;
@@ -188,9 +195,7 @@ struct Hierarchy::Impl {
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
-  detail::ClusterRows cluster_rows;
-  NeighborList rows;  ///< as ClusterRows found them, where another order is asked for
-  detail::ListAssembler assembler;
+  detail::ListFinder list_finder;
 };
 
 }  // namespace dch

@@ -120,7 +120,7 @@ std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_rows.measure(metric, levels[1], points, params.executor);
+  if (!measured) cluster_points.measure(metric, levels[1], points, params.executor);
   measured = true;
 }
 
@@ -132,10 +132,12 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
   measure(metric);
   const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
+  motion = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k)) continue;
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
-    if (cluster_rows.extent(k) + moved > limit) return false;
+    if (cluster_points.clusters[k].extent + moved > limit) return false;
+    motion = std::max(motion, moved);
   }
   return true;
 }
