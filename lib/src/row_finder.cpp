@@ -11,7 +11,6 @@ namespace {
 
 /// Candidate radii (never decisions) are inflated by this factor.
 constexpr double kInflateReach = 1 + 1e-12;
-constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
@@ -218,13 +217,7 @@ template <class Metric>
 void RowFinder::append_cluster(const Scene<Metric>& scene, const Request& request, const Cluster& cluster,
                                const Candidates& around_cluster, std::int32_t count, NeighborList& out) {
   const ClusterPoints& points = *scene.rows().points;
-  const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
-  around_group_.make_room(room);
-  around_block_.make_room(room);
-  if (unsettled_.size() < room / kChunk * kBlock) {
-    mask_.resize(room / kChunk * kBlock);
-    unsettled_.resize(room / kChunk * kBlock);
-  }
+  make_room_for_tests(count);
   const std::int32_t end = cluster.first_block + cluster.blocks;
   std::int32_t own_before = 0;
   for (std::int32_t first = cluster.first_block; first < end; first += kGroup) {
@@ -236,93 +229,117 @@ void RowFinder::append_cluster(const Scene<Metric>& scene, const Request& reques
     const std::int32_t near = filter(request.limits, points.span_of(first, last), size, from, nullptr,
                                      count - own_before, around_group_.at(0));
     std::int32_t before = 0;
+    open_.clear();
     for (std::int32_t own = first; own < last; ++own) {
-      append_block(scene, request, own, cluster.owned, before, near, out);
+      BlockTest& test = tests_[own - first];
+      test_block(scene, request, own, before, near, test);
+      note_open_pairs(scene, request, own, cluster.owned, test);
       if (cluster.owned) before += points.count[own];
     }
+    settle(scene, request);
+    for (std::int32_t own = first; own < last; ++own)
+      append_block(request, points, own, cluster.owned, tests_[own - first], out);
     own_before += before;
   }
 }
 
-/// The rows of one block's points, with the candidates around its group from `begin` on, the first of which
-/// are these points themselves if the block `meets_itself`.
-template <class Metric>
-void RowFinder::append_block(const Scene<Metric>& scene, const Request& request, std::int32_t block,
-                             bool meets_itself, std::int32_t begin, std::int32_t end, NeighborList& out) {
-  const ClusterPoints& points = *scene.rows().points;
-  const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(block, block + 1);
-  const Candidates candidates = around_block_.at(0);
-  const std::int32_t count = filter(request.limits, points.spans[block], size, around_group_.at(begin),
-                                    nullptr, end - begin, candidates);
-  const std::int32_t chunks = rounded_up(count, kChunk) / kChunk;
-  const std::int32_t left = test(request.limits, points, block, count);
-  settle(scene, request, block, meets_itself, left, chunks);
+void RowFinder::make_room_for_tests(std::int32_t count) {
+  const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
+  around_group_.make_room(room);
+  for (BlockTest& test : tests_) {
+    test.candidates.make_room(room);
+    if (test.unsettled.size() >= room / kChunk * kBlock) continue;
+    test.mask.resize(room / kChunk * kBlock);
+    test.unsettled.resize(room / kChunk * kBlock);
+  }
+}
 
+/// Tests a block against the candidates around its group from `begin` on that are near it.
+template <class Metric>
+void RowFinder::test_block(const Scene<Metric>& scene, const Request& request, std::int32_t block,
+                           std::int32_t begin, std::int32_t end, BlockTest& test) {
+  const ClusterPoints& points = *scene.rows().points;
+  const ListLimits& limits = request.limits;
+  const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(block, block + 1);
+  const Candidates candidates = test.candidates.at(0);
+  const std::int32_t count =
+      filter(limits, points.spans[block], size, around_group_.at(begin), nullptr, end - begin, candidates);
+  test.chunks = rounded_up(count, kChunk) / kChunk;
+  if (limits.by == PairFilter::By::radii) {
+    std::array<std::int16_t, kBlock> sizes = points.tags[block];
+    for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + limits.skin);
+    test.left = kernels_->test_by_size(points.points[block], sizes.data(), candidates, count, limits.band,
+                                       test.mask.data(), test.chunks, test.unsettled.data());
+  } else if (limits.by == PairFilter::By::types && !limits.per_pair) {
+    test.left = kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, count,
+                                       limits.type_in.data(), limits.type_out.data(), test.mask.data(),
+                                       test.chunks, test.unsettled.data());
+  } else {
+    test.left = kernels_->test(points.points[block], candidates, count, limits.in, limits.out,
+                               test.mask.data(), test.chunks, test.unsettled.data());
+  }
+}
+
+/// Puts the pairs that the test of a block has left open into open_. The first candidates are the block's own
+/// points if it `meets_itself`.
+template <class Metric>
+void RowFinder::note_open_pairs(const Scene<Metric>& scene, const Request& request, std::int32_t block,
+                                bool meets_itself, BlockTest& test) {
+  const ListSource& source = scene.rows();
+  const ClusterPoints& points = *source.points;
+  const bool accept_all = request.filter->params().superset || request.limits.per_pair;
+  for (std::int32_t u = 0; u < test.left; ++u) {
+    const auto [row, chunk, open] = test.unsettled[u];
+    std::uint32_t& mask = test.mask[row * test.chunks + chunk];
+    if (accept_all) mask |= open;
+    if (accept_all || row >= points.count[block]) continue;
+    for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
+      const int lane = __builtin_ctz(rest);
+      if (meets_itself && chunk == 0 && lane <= row) continue;
+      OpenPair pair{
+          points.ids[block][row], test.candidates.id[chunk * kChunk + lane], kNone, kNone, &mask, 1u << lane};
+      if (source.particle_of_id.empty()) {
+        pair.slot_i = points.source[block] * kBlock + row;
+        pair.slot_j = source.slot_of_id[pair.j];
+        __builtin_prefetch(&source.blocks->position[pair.slot_j]);
+      }
+      open_.push_back(pair);
+    }
+  }
+}
+
+/// Decides the open pairs. Their positions are likely in no cache; they have been asked for together.
+template <class Metric>
+void RowFinder::settle(const Scene<Metric>& scene, const Request& request) {
+  const std::vector<Vec3>& position = scene.rows().blocks->position;
+  for (const OpenPair& pair : open_) {
+    const bool accepted =
+        pair.slot_i == kNone
+            ? request.filter->accept(pair.i, pair.j)
+            : request.filter->accept(pair.i, pair.j,
+                                     scene.metric.distance2(position[pair.slot_i], position[pair.slot_j]));
+    if (accepted) *pair.mask |= pair.bit;
+  }
+}
+
+/// The rows of one block's points.
+void RowFinder::append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+                             bool meets_itself, BlockTest& test, NeighborList& out) {
   const std::int32_t rows = points.count[block];
   const std::array<std::int32_t, kBlock>& ids = points.ids[block];
   auto written = static_cast<std::size_t>(out.first.back());
-  const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * chunks + kChunk);
+  const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * test.chunks + kChunk);
   if (out.j.size() < most) out.j.resize(most + most / 4);
   for (std::int32_t row = 0; row < rows; ++row) {
-    if (meets_itself) mask_[row * chunks] &= ~0u << (row + 1);
+    std::uint32_t* const mask = test.mask.data() + row * test.chunks;
+    if (meets_itself) mask[0] &= ~0u << (row + 1);
     std::int32_t* const to = out.j.data() + written;
-    std::int32_t length = kernels_->compress(mask_.data() + row * chunks, chunks, candidates.id, to);
+    std::int32_t length = kernels_->compress(mask, test.chunks, test.candidates.id.data(), to);
     if (request.limits.per_pair || request.filter->restricts(ids[row]))
       length = restrict_row(request, ids[row], to, length);
     written += static_cast<std::size_t>(length);
     out.particle.push_back(ids[row]);
     out.first.push_back(static_cast<std::int64_t>(written));
-  }
-}
-
-/// Fills mask_ and unsettled_, for the candidates around the block. Returns how many entries are unsettled.
-std::int32_t RowFinder::test(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
-                             std::int32_t count) {
-  const std::int32_t chunks = rounded_up(count, kChunk) / kChunk;
-  const Candidates candidates = around_block_.at(0);
-  if (limits.by == PairFilter::By::radii) {
-    std::array<std::int16_t, kBlock> sizes = points.tags[block];
-    for (std::int16_t& size : sizes) size = static_cast<std::int16_t>(size + limits.skin);
-    return kernels_->test_by_size(points.points[block], sizes.data(), candidates, count, limits.band,
-                                  mask_.data(), chunks, unsettled_.data());
-  }
-  if (limits.by == PairFilter::By::types && !limits.per_pair)
-    return kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, count,
-                                  limits.type_in.data(), limits.type_out.data(), mask_.data(), chunks,
-                                  unsettled_.data());
-  return kernels_->test(points.points[block], candidates, count, limits.in, limits.out, mask_.data(), chunks,
-                        unsettled_.data());
-}
-
-/// Decides what the test has left open.
-template <class Metric>
-void RowFinder::settle(const Scene<Metric>& scene, const Request& request, std::int32_t block,
-                       bool meets_itself, std::int32_t left, std::int32_t chunks) {
-  const ListSource& source = scene.rows();
-  const ClusterPoints& points = *source.points;
-  const bool accept_all = request.filter->params().superset || request.limits.per_pair;
-  for (std::int32_t u = 0; u < left; ++u) {
-    const auto [row, chunk, open] = unsettled_[u];
-    if (row >= points.count[block]) continue;
-    if (accept_all) {
-      mask_[row * chunks + chunk] |= open;
-      continue;
-    }
-    const std::int32_t i = points.ids[block][row];
-    for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
-      const int lane = __builtin_ctz(rest);
-      if (meets_itself && chunk == 0 && lane <= row) continue;
-      const std::int32_t j = around_block_.id[chunk * kChunk + lane];
-      bool accepted = false;
-      if (source.particle_of_id.empty()) {
-        const Vec3 at = source.blocks->position[points.source[block] * kBlock + row];
-        const Vec3 other = source.blocks->position[source.slot_of_id[j]];
-        accepted = request.filter->accept(i, j, scene.metric.distance2(at, other));
-      } else {
-        accepted = request.filter->accept(i, j);
-      }
-      if (accepted) mask_[row * chunks + chunk] |= 1u << lane;
-    }
   }
 }
 
@@ -341,10 +358,12 @@ std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t partic
 
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes = bytes_of(ranges_) + bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) +
-                      bytes_of(mask_) + bytes_of(unsettled_);
-  for (const CandidateStore* store : {&around_cluster_, &around_request_, &around_group_, &around_block_})
+  std::size_t bytes =
+      bytes_of(ranges_) + bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) + bytes_of(open_);
+  for (const CandidateStore* store : {&around_cluster_, &around_request_, &around_group_})
     bytes += store->memory_bytes();
+  for (const BlockTest& test : tests_)
+    bytes += test.candidates.memory_bytes() + bytes_of(test.mask) + bytes_of(test.unsettled);
   return bytes;
 }
 

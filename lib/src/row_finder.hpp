@@ -59,6 +59,23 @@ class RowFinder {
     std::size_t memory_bytes() const;
   };
 
+  /// A block of the cluster and the candidates near it.
+  struct BlockTest {
+    CandidateStore candidates;
+    std::int32_t chunks = 0;
+    std::int32_t left = 0;            ///< entries of unsettled
+    std::vector<std::uint32_t> mask;  ///< row by chunk
+    std::vector<Unsettled> unsettled;
+  };
+  /// A pair that the kernels could not decide.
+  struct OpenPair {
+    std::int32_t i, j;
+    std::int32_t slot_i, slot_j;  ///< kNone where there are several hierarchies
+    std::uint32_t* mask;
+    std::uint32_t bit;
+  };
+  static constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
+
   template <class Metric>
   void add_own_ranges(const Scene<Metric>& scene, std::int32_t k);
   template <class Metric>
@@ -76,23 +93,27 @@ class RowFinder {
   template <class Metric>
   void append_cluster(const Scene<Metric>& scene, const Request& request, const Cluster& cluster,
                       const Candidates& around_cluster, std::int32_t count, NeighborList& out);
+  void make_room_for_tests(std::int32_t count);
   template <class Metric>
-  void append_block(const Scene<Metric>& scene, const Request& request, std::int32_t block, bool meets_itself,
-                    std::int32_t begin, std::int32_t end, NeighborList& out);
-  std::int32_t test(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
-                    std::int32_t count);
+  void test_block(const Scene<Metric>& scene, const Request& request, std::int32_t block, std::int32_t begin,
+                  std::int32_t end, BlockTest& test);
   template <class Metric>
-  void settle(const Scene<Metric>& scene, const Request& request, std::int32_t block, bool meets_itself,
-              std::int32_t left, std::int32_t chunks);
+  void note_open_pairs(const Scene<Metric>& scene, const Request& request, std::int32_t block,
+                       bool meets_itself, BlockTest& test);
+  template <class Metric>
+  void settle(const Scene<Metric>& scene, const Request& request);
+  void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+                    bool meets_itself, BlockTest& test, NeighborList& out);
   static std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
                                    std::int32_t count);
 
   const ListKernels* kernels_ = nullptr;
   std::vector<BlockRange> ranges_;
   std::vector<std::int32_t> block_, range_;
-  CandidateStore around_cluster_, around_request_, around_group_, around_block_;
-  std::vector<std::uint32_t> valid_, mask_;
-  std::vector<Unsettled> unsettled_;
+  CandidateStore around_cluster_, around_request_, around_group_;
+  std::vector<std::uint32_t> valid_;
+  BlockTest tests_[kGroup];
+  std::vector<OpenPair> open_;
 };
 
 }  // namespace dch::detail
