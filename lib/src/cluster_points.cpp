@@ -97,6 +97,7 @@ void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
                              Span<const std::int32_t> particle_of_id, const PairFilter& filter,
                              Executor* executor) {
   units = to_units;
+  per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(blocks);
   points.resize(all);
   boxes.resize(all);
@@ -113,20 +114,19 @@ void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
 
 void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::int32_t> particle_of_id,
                                      const PairFilter& filter, Cluster& cluster) {
-  const double per_point_unit = 1 / units.point, per_box_unit = 1 / units.box;
-  const auto per_unit = static_cast<float>(per_point_unit);
+  const auto per_point_unit = static_cast<float>(per_unit.point);
   const std::int32_t first_ghost = filter.params().first_ghost;
   Vec3 cluster_low{}, cluster_high{};
   cluster.owned = first_ghost < 0;
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
     const Offset* at = offset.data() + static_cast<std::size_t>(b) * kBlock;
     for (int lane = 0; lane < kBlock; ++lane) {  // whatever empty lanes hold
-      points[b].x[lane] = rounded(at[lane].x * per_unit);
-      points[b].y[lane] = rounded(at[lane].y * per_unit);
-      points[b].z[lane] = rounded(at[lane].z * per_unit);
+      points[b].x[lane] = rounded(at[lane].x * per_point_unit);
+      points[b].y[lane] = rounded(at[lane].y * per_point_unit);
+      points[b].z[lane] = rounded(at[lane].z * per_point_unit);
     }
-    boxes[b] = box_around(low[b], high[b], per_box_unit);
-    spans[b] = span_around(low[b], high[b], per_point_unit);
+    boxes[b] = box_around(low[b], high[b], per_unit.box);
+    spans[b] = span_around(low[b], high[b], per_unit.point);
     std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
     for (int lane = 0; lane < count[b] && !particle_of_id.empty(); ++lane)
       ids[b][lane] = particle_of_id[ids[b][lane]];
@@ -137,8 +137,8 @@ void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::in
     cluster_low = lower(cluster_low, low[b]);
     cluster_high = upper(cluster_high, high[b]);
   }
-  cluster.box = box_around(cluster_low, cluster_high, per_box_unit);
-  cluster.span = span_around(cluster_low, cluster_high, per_point_unit);
+  cluster.box = box_around(cluster_low, cluster_high, per_unit.box);
+  cluster.span = span_around(cluster_low, cluster_high, per_unit.point);
 }
 
 void ClusterPoints::tag_block(std::int32_t block, const PairFilter& filter) {
@@ -158,7 +158,7 @@ BlockSpan ClusterPoints::span_of(std::int32_t first, std::int32_t last) const {
     all_low = lower(all_low, low[b]);
     all_high = upper(all_high, high[b]);
   }
-  return span_around(all_low, all_high, 1 / units.point);
+  return span_around(all_low, all_high, per_unit.point);
 }
 
 std::int16_t ClusterPoints::largest_tag(std::int32_t first, std::int32_t last) const {

@@ -65,6 +65,9 @@ struct ClusterPoints {
 
   // What quantize() makes
   ListUnits units;
+  struct {
+    double point = 1, box = 1;
+  } per_unit;                       ///< the inverse [1/length]
   std::vector<BlockPoints> points;  ///< by block, as all below
   std::vector<BlockBox> boxes;
   std::vector<BlockSpan> spans;

@@ -2,15 +2,11 @@
 #include "row_finder.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "metric.hpp"
 
 namespace dch::detail {
 namespace {
-
-/// Candidate radii (never decisions) are inflated by this factor.
-constexpr double kInflateReach = 1 + 1e-12;
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
@@ -38,93 +34,6 @@ void RowFinder::append_rows(const Scene<Metric>& scene, std::int32_t k, Neighbor
   }
 }
 
-// --- clusters near a cluster
-
-void RowFinder::add_range(const ClusterPoints& points, const Cluster& other, Vec3 between) {
-  BlockRange range{};
-  range.first = other.first_block;
-  range.count = other.blocks;
-  for (int axis = 0; axis < 3; ++axis) {
-    range.box_shift.v[axis] = rounded(between[axis] * (1 / points.units.box));
-    range.box_shift.v[axis + 4] = static_cast<std::int16_t>(-range.box_shift.v[axis]);
-    range.point_shift[axis] = rounded(between[axis] * (1 / points.units.point));
-  }
-  ranges_.push_back(range);
-}
-
-void RowFinder::add_if_near(const Near& near, const Cluster& own, const Cluster& other, Vec3 between) {
-  const double limit = (near.reach + own.extent + other.extent) * kInflateReach;
-  if (norm2(between) <= limit * limit) add_range(*near.source->points, other, between);
-}
-
-/// All images of a cluster that are near; of a cluster and itself each pair of images once.
-template <class Metric>
-void RowFinder::add_images(const Scene<Metric>& scene, const Near& near, std::int32_t k, std::int32_t other) {
-  const Cluster& own_cluster = scene.rows().points->clusters[k];
-  const Cluster& other_cluster = near.source->points->clusters[other];
-  const bool is_itself = near.source == &scene.rows() && k == other;
-  const Vec3 nearest =
-      scene.metric.displacement(scene.rows().centers().position[k], near.source->centers().position[other]);
-  const double limit = (near.reach + own_cluster.extent + other_cluster.extent) * kInflateReach;
-  // Along an axis an image n periods from the nearest one is (coordinate + n) heights away.
-  int least[3] = {0, 0, 0}, most[3] = {0, 0, 0};
-  for (int axis = 0; axis < scene.box.rank(); ++axis) {
-    const Vec3 dual = scene.box.reduced_dual()[static_cast<std::size_t>(axis)];
-    const double coordinate = dot(nearest, dual), heights = limit * std::sqrt(norm2(dual));
-    least[axis] = static_cast<int>(std::ceil(-coordinate - heights - 1e-9));
-    most[axis] = static_cast<int>(std::floor(-coordinate + heights + 1e-9));
-  }
-  const auto& period = scene.box.reduced();
-  for (int a = least[0]; a <= most[0]; ++a)
-    for (int b = least[1]; b <= most[1]; ++b)
-      for (int c = least[2]; c <= most[2]; ++c) {
-        const bool is_later_half = a != 0 ? a > 0 : b != 0 ? b > 0 : c > 0;
-        if (is_itself && !is_later_half) continue;
-        add_if_near(near, own_cluster, other_cluster,
-                    nearest + a * period[0] + b * period[1] + c * period[2]);
-      }
-}
-
-/// Clusters of the same hierarchy, each pair once: in the turn of the one that comes first. A cluster meets
-/// itself once, and in each of half of its images.
-template <class Metric>
-void RowFinder::add_own_ranges(const Scene<Metric>& scene, std::int32_t k) {
-  const Near& near = scene.near.front();
-  const std::vector<Cluster>& clusters = near.source->points->clusters;
-  const Level& centers = near.source->centers();
-  ranges_.clear();
-  add_range(*near.source->points, clusters[k], Vec3{});
-  if (!near.one_image) add_images(scene, near, k, k);
-  for (const std::int32_t other : centers.edges.row(k)) {
-    if (other < k || !(clusters[k].owned || clusters[other].owned)) continue;
-    if (near.one_image) {
-      add_if_near(near, clusters[k], clusters[other],
-                  scene.metric.displacement(centers.position[k], centers.position[other]));
-    } else {
-      add_images(scene, near, k, other);
-    }
-  }
-}
-
-/// Clusters of another hierarchy.
-template <class Metric>
-void RowFinder::add_other_ranges(const Scene<Metric>& scene, const Near& near, std::int32_t k) {
-  const ClusterPoints& others = *near.source->points;
-  const Cluster& own = scene.rows().points->clusters[k];
-  const Vec3 center = scene.rows().centers().position[k];
-  ranges_.clear();
-  const double radius = (near.reach + own.extent + others.largest_extent) * kInflateReach;
-  for_each_cluster_near(scene.metric, *near.source, center, radius, [&](std::int32_t other) {
-    if (!(own.owned || others.clusters[other].owned)) return;
-    if (near.one_image) {
-      add_if_near(near, own, others.clusters[other],
-                  scene.metric.displacement(center, near.source->centers().position[other]));
-    } else {
-      add_images(scene, near, k, other);
-    }
-  });
-}
-
 // --- points near a cluster
 
 Candidates RowFinder::CandidateStore::at(std::int32_t k) {
@@ -150,11 +59,12 @@ std::int32_t RowFinder::collect(const Scene<Metric>& scene, std::int32_t k) {
       points.tags.empty() ? std::int16_t{0}
                           : points.largest_tag(cluster.first_block, cluster.first_block + cluster.blocks);
   std::int32_t count = 0;
-  for (const Near& near : scene.near) {
+  for (const NearSource& near : scene.near) {
+    NearRanges<Metric> ranges(scene.metric, scene.box, scene.rows(), k, ranges_);
     if (&near == &scene.near.front()) {
-      add_own_ranges(scene, k);
+      ranges.find_own(near);
     } else {
-      add_other_ranges(scene, near, k);
+      ranges.find_others(near);
     }
     const std::int32_t collected = collect_from(near, cluster, count);
     count += filter(scene.requests[0].limits, cluster.span, size, around_cluster_.at(count), valid_.data(),
@@ -165,7 +75,7 @@ std::int32_t RowFinder::collect(const Scene<Metric>& scene, std::int32_t k) {
 
 /// Puts the points of near blocks behind those that there are `already`, and returns the number of blocks. If
 /// the cluster's points are all ghosts, blocks of ghosts are left out, since two ghosts are no pair.
-std::int32_t RowFinder::collect_from(const Near& near, const Cluster& cluster, std::int32_t already) {
+std::int32_t RowFinder::collect_from(const NearSource& near, const Cluster& cluster, std::int32_t already) {
   const ClusterPoints& points = *near.source->points;
   std::int32_t most = 0;
   for (const BlockRange& range : ranges_) most += range.count;

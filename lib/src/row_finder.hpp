@@ -10,6 +10,7 @@
 #include "cluster_points.hpp"
 #include "list_limits.hpp"
 #include "list_source.hpp"
+#include "near_ranges.hpp"
 #include "pair_filter.hpp"
 
 namespace dch::detail {
@@ -19,13 +20,6 @@ namespace dch::detail {
 /// thread has one of its own.
 class RowFinder {
  public:
-  /// A hierarchy whose points may be in the rows.
-  struct Near {
-    const ListSource* source;
-    double reach;            ///< largest list radius of its points with those of the rows [length]
-    std::int16_t box_limit;  ///< see ListKernels::collect
-    bool one_image;          ///< whether only the nearest image of a cluster can matter to another one
-  };
   struct Request {
     const PairFilter* filter;
     ListLimits limits;
@@ -35,7 +29,7 @@ class RowFinder {
   struct Scene {
     const Metric& metric;
     const Box& box;
-    std::vector<Near> near;         ///< the hierarchy of the rows first
+    std::vector<NearSource> near;   ///< the hierarchy of the rows first
     std::vector<Request> requests;  ///< one a list, the one with the largest radius first
 
     const ListSource& rows() const { return *near.front().source; }
@@ -77,16 +71,8 @@ class RowFinder {
   static constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
 
   template <class Metric>
-  void add_own_ranges(const Scene<Metric>& scene, std::int32_t k);
-  template <class Metric>
-  void add_other_ranges(const Scene<Metric>& scene, const Near& near, std::int32_t k);
-  template <class Metric>
-  void add_images(const Scene<Metric>& scene, const Near& near, std::int32_t k, std::int32_t other);
-  void add_if_near(const Near& near, const Cluster& own, const Cluster& other, Vec3 between);
-  void add_range(const ClusterPoints& points, const Cluster& other, Vec3 between);
-  template <class Metric>
   std::int32_t collect(const Scene<Metric>& scene, std::int32_t k);
-  std::int32_t collect_from(const Near& near, const Cluster& cluster, std::int32_t already);
+  std::int32_t collect_from(const NearSource& near, const Cluster& cluster, std::int32_t already);
   std::int32_t filter(const ListLimits& limits, const BlockSpan& span, std::int16_t size,
                       const Candidates& from, const std::uint32_t* valid, std::int32_t count,
                       const Candidates& to) const;
