@@ -28,11 +28,12 @@ class ClusterRows {
   /// Takes the positions of the points relative to their cluster's center. To be called again when a point
   /// has moved, come or gone.
   template <class Metric>
-  void measure(const Metric& metric, const Level& clusters, const PointBlocks& points, Executor* executor) {
-    points_.measure(metric, clusters, points, executor);
+  void measure(const Metric& metric, const Level& clusters, PointBlocks& points, double covered2,
+               Executor* executor) {
+    points_.measure(metric, clusters, points, covered2, executor);
   }
-  /// Distance of the farthest point of a cluster from its center [length].
-  double extent(std::int32_t cluster) const { return points_.clusters[cluster].extent; }
+  ClusterPoints& points() { return points_; }
+  const ClusterPoints& points() const { return points_; }
 
   /// Finds all pairs that the filter accepts, as a half list ordered by structure, ghosts having rows like
   /// all others. Edges must join all clusters with points within the square root of

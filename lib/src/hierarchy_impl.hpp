@@ -143,7 +143,14 @@ struct Hierarchy::Impl {
   // hierarchy_repair.cpp
   void update(Span<const Vec3> positions, const Box& b);
   double check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
-  void refresh_positions(Span<const Vec3> positions);
+  template <class Metric>
+  void refresh_level(const Metric& metric, int level);
+  /// New positions of the points and of level 1; with this, points are measured.
+  template <class Metric>
+  void refresh_clusters(const Metric& metric);
+  /// New positions of the levels above, which keep those of the last repair while one is pending.
+  template <class Metric>
+  void refresh_centers(const Metric& metric);
   template <class Metric>
   std::int64_t count_orphans(const Metric& metric) const;
   template <class Metric>

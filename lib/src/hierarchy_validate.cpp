@@ -82,8 +82,8 @@ void check_nesting(const Impl& h, Verdict& verdict) {
         if (!verdict.require(down != kNone && h.id(i - 1, down) == h.id(i, k) && h.up(i - 1, down) == k, i,
                              "point ", h.id(i, k), " does not stand in the level below"))
           return;
-        verdict.require(h.position(i - 1, down) == h.position(i, k), i, "position of point ", h.id(i, k),
-                        " differs from the level below");
+        verdict.require(h.position(i - 1, down) == h.position(i, k) || (h.pending && i > 1), i,
+                        "position of point ", h.id(i, k), " differs from the level below");
       }
       if (i == h.top() || h.up(i, k) == kNone) continue;
       ++lifted;
