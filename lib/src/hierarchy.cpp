@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -11,13 +10,11 @@
 #include "base_radius.hpp"
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
-#include "space_filling_order.hpp"
 
 namespace dch {
 
 using detail::kNone;
 using detail::with_metric;
-using Clock = std::chrono::steady_clock;
 
 // --- levels
 // -----------------------------------------------------------------------------------------------------
@@ -98,35 +95,12 @@ void Hierarchy::Impl::reset(const Box& b) {
   pending = measured = false;
   levels.clear();
   points.clear();
+  batch_hint = {};
   raw.clear();
   slot_of_id.clear();
   free_ids.clear();
   push_level();
   push_level();
-}
-
-void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
-  const auto start = Clock::now();
-  const std::int64_t promotions = stats.promotions;
-  reset(b);
-  largest_reach = detail::check_positions(positions, b);
-  detail::check_radius(params.radius, b);
-  const auto n = positions.size();
-  set_base_radius(positions);
-  set_wrap_slack();
-  raw.assign(n, Vec3{});
-  slot_of_id.assign(n, kNone);
-  with_metric(box, [&](const auto& metric) {
-    std::int32_t hint = kNone;
-    for (const std::int32_t id : detail::space_filling_order(positions, box, params.radius)) {
-      insert(metric, id, positions[id], hint);
-      hint = slot_of_id[id];
-    }
-  });
-  reorder();
-  ++stats.builds;
-  stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
-  if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));
 }
 
 // --- public interface

@@ -7,6 +7,7 @@
 
 #include <dch/hierarchy.hpp>
 
+#include "block_order.hpp"
 #include "candidate_buffer.hpp"
 #include "cluster_rows.hpp"
 #include "cost_estimate.hpp"
@@ -92,22 +93,7 @@ struct Hierarchy::Impl {
     for (; child != detail::kNone; child = levels[level - 1].next_sibling[child]) f(child);
   }
 
-  // hierarchy.cpp: whole-structure operations
-  void reset(const Box& b);
-  void build(Span<const Vec3> positions, const Box& b);
-  void push_level();
-  void pop_level();
-  std::int32_t node_of(std::int32_t id, int level) const;
-  std::size_t memory_bytes() const;
-
-  // hierarchy_links.cpp: parents and children
-  void attach(int level, std::int32_t node, std::int32_t parent);
-  void detach(int level, std::int32_t node);
-  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
-  void take_point(std::int32_t slot);
-  void disconnect(int level, std::int32_t node);
-
-  // hierarchy_update.cpp: places for single points
+  // Places for nodes
   struct Cover {
     int level;  ///< lowest level >= target with a node within R_{level-1}; top() + 1 if there is none
     std::int32_t parent;  ///< that node, the nearest one; kNone if there is none
@@ -117,6 +103,69 @@ struct Hierarchy::Impl {
     int level = 0;
     std::int32_t node = detail::kNone;
   };
+
+  // hierarchy.cpp: whole-structure operations
+  void reset(const Box& b);
+  void push_level();
+  void pop_level();
+  std::int32_t node_of(std::int32_t id, int level) const;
+  std::size_t memory_bytes() const;
+
+  // hierarchy_build.cpp
+  void build(Span<const Vec3> positions, const Box& b);
+  /// Some points close to each other, to find parents for together.
+  struct Batch {
+    const std::int32_t* ids;
+    std::size_t size;
+    Vec3 center;
+    double extent;  ///< of the farthest point from the center, wrapped but not by nearest images [length]
+  };
+  template <class Metric>
+  void choose_clusters(const Metric& metric);
+  template <class Metric>
+  void settle_batch(const Metric& metric, const Batch& batch);
+  template <class Metric>
+  std::int32_t cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
+  template <class Metric>
+  void place_points(const Metric& metric);
+  static detail::LocalPoint local_point(Vec3 at, std::int32_t index) {
+    return {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, index};
+  }
+  /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their indices.
+  template <class IdOf, class PositionOf>
+  void fill_cluster(detail::PointBlocks& blocks, std::int32_t cluster, std::vector<detail::LocalPoint>& local,
+                    const IdOf& id_of, const PositionOf& position_of) {
+    const auto count = static_cast<std::int32_t>(local.size());
+    const std::int32_t parts = detail::blocks_for(count);
+    detail::order_by_halving(local.data(), count);
+    std::int32_t last = detail::kNone, k = 0;
+    for (std::int32_t part = 0; part < parts; ++part) {
+      const std::int32_t block = blocks.add_block(cluster, detail::kNone);
+      (last == detail::kNone ? levels[1].first_child[cluster] : blocks.next[last]) = block;
+      last = block;
+      for (; k < detail::share_of_blocks(count, parts, part + 1); ++k) {
+        const std::int32_t id = id_of(local[k].index);
+        slot_of_id[id] = blocks.push(block, id, position_of(local[k].index));
+        if (id == levels[1].id[cluster]) levels[1].down[cluster] = slot_of_id[id];
+      }
+    }
+  }
+
+  // hierarchy_links.cpp: parents and children
+  void attach(int level, std::int32_t node, std::int32_t parent);
+  void detach(int level, std::int32_t node);
+  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
+  void take_point(std::int32_t slot);
+  void disconnect(int level, std::int32_t node);
+
+  // hierarchy_update.cpp: places for single points
+  /// Fills near[target] with the nodes of that level within `reach` of a point, and near[] of the levels above it
+  /// up to that of the node it returns, whose neighbors include all that are wanted. Levels >= target must be in
+  /// order.
+  template <class Metric>
+  Hint find_near(const Metric& metric, Vec3 at, int target, double reach, Hint hint);
+  template <class Metric>
+  void look_around(const Metric& metric, Vec3 at, Hint middle, double reach);
   /// Finds a parent in level `target` or above for a point. Levels >= target must be in order.
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
@@ -172,6 +221,8 @@ struct Hierarchy::Impl {
 
   // hierarchy_reorder.cpp: puts nodes in depth-first order, siblings side by side
   void reorder();
+  /// Levels 1 and above. Returns the new index of each node of level 1.
+  std::vector<std::int32_t> reorder_levels();
   void reorder_points();
 
   // hierarchy_list.cpp
@@ -188,7 +239,10 @@ struct Hierarchy::Impl {
     std::int32_t node;
     double distance2;
   };
-  std::vector<std::vector<Near>> near;  ///< of locate(): by level, the nodes within R_level
+  Hint batch_hint;                        ///< of settle_batch(): where the last batch was
+  std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
+  std::vector<Vec3> batch_centers;
+  std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
   std::vector<std::array<std::int32_t, 2>>
       too_close;                     ///< of connect_level(): pairs that separate_level() settles
   std::vector<std::int32_t> strays;  ///< of cover_points(): ids
