@@ -62,7 +62,9 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   raw.assign(positions.begin(), positions.end());
   slot_of_id.assign(n, kNone);
   with_metric(box, [&](const auto& metric) {
+    placing_later = true;
     choose_clusters(metric);
+    placing_later = false;
     place_points(metric);
   });
   ++stats.builds;
@@ -95,9 +97,7 @@ template <class Metric>
 void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
   Hint hint = batch_hint;
   if (batch.size == 1) {
-    const std::int32_t id = batch.ids[0];
-    slot_of_id[id] = cluster_for(metric, metric.wrap(raw[id]), id, hint);
-    batch_hint = {1, slot_of_id[id]};
+    batch_hint = cluster_for(metric, metric.wrap(raw[batch.ids[0]]), batch.ids[0], hint);
     return;
   }
   find_near(metric, batch.center, 1, (base_radius + batch.extent) * kInflate, hint);
@@ -119,36 +119,40 @@ void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
         continue;
       }
     }
-    slot_of_id[*id] = cluster_for(metric, at, *id, hint);
-    const bool is_new = levels[1].id[slot_of_id[*id]] == *id;
-    if (is_new) add(slot_of_id[*id]);
-    hint = {1, slot_of_id[*id]};
+    hint = cluster_for(metric, at, *id, hint);
+    const bool is_new =
+        hint.level == 1 && std::find(batch_nodes.begin(), batch_nodes.end(), hint.node) == batch_nodes.end();
+    if (is_new) add(hint.node);
   }
   batch_hint = hint;
 }
 
-/// The node of level 1 that covers a point, a new one if there was none.
+/// Gives a point a parent in level 1, a new one if there was none, or a lone node. Returns which.
 template <class Metric>
-std::int32_t Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint) {
+Hierarchy::Impl::Hint Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint) {
   const Cover cover = locate(metric, at, 1, hint);
   const std::int32_t cluster = lift(metric, 0, id, at, cover);
+  if (cluster != kNone) slot_of_id[id] = cluster;
   grow_top(metric);
-  return cluster;
+  if (!is_lone_point(id)) return {1, cluster};
+  const LoneNode& node = lone[lone_at(slot_of_id[id])];
+  return {node.level, node.node};
 }
 
 template <class Metric>
 void Hierarchy::Impl::place_points(const Metric& metric) {
   const std::vector<std::int32_t> order = reorder_levels();
   std::vector<std::int32_t> first(order.size() + 1, 0);  // counts, then where the next member goes
-  for (std::int32_t& cluster : slot_of_id) ++first[(cluster = order[cluster]) + 1];
+  for (std::int32_t& cluster : slot_of_id)
+    if (cluster >= 0) ++first[(cluster = order[cluster]) + 1];
   std::int32_t blocks = 0;
   for (std::size_t k = 0; k + 1 < first.size(); ++k) {
     blocks += detail::blocks_for(first[k + 1]);
     first[k + 1] += first[k];
   }
-  std::vector<std::int32_t> members(slot_of_id.size());
+  std::vector<std::int32_t> members(static_cast<std::size_t>(first.back()));
   for (std::size_t id = 0; id < slot_of_id.size(); ++id)
-    members[first[slot_of_id[id]]++] = static_cast<std::int32_t>(id);
+    if (slot_of_id[id] >= 0) members[first[slot_of_id[id]]++] = static_cast<std::int32_t>(id);
 
   points.reserve(blocks);
   std::vector<detail::LocalPoint> local;

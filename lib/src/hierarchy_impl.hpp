@@ -41,9 +41,17 @@ struct Hierarchy::Impl {
   detail::PointBlocks points;            ///< level 0
   std::vector<Level> levels;             ///< level 1 always, levels[0] holds radii only
   std::vector<Vec3> raw;                 ///< positions as given, by id
-  std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids
+  std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids, or place_of_lone()
   std::vector<std::int32_t> free_ids;    ///< min-heap
   SearchStats stats;
+
+  /// A node without nodes below it in memory, since it has neither edges nor other descendants than itself.
+  struct LoneNode {
+    int level;  ///< at least 2
+    std::int32_t node;
+  };
+  std::vector<LoneNode> lone;
+  bool placing_later = false;  ///< while building: slot_of_id holds parents
 
   // What the two ways to bring the structure up to date cost, measured on itself [s].
   detail::CostEstimate build_per_point;
@@ -125,7 +133,7 @@ struct Hierarchy::Impl {
   template <class Metric>
   void settle_batch(const Metric& metric, const Batch& batch);
   template <class Metric>
-  std::int32_t cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
+  Hint cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
   template <class Metric>
   void place_points(const Metric& metric);
   static detail::LocalPoint local_point(Vec3 at, std::int32_t index) {
@@ -151,6 +159,35 @@ struct Hierarchy::Impl {
     }
   }
 
+  // hierarchy_lone.cpp: points on their own
+  /// What slot_of_id and Level::down hold for the k-th lone node; an involution.
+  static std::int32_t place_of_lone(std::int32_t k) { return -2 - k; }
+  static std::int32_t lone_at(std::int32_t place) { return -2 - place; }
+  bool is_lone(int level, std::int32_t node) const { return level > 1 && levels[level].down[node] < detail::kNone; }
+  /// Whether a point's node of some level is not in memory, being on its own.
+  bool stands_alone(std::int32_t id, int level) const {
+    return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() && is_lone_point(id) &&
+           level < lowest_node(id).level;
+  }
+  bool is_lone_point(std::int32_t id) const { return slot_of_id[id] < detail::kNone; }
+  void make_lone(int level, std::int32_t node);
+  void forget_lone(int level, std::int32_t node);
+  void unfold(int level, std::int32_t node);
+  /// Unfolds the lone nodes of a level that have edges now.
+  void unfold_joined(int level);
+  bool could_be_lone(int level, std::int32_t node) const;
+  /// Makes all nodes lone that can be.
+  void fold();
+  /// Number of lone nodes of the levels above.
+  std::int32_t lone_above(int level) const;
+  /// Empty rows for the lone points.
+  void append_lone_rows(NeighborList& list) const;
+  /// Lowest node of a point that is in memory: its cluster, or the lone node.
+  Hint lowest_node(std::int32_t id) const {
+    if (is_lone_point(id)) return {lone[lone_at(slot_of_id[id])].level, lone[lone_at(slot_of_id[id])].node};
+    return {1, points.parent(slot_of_id[id])};
+  }
+
   // hierarchy_links.cpp: parents and children
   void attach(int level, std::int32_t node, std::int32_t parent);
   void detach(int level, std::int32_t node);
@@ -170,7 +207,8 @@ struct Hierarchy::Impl {
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
   /// Gives a point nodes in the levels between `level` and its cover, linked to each other and to the cover.
-  /// Returns the lowest one, or the cover's node if there are none between.
+  /// Returns the lowest one, or the cover's node if there are none between. From level 0 on it ends at the first
+  /// that is lone, and returns kNone.
   template <class Metric>
   std::int32_t lift(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
   /// Links a node of `level` >= 1 to its cover.
@@ -184,7 +222,7 @@ struct Hierarchy::Impl {
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  void insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot);
+  void insert(const Metric& metric, std::int32_t id, Vec3 at, Hint hint);
   template <class Metric>
   void remove(const Metric& metric, std::int32_t id);
   void trim_top();
@@ -210,6 +248,7 @@ struct Hierarchy::Impl {
   bool repair_pays(std::int64_t orphans) const;
   template <class Metric>
   void repair(const Metric& metric, double check_seconds);
+  bool is_known_to_cover(std::int32_t cluster) const;
   template <class Metric>
   void cover_points(const Metric& metric);
   template <class Metric>

@@ -68,6 +68,7 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
     cluster_rows.find(metric, box, levels[1], points, slot_of_id, request.first_ghost, error, filter,
                       params.executor, found);
   });
+  append_lone_rows(found);
   if (request.order == RowOrder::by_index) {
     const auto for_each_pair = [&](const auto& f) {
       for (std::size_t r = 0; r < found.particle.size(); ++r) {

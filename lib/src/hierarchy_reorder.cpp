@@ -26,7 +26,7 @@ std::vector<std::int32_t> depth_first_order(const Level& level, const Level* abo
 }
 
 std::int32_t renamed(const std::vector<std::int32_t>& order, std::int32_t k) {
-  return k == kNone ? kNone : order[k];
+  return k < 0 ? k : order[k];
 }
 
 }  // namespace
@@ -43,6 +43,7 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
     fresh.threshold = old.threshold;
     fresh.threshold2 = old.threshold2;
     fresh.resize(old.alive());
+    fresh.edges.reserve(old.edges.entries());
     std::vector<std::int32_t> old_of_new(static_cast<std::size_t>(old.alive()));
     for (std::int32_t k = 0; k < old.size(); ++k)
       if (order[k] != kNone) old_of_new[order[k]] = k;
@@ -53,6 +54,7 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
       fresh.parent[k] = old.parent[from];  // the level above has renamed these already
       fresh.up[k] = old.up[from];
       fresh.down[k] = old.down[from];
+      if (is_lone(i, from)) lone[lone_at(old.down[from])].node = k;
       fresh.first_child[k] = old.first_child[from];
       fresh.next_sibling[k] = renamed(order, old.next_sibling[from]);
       fresh.prev_sibling[k] = renamed(order, old.prev_sibling[from]);

@@ -127,7 +127,8 @@ void Hierarchy::Impl::measure(const Metric& metric) {
 
 // Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
 // more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
-// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster.
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count as
+// clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
 template <class Metric>
 bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
@@ -137,6 +138,11 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
     if (!levels[1].is_alive(k)) continue;
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
     if (cluster_rows.points().clusters[k].extent + moved > limit) return false;
+  }
+  for (const LoneNode& node : lone) {
+    const Level& level = levels[node.level];
+    const double moved = std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
+    if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
   }
   return true;
 }
@@ -170,6 +176,7 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
     if (i < top()) cover_level(metric, i);
     cover_seconds += seconds_since(covering);
     connect_level(metric, i);
+    unfold_joined(i);
     separate_level(i);
   }
   const auto covering = Clock::now();
@@ -177,6 +184,7 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   cover_seconds += seconds_since(covering);
   grow_top(metric);
   trim_top();
+  fold();
   ++stats.repairs;
   pending = measured = false;
   strayed += stats.reparented - reparented_before;
@@ -189,11 +197,18 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
 }
 
+/// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new since
+/// then hold none but those that were found to be near enough.
+bool Hierarchy::Impl::is_known_to_cover(std::int32_t cluster) const {
+  const auto& clusters = cluster_rows.points().clusters;
+  return static_cast<std::size_t>(cluster) >= clusters.size() || clusters[cluster].uncovered == 0;
+}
+
 template <class Metric>
 void Hierarchy::Impl::cover_points(const Metric& metric) {
   strays.clear();
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k) || cluster_rows.points().clusters[k].uncovered == 0) continue;
+    if (!levels[1].is_alive(k) || is_known_to_cover(k)) continue;
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
       if (metric.distance2(points.position[slot], center) > levels[0].radius2)
@@ -304,7 +319,9 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
     }
     points.next[last] = level.first_child[heir];
     level.first_child[heir] = level.first_child[node];
-    ++cluster_rows.points().clusters[heir].uncovered;  // for all that is known
+    auto& clusters = cluster_rows.points().clusters;
+    if (static_cast<std::size_t>(heir) >= clusters.size()) clusters.resize(static_cast<std::size_t>(heir) + 1);
+    ++clusters[heir].uncovered;  // for all that is known
   }
   detach(i, node);
   disconnect(i, node);

@@ -36,12 +36,14 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
   for (int level = start.level; level > target; --level) {
     const double within = (reach + levels[level - 1].radius - less) * kInflate;
     near[level - 1].clear();
-    for (const Near& kept : near[level])
+    for (const Near& kept : near[level]) {
+      if (is_lone(level, kept.node) && kept.distance2 <= within * within) unfold(level, kept.node);
       for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
            child = levels[level - 1].next_sibling[child]) {
         const double d2 = metric.distance2(at, levels[level - 1].position[child]);
         if (d2 <= within * within) near[level - 1].push_back({child, d2});
       }
+    }
   }
   return start;
 }
@@ -95,6 +97,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     if (other == node || metric.distance2(position, at.position[other]) > at.threshold2) return;
     at.edges.push(node, other);
     at.edges.push(other, node);
+    if (is_lone(level, other)) unfold(level, other);
   };
   if (level == top()) {
     for (std::int32_t root = 0; root < at.size(); ++root)
@@ -102,7 +105,9 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     return;
   }
   const Level& above = levels[level + 1];
+  const double reach = (at.threshold + at.radius) * kInflate;
   const auto join_children = [&](std::int32_t parent) {
+    if (metric.distance2(position, above.position[parent]) > reach * reach) return;
     for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
       join(child);
   };
@@ -126,6 +131,10 @@ std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t
     connect(metric, i, lifted);
     ++stats.promotions;
     above = lifted;
+    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(lifted).empty()) {
+      make_lone(i, lifted);
+      return kNone;
+    }
   }
   return above;
 }
@@ -144,6 +153,7 @@ void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node,
 template <class Metric>
 void Hierarchy::Impl::settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
   const std::int32_t above = lift(metric, 0, point, at, cover);
+  if (above == kNone) return;  // a lone point
   const std::int32_t slot = place_point(point, at, above);
   if (cover.level > 1) levels[1].down[above] = slot;
 }
@@ -161,11 +171,10 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
 }
 
 template <class Metric>
-void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, std::int32_t hint_slot) {
+void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint) {
   const Vec3 wrapped = box.wrap(at);
   raw[point] = at;
-  const std::int32_t cluster = hint_slot == kNone ? kNone : points.parent(hint_slot);
-  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, {1, cluster}));
+  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, hint));
   grow_top(metric);
 }
 
@@ -174,13 +183,16 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
   // Take the point out of every level first; the children it leaves behind are settled from the top down.
   std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
   std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
-  std::int32_t node = up(0, slot_of_id[point]);
-  if (node == kNone) {
+  const Hint lowest = lowest_node(point);
+  std::int32_t node = lowest.node;
+  if (is_lone_point(point)) {
+    forget_lone(lowest.level, node);
+  } else if (up(0, slot_of_id[point]) == kNone) {
     take_point(slot_of_id[point]);
     trim_top();
     return;
   }
-  for (int level = 1; node != kNone; ++level) {
+  for (int level = lowest.level; node != kNone; ++level) {
     Level& at = levels[level];
     for_each_child(level, node, [&](std::int32_t child) {
       const std::int32_t name = id(level - 1, child);
@@ -224,7 +236,12 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
 }
 
 void Hierarchy::Impl::trim_top() {
-  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots) pop_level();
+  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
+         levels[top() - 1].alive() + lone_above(top() - 1) <= params.max_roots) {
+    for (std::int32_t root = 0; root < levels.back().size(); ++root)
+      if (levels.back().is_alive(root) && is_lone(top(), root)) unfold(top(), root);
+    pop_level();
+  }
 }
 
 #define DCH_INSTANTIATE(Metric)                                                            \
@@ -235,7 +252,7 @@ void Hierarchy::Impl::trim_top() {
   template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);   \
   template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                \
   template void Hierarchy::Impl::grow_top(const Metric&);                                  \
-  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t);  \
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);          \
   template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
