@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "metric.hpp"
 
@@ -12,6 +14,55 @@ namespace {
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 double longest(Vec3 sides) { return std::max(sides.x, std::max(sides.y, sides.z)); }
+
+/// Takes positions, by id or, if there are none, those in the slots, and puts them into the slots wrapped.
+template <class Metric>
+class BlockMeter {
+ public:
+  BlockMeter(const Metric& metric, const Vec3* positions, PointBlocks& blocks, double covered2)
+      : metric_(metric), positions_(positions), blocks_(blocks), covered2_(covered2) {
+    if constexpr (kIsBrick) cell_ = metric.brick();
+  }
+
+  void measure(std::int32_t block, Vec3 center, float* offset, BlockExtremes& out) const {
+    const std::int32_t first = block * kBlock, count = blocks_.count[block];
+    if constexpr (kIsBrick) {
+      std::int32_t slots[kBlock];
+      for (std::int32_t lane = 0; lane < kBlock; ++lane) slots[lane] = first + lane;
+      const double from[3] = {center.x, center.y, center.z};
+      const bool done = kernel_(cell_, &(positions_ ? positions_ : blocks_.position.data())->x,
+                                positions_ ? blocks_.id.data() + first : slots, count, from, covered2_,
+                                &blocks_.position[first].x, offset, out);
+      if (done) return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      out.low[axis] = std::numeric_limits<double>::infinity();
+      out.high[axis] = -out.low[axis];
+    }
+    out.extent2 = 0;
+    out.uncovered = 0;
+    for (std::int32_t slot = first; slot < first + count; ++slot) {
+      if (positions_) blocks_.position[slot] = metric_.wrap(positions_[blocks_.id[slot]]);
+      const Vec3 at = metric_.displacement(center, blocks_.position[slot]);
+      for (int axis = 0; axis < 3; ++axis) {
+        *offset++ = static_cast<float>(at[axis]);
+        out.low[axis] = std::min(out.low[axis], at[axis]);
+        out.high[axis] = std::max(out.high[axis], at[axis]);
+      }
+      out.extent2 = std::max(out.extent2, norm2(at));
+      out.uncovered += norm2(at) > covered2_;
+    }
+  }
+
+ private:
+  static constexpr bool kIsBrick = !std::is_same_v<Metric, LatticeMetric>;
+  const Metric& metric_;
+  const Vec3* positions_;
+  PointBlocks& blocks_;
+  double covered2_;
+  BrickCell cell_;
+  MeasureBlock kernel_ = measure_block(instruction_set());
+};
 
 BlockBox box_around(Vec3 low, Vec3 high, double per_unit) {
   BlockBox box{};
@@ -35,8 +86,19 @@ BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
 }  // namespace
 
 template <class Metric>
-void ClusterPoints::measure(const Metric& metric, const Level& centers, const PointBlocks& from,
+void ClusterPoints::measure(const Metric& metric, const Level& centers, PointBlocks& from, double covered2,
                             Executor* executor) {
+  measure_all(metric, centers, nullptr, from, covered2, executor);
+}
+
+template <class Metric>
+void ClusterPoints::refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions,
+                            PointBlocks& into, double covered2, Executor* executor) {
+  measure_all(metric, centers, positions.data(), into, covered2, executor);
+}
+
+/// Says where the blocks of each cluster lie.
+void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
   clusters.assign(centers.position.size(), Cluster());
   const std::size_t most = from.cluster.size();
   source.resize(most);
@@ -52,9 +114,16 @@ void ClusterPoints::measure(const Metric& metric, const Level& centers, const Po
       source[blocks++] = block;
     clusters[k].blocks = blocks - clusters[k].first_block;
   }
+}
+
+template <class Metric>
+void ClusterPoints::measure_all(const Metric& metric, const Level& centers, const Vec3* positions,
+                                PointBlocks& from, double covered2, Executor* executor) {
+  lay_out(centers, from);
+  const BlockMeter<Metric> meter(metric, positions, from, covered2);
   for_ranges(executor, centers.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t k = first; k < last; ++k)
-      if (centers.is_alive(k)) measure_cluster(metric, centers.position[k], from, clusters[k]);
+      if (centers.is_alive(k)) measure_cluster(meter, centers.position[k], from, clusters[k]);
   });
   largest_extent = largest_width = largest_block_width = 0;
   for (const Cluster& cluster : clusters) {
@@ -64,33 +133,25 @@ void ClusterPoints::measure(const Metric& metric, const Level& centers, const Po
   }
 }
 
-template <class Metric>
-void ClusterPoints::measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& from,
+template <class Meter>
+void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& from,
                                     Cluster& cluster) {
-  double extent2 = 0, block_width = 0;
+  double extent2 = 0;
   Vec3 cluster_low{}, cluster_high{};  // the center is in the box
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
-    Offset* to = offset.data() + static_cast<std::size_t>(b) * kBlock;
-    const Vec3* position = from.position.data() + static_cast<std::size_t>(source[b]) * kBlock;
-    Vec3 block_low = metric.displacement(center, position[0]), block_high = block_low;
-    const std::int32_t lanes = from.count[source[b]];
-    for (std::int32_t lane = 0; lane < lanes; ++lane) {
-      const Vec3 at = metric.displacement(center, position[lane]);
-      to[lane] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-      extent2 = std::max(extent2, norm2(at));
-      block_low = lower(block_low, at);
-      block_high = upper(block_high, at);
-    }
-    low[b] = block_low;
-    high[b] = block_high;
-    count[b] = static_cast<std::uint8_t>(lanes);
-    block_width = std::max(block_width, longest(block_high - block_low));
-    cluster_low = lower(cluster_low, block_low);
-    cluster_high = upper(cluster_high, block_high);
+    BlockExtremes measured;
+    meter.measure(source[b], center, &offset[static_cast<std::size_t>(b) * kBlock].x, measured);
+    low[b] = {measured.low[0], measured.low[1], measured.low[2]};
+    high[b] = {measured.high[0], measured.high[1], measured.high[2]};
+    count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
+    extent2 = std::max(extent2, measured.extent2);
+    cluster.uncovered += measured.uncovered;
+    cluster.block_width = std::max(cluster.block_width, longest(high[b] - low[b]));
+    cluster_low = lower(cluster_low, low[b]);
+    cluster_high = upper(cluster_high, high[b]);
   }
   cluster.extent = std::sqrt(extent2);
   cluster.width = longest(cluster_high - cluster_low);
-  cluster.block_width = block_width;
 }
 
 void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
@@ -175,8 +236,10 @@ std::size_t ClusterPoints::memory_bytes() const {
          bytes_of(tags) + bytes_of(owned);
 }
 
-#define DCH_INSTANTIATE(Metric) \
-  template void ClusterPoints::measure(const Metric&, const Level&, const PointBlocks&, Executor*);
+#define DCH_INSTANTIATE(Metric)                                                                             \
+  template void ClusterPoints::measure(const Metric&, const Level&, PointBlocks&, double, Executor*);       \
+  template void ClusterPoints::refresh(const Metric&, const Level&, Span<const Vec3>, PointBlocks&, double, \
+                                       Executor*);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

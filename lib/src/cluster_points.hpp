@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/executor.hpp>
+#include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
 #include "hierarchy_level.hpp"
@@ -30,17 +31,26 @@ struct ClusterPoints {
     double extent = 0;       ///< distance of the farthest point from the center [length]
     double width = 0;        ///< of the box around the points and the center, along its longest side [length]
     double block_width = 0;  ///< the same of the widest block
-    BlockBox box{};          ///< of all blocks
-    BlockSpan span{};        ///< the same in the units of points
-    bool owned = true;       ///< whether a point is not a ghost
+    std::int32_t uncovered = 0;  ///< points farther from the center than asked
+    BlockBox box{};              ///< of all blocks
+    BlockSpan span{};            ///< the same in the units of points
+    bool owned = true;           ///< whether a point is not a ghost
   };
   struct Offset {
     float x, y, z;
   };
 
-  /// Takes the positions. To be called again when a point has moved, come or gone.
+  /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
+  /// distance from their center exceeds `covered2`.
   template <class Metric>
-  void measure(const Metric& metric, const Level& centers, const PointBlocks& points, Executor* executor);
+  void measure(const Metric& metric, const Level& centers, PointBlocks& points, double covered2,
+               Executor* executor);
+
+  /// The same after motion, with the new positions, by id: wraps them into their slots too, in the same pass.
+  /// Those of the centers are up to date already.
+  template <class Metric>
+  void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, PointBlocks& points,
+               double covered2, Executor* executor);
 
   /// Rounds everything to the units. `filter` says what the cutoffs of pairs depend on.
   void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
@@ -77,8 +87,12 @@ struct ClusterPoints {
   std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
+  void lay_out(const Level& centers, const PointBlocks& points);
   template <class Metric>
-  void measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& points, Cluster& cluster);
+  void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& points,
+                   double covered2, Executor* executor);
+  template <class Meter>
+  void measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& points, Cluster& cluster);
   void quantize_cluster(const PointBlocks& points, Span<const std::int32_t> particle_of_id,
                         const PairFilter& filter, Cluster& cluster);
   void tag_block(std::int32_t block, const PairFilter& filter);

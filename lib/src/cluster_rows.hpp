@@ -24,6 +24,7 @@ struct ListScene {
   std::vector<double> reach;
   double error;  ///< how far the distance of two positions may be from their pair distance [length]
   Executor* executor;
+  std::vector<std::int32_t> lone = {};  ///< particles in no cluster, since they have no neighbors: empty rows
 
   double reach_of(std::size_t a, std::size_t b) const { return reach[a * sources.size() + b]; }
 };

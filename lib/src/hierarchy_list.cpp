@@ -38,8 +38,8 @@ void Hierarchy::Impl::lists(Span<const ListParams> requests, const std::vector<N
     reach = std::max(reach, request.list_radius());
   }
   const double error = prepare_for_lists();
-  const detail::ListScene scene{
-      box, {list_source({})}, {(reach + error) * (1 + 1e-12)}, error, params.executor};
+  const detail::ListScene scene{box,   {list_source({})}, {(reach + error) * (1 + 1e-12)},
+                                error, params.executor,   lone_points()};
   list_finder.find(scene, raw, requests, out);
   stats.list_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

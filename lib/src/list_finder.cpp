@@ -89,6 +89,12 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
   }
   with_metric(scene.box,
               [&](const auto& metric) { cluster_rows_.find(metric, scene, sorted_filters, rows); });
+  for (NeighborList* list : rows) {
+    for (const std::int32_t particle : scene.lone) {
+      list->particle.push_back(particle);
+      list->first.push_back(list->first.back());
+    }
+  }
   for (std::size_t r = 0; r < requests.size(); ++r)
     if (!is_ready_as_found(*requests[r])) put_in_order(*requests[r], positions.size(), found_[r], *out[r]);
 }

@@ -97,6 +97,59 @@ double WrapError::reach_within(double error) const {
   return amplification_ > 0 ? error / amplification_ - cell_size_ : std::numeric_limits<double>::infinity();
 }
 
+double WrapError::reach_between(Vec3 low, Vec3 high) const {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (shifted_[static_cast<std::size_t>(axis)])
+      sum += std::max(std::abs(low[axis] - origin_[axis]), std::abs(high[axis] - origin_[axis]));
+  }
+  return sum;
+}
+
+namespace {
+
+/// The box around positions, and whether all of them are finite.
+struct Surroundings {
+  explicit Surroundings(Span<const Vec3> positions) : low(positions[0]), high(positions[0]) {
+    double differences = 0;  // of a number with itself: 0, but not for infinity and NaN
+    for (const Vec3 p : positions) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      differences += (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
+    }
+    are_finite = differences == 0;
+  }
+  double largest_coordinate() const {
+    return std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
+  }
+  Vec3 low, high;
+  bool are_finite;
+};
+
+/// Throws for the first position that has something wrong with it, else returns the largest reach.
+double check_one_by_one(Span<const Vec3> positions, const WrapError& error, double farthest, double tolerance) {
+  double largest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 p = positions[i];
+    if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
+      throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
+                            "; check the coordinates of this frame");
+    }
+    const double reach = error.reach(p);
+    if (reach > farthest) {
+      throw InvalidPosition(
+          position_text(i, p) +
+          " is so far outside the periodic box that rounding leaves its place there uncertain by " +
+          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
+          " is allowed, wrap the coordinates first");
+    }
+    largest = std::max(largest, reach);
+  }
+  return largest;
+}
+
+}  // namespace
+
 double check_positions(Span<const Vec3> positions, const Box& box) {
   if (positions.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw InvalidParameter(std::to_string(positions.size()) +
@@ -106,24 +159,11 @@ double check_positions(Span<const Vec3> positions, const Box& box) {
   const WrapError error(box);
   const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
   const double farthest = error.reach_within(tolerance);
-  double largest = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec3 p = positions[i];
-    if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
-      throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
-                            "; check the coordinates of this frame");
-    }
-    const double reach = error.reach(p);
-    largest = std::max(largest, reach);
-    if (reach > farthest) {
-      throw InvalidPosition(
-          position_text(i, p) +
-          " is so far outside the periodic box that rounding leaves its place there uncertain by " +
-          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
-          " is allowed, wrap the coordinates first");
-    }
-  }
-  return largest;
+  if (positions.empty()) return 0;
+  const Surroundings around(positions);
+  const double largest = error.reach_between(around.low, around.high);
+  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest) return largest;
+  return check_one_by_one(positions, error, farthest, tolerance);
 }
 
 void check_radius(double radius, const Box& box) {

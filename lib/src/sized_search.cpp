@@ -147,6 +147,7 @@ void SizedSearch::bring_up_to_date(const SizeClasses& classes) {
       if (group.search) retire(*group.search);
       HierarchyParams own = params_;
       own.radius = wanted;
+      own.fold_lone_points = false;  // they may have neighbors in other classes
       group.search = std::make_unique<DchSearch>(own);
     } else if (!stale_ && !group.is_new) {
       continue;

@@ -49,6 +49,9 @@ struct HierarchyParams {
   /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and
   /// all pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
   int max_roots = 16;
+  /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in levels
+  /// i and above only, and in no cluster of level 1; so that gas in a huge box costs as much as in a small one.
+  bool fold_lone_points = true;
   /// Threads to make lists with; null for that of the caller alone. Not owned; results do not depend on it.
   Executor* executor = nullptr;
   /// For make_dch_search: whether the cutoffs of particles may differ much, by radii or types. Then there is
