@@ -47,6 +47,16 @@ BlockSpan span_of(const detail::Candidates& points, std::int32_t count) {
   return span;
 }
 
+/// Drops partners from a row. Returns how many are left.
+std::int32_t without(Span<const std::int32_t> partners, std::int32_t* row, std::int32_t count) {
+  for (const std::int32_t partner : partners) {
+    std::int32_t found = 0;  // how often; the loop is written so that compilers make vectors of it
+    for (std::int32_t k = 0; k < count; ++k) found += row[k] == partner;
+    if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, partner) - row);
+  }
+  return count;
+}
+
 }  // namespace
 
 void SimdGrid::Candidates::make_room(std::size_t count) {
@@ -170,7 +180,9 @@ SimdGrid::Run SimdGrid::points_of(std::int64_t key) const {
   return {first_[cell], first_[cell + 1]};
 }
 
-void SimdGrid::list(Span<const Vec3> positions, const Box& box, NeighborList& out) {
+void SimdGrid::list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions,
+                    NeighborList& out) {
+  exclusions_ = exclusions.empty() ? nullptr : &exclusions;
   kernels_ = &detail::list_kernels(instruction_set());
   lay_out(positions, box);
   make_stencil();
@@ -189,6 +201,16 @@ void SimdGrid::list(Span<const Vec3> positions, const Box& box, NeighborList& ou
     const std::int64_t key = kind_ == Cells::dense ? static_cast<std::int64_t>(cell) : occupied_[cell];
     rows_of_cell({first_[cell], first_[cell + 1]}, decode(key), positions, box, out);
   }
+}
+
+std::size_t SimdGrid::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  std::size_t bytes = bytes_of(key_) + bytes_of(cell_of_) + bytes_of(first_) + bytes_of(occupied_) +
+                      bytes_of(table_) + bytes_of(next_) + bytes_of(mask_) + bytes_of(unsettled_) +
+                      bytes_of(stencil_);
+  for (const Candidates* points : {&sorted_, &around_, &near_})
+    bytes += 3 * bytes_of(points->x) + bytes_of(points->id);
+  return bytes;
 }
 
 void SimdGrid::append(Run run, const std::array<std::int16_t, 3>& shift) {
@@ -288,8 +310,12 @@ void SimdGrid::rows_of_block(Run block, std::int32_t before, Span<const Vec3> po
   for (std::int32_t row = 0; row < rows; ++row) {
     std::uint32_t* const mask = mask_.data() + row * chunks;
     mask[0] &= ~0u << (row + 1);
-    written += static_cast<std::size_t>(kernels_->compress(mask, chunks, near.id, out.j.data() + written));
-    out.particle.push_back(sorted_.id[first + static_cast<std::size_t>(row)]);
+    std::int32_t* const to = out.j.data() + written;
+    const std::int32_t particle = sorted_.id[first + static_cast<std::size_t>(row)];
+    std::int32_t length = kernels_->compress(mask, chunks, near.id, to);
+    if (exclusions_) length = without(exclusions_->partners(particle), to, length);
+    written += static_cast<std::size_t>(length);
+    out.particle.push_back(particle);
     out.first.push_back(static_cast<std::int64_t>(written));
   }
 }

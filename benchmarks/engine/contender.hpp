@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <dch/executor.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/neighbor_list.hpp>
+#include <dch/pair_search.hpp>
+
+#include "scene.hpp"
+#include "simd_grid.hpp"
+
+namespace dch::bench {
+
+/// Something that makes the lists of a scene, configuration after configuration.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+
+  virtual std::string name() const = 0;
+  /// The lists that the scene asks for at its present positions; this is what is timed.
+  virtual void make_lists(const Scene& scene, std::vector<NeighborList>& lists) = 0;
+  /// Forgets what it has seen, as if made anew.
+  virtual void reset() = 0;
+  /// Held now, lists left out.
+  virtual std::size_t memory_bytes() const = 0;
+  /// Updates so far by what they took; null for one that keeps nothing.
+  virtual const SearchStats* stats() const { return nullptr; }
+};
+
+/// Lists by structure from a hierarchy that is kept up.
+class DchContender : public Contender {
+ public:
+  DchContender(std::string name, const Scene& scene, MaintenancePolicy policy, Executor* executor);
+  /// Whether the library makes the lists of this scene.
+  static bool can_make(const Scene& scene) { return scene.radii.empty(); }
+
+  std::string name() const override { return name_; }
+  void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override;
+  void reset() override { search_ = make_dch_search(params_); }
+  std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
+  const SearchStats* stats() const override { return &search_->stats(); }
+
+ private:
+  std::string name_;
+  HierarchyParams params_;
+  std::unique_ptr<PairSearch> search_;
+};
+
+/// A grid for each list, built anew each time.
+class GridContender : public Contender {
+ public:
+  /// Takes the widths of cells that are fastest on the scene's present positions.
+  GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells);
+  /// Whether cells that fit can be held in memory, and the box is wide enough.
+  static bool can_make(const Scene& scene, SimdGrid::Cells cells);
+
+  std::string name() const override { return name_; }
+  void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override;
+  void reset() override;
+  std::size_t memory_bytes() const override;
+
+ private:
+  std::string name_;
+  SimdGrid::Cells cells_;
+  std::vector<double> widths_;  ///< by list, relative to its radius
+  std::vector<SimdGrid> grids_;
+  std::vector<double> radii_;
+};
+
+/// All that can make the lists of the scene: hierarchies first, then grids.
+/// @param executor of an additional hierarchy that uses several threads, or null
+std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor);
+
+}  // namespace dch::bench
