@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <sched.h>
 
 #include <dch/error.hpp>
 
+#include "affinity.hpp"
 #include "contender.hpp"
 #include "pair_check.hpp"
 #include "stopwatch.hpp"
@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> scenes = scene_names();
   SceneOptions scene;
   int lists = 100, repetitions = 5, threads = 1, processor = 0;
-  std::string json;
+  std::string json, only;
 };
 
 /// A list that does not hold the pairs it should.
@@ -35,15 +35,6 @@ class WrongList : public Error {
 };
 
 using Contenders = std::vector<std::unique_ptr<Contender>>;
-
-void pin_to(int processor) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(processor), &set);
-  if (sched_setaffinity(0, sizeof set, &set) != 0)
-    throw Error("cannot stay on processor " + std::to_string(processor) +
-                "; choose another with --processor");
-}
 
 /// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
 int configurations(const Scene& scene, const Options& options) {
@@ -115,6 +106,8 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
   scene_options.most_frames = static_cast<std::size_t>(options.lists) + 1;
   const std::unique_ptr<Scene> scene = make_scene(name, scene_options);
   Contenders contenders = make_contenders(*scene, executor);
+  if (!options.only.empty())
+    std::erase_if(contenders, [&](const auto& contender) { return contender->name() != options.only; });
   SceneResult result;
   result.scene = name;
   result.origin = scene->origin;
@@ -173,6 +166,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--scale", options.scene.scale,
                  "Particles of artificial scenes, relative to the usual number")
       ->check(CLI::PositiveNumber);
+  app.add_option("--only", options.only, "Measure the contender of this name alone");
   app.add_option("--json", options.json, "File for all measurements");
   try {
     app.parse(argc, argv);
