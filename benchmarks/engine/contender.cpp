@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "stopwatch.hpp"
 
@@ -13,27 +14,46 @@ namespace {
 /// Widths of cells to try, relative to the list radius. The best one depends on the density: about 25
 /// particles in a cell.
 constexpr double kWidths[] = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.3};
+/// Largest to smallest radius in one grid.
+constexpr double kLevelRatios[] = {1.4, 1.7, 2.0, 2.5, 3.2, 4.5, 8.0};
+/// What takes so much longer than the best at the first trial is not tried again.
+constexpr double kHopeless = 1.5;
 constexpr int kTrials = 5;
 /// Dense cells beyond this many a particle only cost time and memory.
 constexpr double kMostCells = 50;
 
 double cells_in(const Scene& scene, double width) { return scene.box.volume() / (width * width * width); }
 
-/// Least time over some trials; infinity if the grid cannot be used.
-double trial(const Scene& scene, double radius, double width, SimdGrid::Cells cells, NeighborList& list) {
-  if (cells == SimdGrid::Cells::dense &&
-      cells_in(scene, width) > kMostCells * static_cast<double>(scene.positions.size()))
-    return std::numeric_limits<double>::infinity();
-  SimdGrid grid(radius, width, cells);
-  double least = std::numeric_limits<double>::infinity();
-  try {
-    for (int k = 0; k < kTrials; ++k)
-      least =
-          std::min(least, seconds_of([&] { grid.list(scene.positions, scene.box, scene.exclusions, list); }));
-  } catch (const std::invalid_argument&) {
-    return std::numeric_limits<double>::infinity();  // the box is too narrow for such cells
-  }
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Least time over some trials, fewer if it is far from the best so far.
+template <class Call>
+double least_seconds(double best, const Call& call) {
+  double least = kNever;
+  for (int k = 0; k < kTrials && (k == 0 || least < kHopeless * best); ++k)
+    least = std::min(least, seconds_of(call));
   return least;
+}
+
+/// The width of cells that is fastest, relative to the list radius; 0 if none can be used.
+double best_width(const Scene& scene, double radius, SimdGrid::Cells cells) {
+  const double most_cells = kMostCells * static_cast<double>(scene.positions.size());
+  NeighborList list;
+  double best = kNever, best_so_far = 0;
+  for (const double width : kWidths) {
+    if (cells == SimdGrid::Cells::dense && cells_in(scene, width * radius) > most_cells) continue;
+    SimdGrid grid(radius, width * radius, cells);
+    try {
+      const double least =
+          least_seconds(best, [&] { grid.list(scene.positions, scene.box, scene.exclusions, list); });
+      if (least >= best) continue;
+      best = least;
+      best_so_far = width;
+    } catch (const std::invalid_argument&) {
+      continue;  // the box is too narrow for such cells
+    }
+  }
+  return best_so_far;
 }
 
 }  // namespace
@@ -59,29 +79,12 @@ void DchContender::make_lists(const Scene& scene, std::vector<NeighborList>& lis
 
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
     : name_(std::move(name)), cells_(cells), radii_(scene.list_radii) {
-  NeighborList list;
-  for (const double radius : radii_) {
-    double best = 0, least = std::numeric_limits<double>::infinity();
-    for (const double width : kWidths) {
-      const double seconds = trial(scene, radius, width * radius, cells, list);
-      if (seconds < least) {
-        best = width;
-        least = seconds;
-      }
-    }
-    widths_.push_back(best);
-  }
+  for (const double radius : radii_) widths_.push_back(best_width(scene, radius, cells));
   GridContender::reset();
 }
 
-bool GridContender::can_make(const Scene& scene, SimdGrid::Cells cells) {
-  if (!scene.radii.empty()) return false;
-  NeighborList list;
-  return std::all_of(scene.list_radii.begin(), scene.list_radii.end(), [&](double radius) {
-    return std::any_of(std::begin(kWidths), std::end(kWidths), [&](double width) {
-      return trial(scene, radius, width * radius, cells, list) < std::numeric_limits<double>::infinity();
-    });
-  });
+bool GridContender::fits() const {
+  return !widths_.empty() && std::find(widths_.begin(), widths_.end(), 0) == widths_.end();
 }
 
 void GridContender::make_lists(const Scene& scene, std::vector<NeighborList>& lists) {
@@ -101,6 +104,21 @@ std::size_t GridContender::memory_bytes() const {
   return bytes;
 }
 
+SizeGridContender::SizeGridContender(const Scene& scene) {
+  NeighborList list;
+  double best = kNever;
+  std::size_t layers = 0;
+  for (const double ratio : kLevelRatios)
+    for (const double width : kWidths) {
+      auto grid = std::make_unique<SizeGrid>(scene.radii, scene.skin, scene.box, ratio, width);
+      if (width == kWidths[0] && std::exchange(layers, grid->layers()) == grid->layers()) break;  // as before
+      const double least = least_seconds(best, [&] { grid->list(scene.positions, scene.box, list); });
+      if (least >= best) continue;
+      best = least;
+      grid_ = std::move(grid);
+    }
+}
+
 std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor) {
   std::vector<std::unique_ptr<Contender>> all;
   if (DchContender::can_make(scene)) {
@@ -112,10 +130,12 @@ std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Exec
     if (executor)
       add("dch, " + std::to_string(executor->threads()) + " threads", MaintenancePolicy::automatic, executor);
   }
+  if (SizeGridContender::can_make(scene)) all.push_back(std::make_unique<SizeGridContender>(scene));
   for (const auto& [name, cells] :
-       {std::pair("dense grid", SimdGrid::Cells::dense), std::pair("hash grid", SimdGrid::Cells::hash)})
-    if (GridContender::can_make(scene, cells))
-      all.push_back(std::make_unique<GridContender>(name, scene, cells));
+       {std::pair("dense grid", SimdGrid::Cells::dense), std::pair("hash grid", SimdGrid::Cells::hash)}) {
+    auto grid = std::make_unique<GridContender>(name, scene, cells);
+    if (grid->fits()) all.push_back(std::move(grid));
+  }
   return all;
 }
 

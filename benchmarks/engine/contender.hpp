@@ -13,6 +13,7 @@
 
 #include "scene.hpp"
 #include "simd_grid.hpp"
+#include "size_grid.hpp"
 
 namespace dch::bench {
 
@@ -56,8 +57,8 @@ class GridContender : public Contender {
  public:
   /// Takes the widths of cells that are fastest on the scene's present positions.
   GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells);
-  /// Whether cells that fit can be held in memory, and the box is wide enough.
-  static bool can_make(const Scene& scene, SimdGrid::Cells cells);
+  /// Whether there are cells for each list that can be held in memory and are not too wide for the box.
+  bool fits() const;
 
   std::string name() const override { return name_; }
   void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override;
@@ -70,6 +71,24 @@ class GridContender : public Contender {
   std::vector<double> widths_;  ///< by list, relative to its radius
   std::vector<SimdGrid> grids_;
   std::vector<double> radii_;
+};
+
+/// Grids for several sizes of particles with radii, built anew each time.
+class SizeGridContender : public Contender {
+ public:
+  /// Takes the sizes in one grid and the widths of cells that are fastest on the scene's present positions.
+  explicit SizeGridContender(const Scene& scene);
+  static bool can_make(const Scene& scene) { return !scene.radii.empty(); }
+
+  std::string name() const override { return "grids by size"; }
+  void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override {
+    grid_->list(scene.positions, scene.box, lists.front());
+  }
+  void reset() override {}
+  std::size_t memory_bytes() const override { return grid_->memory_bytes(); }
+
+ private:
+  std::unique_ptr<SizeGrid> grid_;
 };
 
 /// All that can make the lists of the scene: hierarchies first, then grids.

@@ -67,7 +67,8 @@ std::unique_ptr<RandomScene> make_droplet(double scale, double gas_atoms);
 std::unique_ptr<RandomScene> make_power_law_clusters(double scale);
 /// Few large spheres among many small ones; the volume fractions are the same whatever the ratio of sizes.
 std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio);
-/// Spheres whose number falls as the cube of their radius from the smallest to `ratio` times as large.
+/// Spheres whose number density falls as the fourth power of the radius, from the smallest to `ratio` times
+/// as large.
 std::unique_ptr<RandomScene> make_continuous_sizes(double scale, double ratio);
 
 /// Names of all scenes, in the order of the table.
