@@ -167,9 +167,11 @@ void SizeGrid::rows_of_block(const Layer& layer, Run block, std::int32_t before,
   const std::int32_t rows = block.end - block.begin;
   const auto first = static_cast<std::size_t>(block.begin);
   BlockPoints points{};
-  shorten(layer.x.data() + first, layer.shift, kBlock, points.x);
-  shorten(layer.y.data() + first, layer.shift, kBlock, points.y);
-  shorten(layer.z.data() + first, layer.shift, kBlock, points.z);
+  // The first candidates are the block's own points.
+  const detail::Candidates own = around_.at(before);
+  std::copy_n(own.x, rows, points.x);
+  std::copy_n(own.y, rows, points.y);
+  std::copy_n(own.z, rows, points.z);
   std::int16_t reach[kBlock] = {};
   for (std::int32_t row = 0; row < rows; ++row) {
     const std::int32_t i = layer.word[first + static_cast<std::size_t>(row)] & (kMostParticles - 1);

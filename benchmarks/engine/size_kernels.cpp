@@ -18,19 +18,25 @@ namespace dch::bench {
 using detail::kBlock;
 using detail::kChunk;
 
+// Both go on to the end of a group of kGroup, which spares loops for what is left.
+constexpr std::int32_t kGroup = 16;
+
 DCH_FOR_WIDE_VECTORS
 void shorten(const std::uint32_t* from, int shift, std::int32_t count, std::int16_t* to) {
-  for (std::int32_t k = 0; k < count; ++k)
-    to[k] = static_cast<std::int16_t>(static_cast<std::uint16_t>(from[k] >> shift));
+  for (std::int32_t begin = 0; begin < count; begin += kGroup)
+    for (std::int32_t k = begin; k < begin + kGroup; ++k)
+      to[k] = static_cast<std::int16_t>(static_cast<std::uint16_t>(from[k] >> shift));
 }
 
 DCH_FOR_WIDE_VECTORS
 void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::int32_t* numbers,
             std::int16_t* radii) {
-  for (std::int32_t k = 0; k < count; ++k) {
-    numbers[k] = words[k] & (kMostParticles - 1);
-    radii[k] = static_cast<std::int16_t>(static_cast<float>(words[k] >> kNumberBits) * per_code + 0.5f);
-  }
+  for (std::int32_t begin = 0; begin < count; begin += kGroup)
+    for (std::int32_t k = begin; k < begin + kGroup; ++k) {
+      numbers[k] = words[k] & (kMostParticles - 1);
+      radii[k] = static_cast<std::int16_t>(
+          static_cast<std::int32_t>(static_cast<float>(words[k] >> kNumberBits) * per_code + 0.5f));
+    }
 }
 
 namespace {

@@ -13,10 +13,12 @@ inline constexpr int kNumberBits = 20;
 inline constexpr std::int32_t kMostParticles = 1 << kNumberBits;
 inline constexpr int kLargestCode = (1 << (31 - kNumberBits)) - 1;
 
-/// Candidates with coordinates from 32-bit ones of which the box is a whole period: (x >> shift) modulo 2^16.
+/// Coordinates of candidates from 32-bit ones of which the box is a whole period: (x >> shift) modulo 2^16.
+/// Reads and overwrites up to kChunk / 2 entries beyond.
 void shorten(const std::uint32_t* from, int shift, std::int32_t count, std::int16_t* to);
 
-/// Takes words apart: numbers, and radii in units, rounded; a code counts `per_code` units.
+/// Takes words apart: numbers, and radii in units, rounded; a code counts `per_code` units. Reads and
+/// overwrites as above.
 void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::int32_t* numbers,
             std::int16_t* radii);
 

@@ -82,30 +82,34 @@ class SizeLayer {
 template <class Visit>
 void SizeLayer::near_box(Vec3 low, Vec3 high, double distance, const Visit& visit) const {
   struct Range {
-    std::int32_t first, count;
+    std::int32_t first, count;  ///< first is not wrapped; all cells of the box from 0 if they are that many
   };
+  const double per_width = 1 / width;
+  distance += 1e-9 * side_;  // so that rounding leaves out no cell
   const auto range = [&](double from, double to) {
-    const auto first = static_cast<std::int32_t>(std::floor(from / width));
-    const auto count = static_cast<std::int32_t>(std::floor(to / width)) - first + 1;
-    return count >= cells_ ? Range{0, cells_} : Range{(first % cells_ + cells_) % cells_, count};
+    if (to - from >= side_) return Range{0, cells_};
+    // Adding a period makes the numbers positive, where to cut off is to round down.
+    const std::int32_t first = static_cast<std::int32_t>((from + side_) * per_width) - cells_;
+    const std::int32_t last = static_cast<std::int32_t>((to + side_) * per_width) - cells_;
+    return last - first + 1 >= cells_ ? Range{0, cells_} : Range{first, last - first + 1};
   };
-  const auto gap = [&](const Range& whole, double from, double first_of_all, double to, std::int32_t k) {
-    if (whole.count == cells_) return 0.0;
-    const double begin = (std::floor(first_of_all / width) + k) * width;
-    return std::max({0.0, from - begin - width, begin - to});
+  const auto gap2 = [&](const Range& whole, double from, double to, std::int32_t k) {
+    const double begin = (whole.first + k) * width;
+    const double gap = whole.count == cells_ ? 0 : std::max({0.0, from - begin - width, begin - to});
+    return gap * gap;
   };
   const Range ys = range(low.y - distance, high.y + distance),
               zs = range(low.z - distance, high.z + distance);
-  for (std::int32_t kz = 0; kz < zs.count; ++kz)
+  for (std::int32_t kz = 0; kz < zs.count; ++kz) {
+    const double left2_z = distance * distance - gap2(zs, low.z, high.z, kz);
     for (std::int32_t ky = 0; ky < ys.count; ++ky) {
-      const double dy = gap(ys, low.y, low.y - distance, high.y, ky),
-                   dz = gap(zs, low.z, low.z - distance, high.z, kz);
-      const double left2 = distance * distance - dy * dy - dz * dz;
+      const double left2 = left2_z - gap2(ys, low.y, high.y, ky);
       if (left2 < 0) continue;
       const double dx = std::sqrt(left2);
       const Range xs = range(low.x - dx, high.x + dx);
       along_x(wrapped(ys.first + ky), wrapped(zs.first + kz), xs.first, xs.count, visit);
     }
+  }
 }
 
 }  // namespace dch::bench
