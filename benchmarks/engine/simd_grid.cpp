@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "block_span.hpp"
+#include "grid_kernels.hpp"
 
 namespace dch::bench {
 
@@ -24,10 +25,6 @@ std::int16_t rounded(double v) {
   std::int64_t bits;
   std::memcpy(&bits, &shifted, sizeof bits);
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
-}
-
-std::int16_t sum(std::int16_t a, std::int16_t b) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a) + static_cast<std::uint16_t>(b));
 }
 
 /// Drops partners from a row. Returns how many are left.
@@ -199,13 +196,8 @@ std::size_t SimdGrid::memory_bytes() const {
 void SimdGrid::append(Run run, const std::array<std::int16_t, 3>& shift) {
   const std::int32_t length = run.end - run.begin;
   around_.make_room(static_cast<std::size_t>(count_ + length + kChunk));
-  std::int16_t *x = around_.x.data() + count_, *y = around_.y.data() + count_, *z = around_.z.data() + count_;
-  const std::int16_t *fx = sorted_.x.data() + run.begin, *fy = sorted_.y.data() + run.begin,
-                     *fz = sorted_.z.data() + run.begin;
-  for (std::int32_t k = 0; k < length; ++k) x[k] = sum(fx[k], shift[0]);
-  for (std::int32_t k = 0; k < length; ++k) y[k] = sum(fy[k], shift[1]);
-  for (std::int32_t k = 0; k < length; ++k) z[k] = sum(fz[k], shift[2]);
-  std::copy_n(sorted_.id.data() + run.begin, length, around_.id.data() + count_);
+  copy_shifted(sorted_.at(static_cast<std::size_t>(run.begin)), shift, length,
+               around_.at(static_cast<std::size_t>(count_)));
   count_ += length;
 }
 

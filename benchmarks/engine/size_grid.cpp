@@ -106,10 +106,10 @@ void SizeGrid::append(const Layer& layer, const SizeLayer& from, Run run) {
   const std::int32_t length = run.end - run.begin;
   if (length <= 0) return;
   around_.make_room(static_cast<std::size_t>(count_ + length + kChunk));
-  shorten(from.x.data() + run.begin, layer.shift, length, around_.x.data() + count_);
-  shorten(from.y.data() + run.begin, layer.shift, length, around_.y.data() + count_);
-  shorten(from.z.data() + run.begin, layer.shift, length, around_.z.data() + count_);
-  std::copy_n(from.word.data() + run.begin, length, around_.word.data() + count_);
+  const auto begin = static_cast<std::size_t>(run.begin);
+  copy_shortened(
+      {from.x.data() + begin, from.y.data() + begin, from.z.data() + begin, from.word.data() + begin},
+      layer.shift, length, around_.at(count_));
   count_ += length;
 }
 

@@ -8,7 +8,7 @@
 #include <dch/neighbor_list.hpp>
 #include <dch/span.hpp>
 
-#include "size_kernels.hpp"
+#include "grid_kernels.hpp"
 #include "size_layer.hpp"
 
 namespace dch::bench {

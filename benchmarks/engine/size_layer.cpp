@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "size_layer.hpp"
 
-#include "size_kernels.hpp"
+#include "grid_kernels.hpp"
 
 namespace dch::bench {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "size_kernels.hpp"
+#include "grid_kernels.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -18,25 +19,68 @@ namespace dch::bench {
 using detail::kBlock;
 using detail::kChunk;
 
-// Both go on to the end of a group of kGroup, which spares loops for what is left.
-constexpr std::int32_t kGroup = 16;
+namespace {
+
+constexpr std::int32_t kGroup = kChunk / 2;
+// Vectors of the compiler, since it cannot know that what is read and what is written do not overlap.
+using Shorts [[gnu::vector_size(2 * kGroup)]] = std::uint16_t;
+using Words [[gnu::vector_size(4 * kGroup)]] = std::uint32_t;
+using Numbers [[gnu::vector_size(4 * kGroup)]] = std::int32_t;
+using Floats [[gnu::vector_size(4 * kGroup)]] = float;
+
+template <class Vector, class T>
+[[gnu::always_inline]] inline void load(const T* from, Vector& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+template <class Vector, class T>
+[[gnu::always_inline]] inline void store(const Vector& from, T* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+}  // namespace
 
 DCH_FOR_WIDE_VECTORS
-void shorten(const std::uint32_t* from, int shift, std::int32_t count, std::int16_t* to) {
-  for (std::int32_t begin = 0; begin < count; begin += kGroup)
-    for (std::int32_t k = begin; k < begin + kGroup; ++k)
-      to[k] = static_cast<std::int16_t>(static_cast<std::uint16_t>(from[k] >> shift));
+void copy_shifted(const detail::Candidates& from, const std::array<std::int16_t, 3>& shift,
+                  std::int32_t count, const detail::Candidates& to) {
+  const std::int16_t* const sources[3] = {from.x, from.y, from.z};
+  std::int16_t* const targets[3] = {to.x, to.y, to.z};
+  for (std::int32_t k = 0; k < count; k += kGroup) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Shorts v;
+      load(sources[axis] + k, v);
+      store(v + static_cast<std::uint16_t>(shift[axis]), targets[axis] + k);
+    }
+    Words ids;
+    load(from.id + k, ids);
+    store(ids, to.id + k);
+  }
+}
+
+DCH_FOR_WIDE_VECTORS
+void copy_shortened(const FinePoints& from, int shift, std::int32_t count, const detail::Candidates& to) {
+  const std::uint32_t* const sources[3] = {from.x, from.y, from.z};
+  std::int16_t* const targets[3] = {to.x, to.y, to.z};
+  for (std::int32_t k = 0; k < count; k += kGroup) {
+    Words v;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      load(sources[axis] + k, v);
+      store(__builtin_convertvector(v >> shift, Shorts), targets[axis] + k);
+    }
+    load(from.word + k, v);
+    store(v, to.id + k);
+  }
 }
 
 DCH_FOR_WIDE_VECTORS
 void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::int32_t* numbers,
             std::int16_t* radii) {
-  for (std::int32_t begin = 0; begin < count; begin += kGroup)
-    for (std::int32_t k = begin; k < begin + kGroup; ++k) {
-      numbers[k] = words[k] & (kMostParticles - 1);
-      radii[k] = static_cast<std::int16_t>(
-          static_cast<std::int32_t>(static_cast<float>(words[k] >> kNumberBits) * per_code + 0.5f));
-    }
+  for (std::int32_t k = 0; k < count; k += kGroup) {
+    Numbers v;
+    load(words + k, v);
+    store(v & (kMostParticles - 1), numbers + k);
+    const Floats units = __builtin_convertvector(v >> kNumberBits, Floats) * per_code + 0.5f;
+    store(__builtin_convertvector(__builtin_convertvector(units, Numbers), Shorts), radii + k);
+  }
 }
 
 namespace {

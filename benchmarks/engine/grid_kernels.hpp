@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "simd/list_kernels.hpp"
@@ -13,12 +14,23 @@ inline constexpr int kNumberBits = 20;
 inline constexpr std::int32_t kMostParticles = 1 << kNumberBits;
 inline constexpr int kLargestCode = (1 << (31 - kNumberBits)) - 1;
 
-/// Coordinates of candidates from 32-bit ones of which the box is a whole period: (x >> shift) modulo 2^16.
-/// Reads and overwrites up to kChunk / 2 entries beyond.
-void shorten(const std::uint32_t* from, int shift, std::int32_t count, std::int16_t* to);
+// The next three read and overwrite up to kChunk / 2 entries beyond `count`, which spares loops for what is
+// left.
 
-/// Takes words apart: numbers, and radii in units, rounded; a code counts `per_code` units. Reads and
-/// overwrites as above.
+/// Copies candidates, shifted.
+void copy_shifted(const detail::Candidates& from, const std::array<std::int16_t, 3>& shift,
+                  std::int32_t count, const detail::Candidates& to);
+
+/// Points with coordinates in 32 bits, of which the box is a whole period.
+struct FinePoints {
+  const std::uint32_t *x, *y, *z;
+  const std::int32_t* word;
+};
+
+/// Candidates with the coordinates (x >> shift) modulo 2^16.
+void copy_shortened(const FinePoints& from, int shift, std::int32_t count, const detail::Candidates& to);
+
+/// Takes words apart: numbers, and radii in units, rounded; a code counts `per_code` units.
 void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::int32_t* numbers,
             std::int16_t* radii);
 
