@@ -121,27 +121,14 @@ void SimdGrid::sort_points(Span<const Vec3> positions) {
 
 /// Cell of each point, and where the points of each cell begin.
 void SimdGrid::number_cells() {
-  const std::size_t n = key_.size();
-  cell_of_.resize(n);
+  cell_of_.resize(key_.size());
   std::size_t cells;
   if (kind_ == Cells::dense) {
     cells = static_cast<std::size_t>(counts_[0]) * static_cast<std::size_t>(counts_[1]) *
             static_cast<std::size_t>(counts_[2]);
-    for (std::size_t i = 0; i < n; ++i) cell_of_[i] = static_cast<std::int32_t>(key_[i]);
+    for (std::size_t i = 0; i < key_.size(); ++i) cell_of_[i] = static_cast<std::int32_t>(key_[i]);
   } else {
-    std::size_t size = 64;
-    while (size < 2 * n) size *= 2;
-    table_.assign(size, {-1, 0});
-    occupied_.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      std::size_t slot = (static_cast<std::uint64_t>(key_[i]) * 0x9E3779B97F4A7C15u >> 20) & (size - 1);
-      while (table_[slot].key != key_[i] && table_[slot].key >= 0) slot = (slot + 1) & (size - 1);
-      if (table_[slot].key < 0) {
-        table_[slot] = {key_[i], static_cast<std::int32_t>(occupied_.size())};
-        occupied_.push_back(key_[i]);
-      }
-      cell_of_[i] = table_[slot].cell;
-    }
+    find_occupied();
     cells = occupied_.size();
   }
   first_.assign(cells + 1, 0);
@@ -149,15 +136,46 @@ void SimdGrid::number_cells() {
   for (std::size_t cell = 0; cell < cells; ++cell) first_[cell + 1] += first_[cell];
 }
 
-SimdGrid::Run SimdGrid::points_of(std::int64_t key) const {
-  auto cell = static_cast<std::size_t>(key);
-  if (kind_ == Cells::hash) {
-    std::size_t slot = (static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
-    while (table_[slot].key != key && table_[slot].key >= 0) slot = (slot + 1) & (table_.size() - 1);
-    if (table_[slot].key < 0) return {};
-    cell = static_cast<std::size_t>(table_[slot].cell);
+/// Slot of a key in the table, or the free one where it belongs.
+std::size_t SimdGrid::slot_of(std::int64_t key) const {
+  std::size_t slot = (static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
+  while (table_[slot].key != key && table_[slot].key >= 0) slot = (slot + 1) & (table_.size() - 1);
+  return slot;
+}
+
+/// Numbers the occupied cells by their keys, so that the points of neighbors along x lie side by side.
+void SimdGrid::find_occupied() {
+  std::size_t size = 64;
+  while (size < 2 * key_.size()) size *= 2;
+  table_.assign(size, {-1, 0});
+  occupied_.clear();
+  for (std::size_t i = 0; i < key_.size(); ++i) {
+    const std::size_t slot = slot_of(key_[i]);
+    if (table_[slot].key < 0) {
+      table_[slot] = {key_[i], 0};
+      occupied_.push_back(key_[i]);
+    }
+    cell_of_[i] = static_cast<std::int32_t>(slot);
   }
-  return {first_[cell], first_[cell + 1]};
+  std::sort(occupied_.begin(), occupied_.end());
+  for (std::size_t cell = 0; cell < occupied_.size(); ++cell)
+    table_[slot_of(occupied_[cell])].cell = static_cast<std::int32_t>(cell);
+  for (std::int32_t& cell : cell_of_) cell = table_[static_cast<std::size_t>(cell)].cell;
+}
+
+/// The points of the cells with keys first .. last, which lie in one row.
+SimdGrid::Run SimdGrid::points_of(std::int64_t first, std::int64_t last) const {
+  if (kind_ == Cells::dense)
+    return {first_[static_cast<std::size_t>(first)], first_[static_cast<std::size_t>(last) + 1]};
+  for (std::int64_t key = first; key <= last; ++key) {
+    const Slot& slot = table_[slot_of(key)];
+    if (slot.key < 0) continue;
+    const auto begin = static_cast<std::size_t>(slot.cell);
+    std::size_t end = begin + 1;
+    while (end < occupied_.size() && occupied_[end] <= last) ++end;
+    return {first_[begin], first_[end]};
+  }
+  return {};
 }
 
 void SimdGrid::list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions,
@@ -195,6 +213,7 @@ std::size_t SimdGrid::memory_bytes() const {
 
 void SimdGrid::append(Run run, const std::array<std::int16_t, 3>& shift) {
   const std::int32_t length = run.end - run.begin;
+  if (length == 0) return;
   around_.make_room(static_cast<std::size_t>(count_ + length + kChunk));
   copy_shifted(sorted_.at(static_cast<std::size_t>(run.begin)), shift, length,
                around_.at(static_cast<std::size_t>(count_)));
@@ -221,12 +240,8 @@ void SimdGrid::append_row(const Cell& at, std::int32_t dy, std::int32_t dz, std:
     if (period == 0 || periodic_[0]) {
       shift[0] = rounded(period * length_.x / unit_);
       row[0] = x - period * counts_[0];
-      if (kind_ == Cells::dense) {  // neighbors along x lie side by side
-        const auto cell = static_cast<std::size_t>(key_of(row));
-        append({first_[cell], first_[cell + static_cast<std::size_t>(stop - x)]}, shift);
-      } else {
-        for (std::int32_t k = x; k < stop; ++k, ++row[0]) append(points_of(key_of(row)), shift);
-      }
+      const std::int64_t key = key_of(row);
+      append(points_of(key, key + stop - x - 1), shift);
     }
     x = stop;
   }

@@ -52,7 +52,9 @@ class SimdGrid {
   void make_stencil();
   void sort_points(Span<const Vec3> positions);
   void number_cells();
-  Run points_of(std::int64_t key) const;
+  void find_occupied();
+  std::size_t slot_of(std::int64_t key) const;
+  Run points_of(std::int64_t first, std::int64_t last) const;
   void rows_of_cell(Run own, const Cell& at, Span<const Vec3> positions, const Box& box, NeighborList& out);
   void append_row(const Cell& at, std::int32_t dy, std::int32_t dz, std::int32_t first, std::int32_t last);
   void append(Run run, const std::array<std::int16_t, 3>& shift);
