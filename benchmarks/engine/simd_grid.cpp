@@ -27,16 +27,6 @@ std::int16_t rounded(double v) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
 }
 
-/// Drops partners from a row. Returns how many are left.
-std::int32_t without(Span<const std::int32_t> partners, std::int32_t* row, std::int32_t count) {
-  for (const std::int32_t partner : partners) {
-    std::int32_t found = 0;  // how often; the loop is written so that compilers make vectors of it
-    for (std::int32_t k = 0; k < count; ++k) found += row[k] == partner;
-    if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, partner) - row);
-  }
-  return count;
-}
-
 }  // namespace
 
 void SimdGrid::Candidates::make_room(std::size_t count) {

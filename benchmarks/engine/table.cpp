@@ -39,8 +39,9 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 /// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
 int configurations(const Scene& scene, const Options& options) {
   constexpr double kParticles = 32000;
+  constexpr int kFewest = 20;  // so that there are repairs among them
   const double fitting = options.lists * kParticles / static_cast<double>(scene.positions.size());
-  return std::clamp(static_cast<int>(fitting), std::min(options.lists, 5), options.lists);
+  return std::clamp(static_cast<int>(fitting), std::min(options.lists, kFewest), options.lists);
 }
 
 /// Every contender's lists at every configuration: equal to each other, at the first and the last to what is

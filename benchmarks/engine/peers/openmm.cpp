@@ -2,6 +2,7 @@
 //
 // OpenMM's CpuNeighborList, one thread, and the hierarchy on the same configurations, taking turns.
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <fmt/format.h>
 
 #include "affinity.hpp"
@@ -24,6 +25,11 @@ void check(const Scene& scene, OpenMmLists& lists) {
   lists.take(scene);
   lists.make();
   const PairSum expected = expected_pairs(scene, 0), found = lists.pairs_within(scene);
+  const std::int64_t differing = std::abs(expected.pairs - found.pairs);
+  constexpr double kAtTheRadius = 1e-5;  // of all pairs
+  if (static_cast<double>(differing) > kAtTheRadius * static_cast<double>(expected.pairs))
+    throw Error(fmt::format("{}: OpenMM's list has {} pairs within the radius, expected {}", scene.name,
+                            found.pairs, expected.pairs));
   const double per_particle = 1 / static_cast<double>(scene.positions.size());
   fmt::print(
       "{}: {} pairs within the radius, {} of them in OpenMM's list, which holds {:.1f} pairs for each of {} "

@@ -33,8 +33,8 @@ def need_file(path, trajectory):
 
 def run(command, folder, processor):
     """Output of a program that stays on one processor."""
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                       OMPI_MCA_hwloc_base_binding_policy="none")
+    environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_hwloc_base_binding_policy="none")
     done = subprocess.run(["taskset", "-c", str(processor), *command], cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
@@ -55,12 +55,16 @@ def add_arguments(parser):
 def our_time(arguments, scene, folder):
     """ns for one particle and list of the hierarchy, one repetition of the table."""
     report = os.path.join(folder, "table.json")
-    run([os.path.abspath(arguments.beside), "--scenes", scene, "--trajectories", os.path.abspath(arguments.trajectories),
-         "--repetitions", "1", "--only", "dch", "--processor", str(arguments.processor), "--json", report],
-        folder, arguments.processor)
+    run([os.path.abspath(arguments.beside), "--scenes", scene, "--only", "dch", "--repetitions", "1",
+         "--trajectories", os.path.abspath(arguments.trajectories), "--processor", str(arguments.processor),
+         "--json", report], folder, arguments.processor)
     with open(report, encoding="utf-8") as file:
         measurements = json.load(file)["scenes"][0]["measurements"]
     return next(m["median"] for m in measurements if m["contender"] == "dch")
+
+
+def middle_and_least(times):
+    return f"median {statistics.median(times):.1f}, least {min(times):.1f}"
 
 
 def compare(arguments, scene, title, peer_time):
@@ -71,7 +75,7 @@ def compare(arguments, scene, title, peer_time):
             theirs.append(peer_time(folder))
             if arguments.beside:
                 ours.append(our_time(arguments, scene, folder))
-    print(f"{scene}: {title}: median {statistics.median(theirs):.1f}, least {min(theirs):.1f} ns for one particle and list")
+    print(f"{scene}: {title}: {middle_and_least(theirs)} ns for one particle and list")
     if ours:
         ratio = statistics.median(a / b for a, b in zip(ours, theirs))
-        print(f"{scene}: dch: median {statistics.median(ours):.1f}, least {min(ours):.1f}; time of dch over theirs {ratio:.3f}")
+        print(f"{scene}: dch: {middle_and_least(ours)}; time of dch over theirs {ratio:.3f}")
