@@ -58,23 +58,31 @@ double best_width(const Scene& scene, double radius, SimdGrid::Cells cells) {
 
 }  // namespace
 
-DchContender::DchContender(std::string name, const Scene& scene, MaintenancePolicy policy, Executor* executor)
-    : name_(std::move(name)) {
-  params_.radius = scene.list_radii.back();
-  params_.policy = policy;
-  params_.executor = executor;
+DchContender::DchContender(std::string name, const Scene& scene, const Mode& mode)
+    : name_(std::move(name)), superset_(mode.superset) {
+  ListParams request;
+  request.order = RowOrder::by_structure;
+  request.superset = mode.superset;
+  request.exclusions = scene.exclusions.empty() ? nullptr : &scene.exclusions;
+  for (const double radius : scene.list_radii) {
+    request.cutoffs = TypeCutoffs(radius);
+    requests_.push_back(request);
+  }
+  if (!scene.radii.empty()) {
+    request.radii = scene.radii;
+    request.skin = scene.skin;
+    requests_.push_back(request);
+  }
+  params_.radius = requests_.back().list_radius();
+  params_.size_classes = !scene.radii.empty();
+  params_.policy = mode.policy;
+  params_.executor = mode.executor;
   search_ = make_dch_search(params_);
 }
 
 void DchContender::make_lists(const Scene& scene, std::vector<NeighborList>& lists) {
   search_->update(scene.positions, scene.box);
-  ListParams params;
-  params.order = RowOrder::by_structure;
-  params.exclusions = scene.exclusions.empty() ? nullptr : &scene.exclusions;
-  for (std::size_t k = 0; k < scene.list_radii.size(); ++k) {
-    params.cutoffs = TypeCutoffs(scene.list_radii[k]);
-    search_->list(params, lists[k]);
-  }
+  search_->lists(requests_, lists);
 }
 
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
@@ -121,15 +129,13 @@ SizeGridContender::SizeGridContender(const Scene& scene) {
 
 std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor) {
   std::vector<std::unique_ptr<Contender>> all;
-  if (DchContender::can_make(scene)) {
-    const auto add = [&](std::string name, MaintenancePolicy policy, Executor* threads) {
-      all.push_back(std::make_unique<DchContender>(std::move(name), scene, policy, threads));
-    };
-    add("dch", MaintenancePolicy::automatic, nullptr);
-    add("dch, built anew", MaintenancePolicy::always_rebuild, nullptr);
-    if (executor)
-      add("dch, " + std::to_string(executor->threads()) + " threads", MaintenancePolicy::automatic, executor);
-  }
+  const auto add = [&](std::string name, const DchContender::Mode& mode) {
+    all.push_back(std::make_unique<DchContender>(std::move(name), scene, mode));
+  };
+  add("dch", {});
+  add("dch, superset", {.superset = true});
+  add("dch, built anew", {.policy = MaintenancePolicy::always_rebuild});
+  if (executor) add("dch, " + std::to_string(executor->threads()) + " threads", {.executor = executor});
   if (SizeGridContender::can_make(scene)) all.push_back(std::make_unique<SizeGridContender>(scene));
   for (const auto& [name, cells] :
        {std::pair("dense grid", SimdGrid::Cells::dense), std::pair("hash grid", SimdGrid::Cells::hash)}) {

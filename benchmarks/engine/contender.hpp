@@ -29,6 +29,8 @@ class Contender {
   virtual void reset() = 0;
   /// Held now, lists left out.
   virtual std::size_t memory_bytes() const = 0;
+  /// Whether its lists may hold pairs a little beyond the list radius; none within may be missing.
+  virtual bool makes_supersets() const { return false; }
   /// Updates so far by what they took; null for one that keeps nothing.
   virtual const SearchStats* stats() const { return nullptr; }
 };
@@ -36,19 +38,25 @@ class Contender {
 /// Lists by structure from a hierarchy that is kept up.
 class DchContender : public Contender {
  public:
-  DchContender(std::string name, const Scene& scene, MaintenancePolicy policy, Executor* executor);
-  /// Whether the library makes the lists of this scene.
-  static bool can_make(const Scene& scene) { return scene.radii.empty(); }
+  struct Mode {
+    MaintenancePolicy policy = MaintenancePolicy::automatic;
+    bool superset = false;
+    Executor* executor = nullptr;
+  };
+  DchContender(std::string name, const Scene& scene, const Mode& mode);
 
   std::string name() const override { return name_; }
   void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override;
   void reset() override { search_ = make_dch_search(params_); }
   std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
+  bool makes_supersets() const override { return superset_; }
   const SearchStats* stats() const override { return &search_->stats(); }
 
  private:
   std::string name_;
+  bool superset_;
   HierarchyParams params_;
+  std::vector<ListParams> requests_;
   std::unique_ptr<PairSearch> search_;
 };
 

@@ -18,17 +18,35 @@ std::uint64_t mixed(std::uint64_t v) {
   return v ^ (v >> 31);
 }
 
+/// Largest distance at which the scene lists a pair.
+double reach_of(const Scene& scene, std::size_t which, std::int32_t i, std::int32_t j) {
+  if (scene.radii.empty()) return scene.list_radii[which];
+  const auto a = static_cast<std::size_t>(std::min(i, j)), b = static_cast<std::size_t>(std::max(i, j));
+  return scene.radii[a] + scene.radii[b] + scene.skin;
+}
+
+bool is_within(const Scene& scene, std::size_t which, std::int32_t i, std::int32_t j) {
+  const auto a = static_cast<std::size_t>(std::min(i, j)), b = static_cast<std::size_t>(std::max(i, j));
+  const double reach = reach_of(scene, which, i, j);
+  return scene.box.distance2(scene.positions[a], scene.positions[b]) <= reach * reach;
+}
+
+/// Calls visit(i, j) for all pairs of a list.
+template <class Visit>
+void for_pairs(const NeighborList& list, const Visit& visit) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::int32_t i = list.particle.empty() ? static_cast<std::int32_t>(k) : list.particle[k];
+    for (const std::int32_t j : list.row(k)) visit(i, j);
+  }
+}
+
 /// Each particle with all smaller or equal ones: larger ones against all others, one by one, and those up to
 /// twice the smallest radius by cells.
 PairSum pairs_by_radii(const Scene& scene) {
   const std::vector<double>& radii = scene.radii;
   const double limit = 2 * *std::min_element(radii.begin(), radii.end());
   const auto count = static_cast<std::int32_t>(radii.size());
-  const auto in_contact = [&](std::int32_t i, std::int32_t j) {
-    const auto a = static_cast<std::size_t>(std::min(i, j)), b = static_cast<std::size_t>(std::max(i, j));
-    const double contact = radii[a] + radii[b] + scene.skin;
-    return scene.box.distance2(scene.positions[a], scene.positions[b]) <= contact * contact;
-  };
+  const auto in_contact = [&](std::int32_t i, std::int32_t j) { return is_within(scene, 0, i, j); };
   PairSum sum;
   std::vector<std::int32_t> small;
   std::vector<Vec3> small_positions;
@@ -67,10 +85,15 @@ void PairSum::add(std::int32_t i, std::int32_t j) {
 
 PairSum sum_of(const NeighborList& list) {
   PairSum sum;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::int32_t i = list.particle.empty() ? static_cast<std::int32_t>(k) : list.particle[k];
-    for (const std::int32_t j : list.row(k)) sum.add(i, j);
-  }
+  for_pairs(list, [&](std::int32_t i, std::int32_t j) { sum.add(i, j); });
+  return sum;
+}
+
+PairSum sum_within(const NeighborList& list, const Scene& scene, std::size_t which) {
+  PairSum sum;
+  for_pairs(list, [&](std::int32_t i, std::int32_t j) {
+    if (is_within(scene, which, i, j)) sum.add(i, j);
+  });
   return sum;
 }
 

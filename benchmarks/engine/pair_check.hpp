@@ -22,6 +22,10 @@ struct PairSum {
 
 PairSum sum_of(const NeighborList& list);
 
+/// The same of those pairs alone that list number `which` of the scene has to hold, exclusions aside: for
+/// lists that may hold others.
+PairSum sum_within(const NeighborList& list, const Scene& scene, std::size_t which);
+
 /// What list number `which` of the scene has to hold. For one radius it is that of dch::make_cell_search(),
 /// or of dch::all_pairs() for few particles; for particles with radii it is found here, from all pairs but
 /// those of small spheres in cells of their own that are too far apart.

@@ -63,7 +63,7 @@ int run(Options options) {
   if (scene->list_radii.size() != 1)
     throw Error(options.scene + ": choose a scene with a single list radius");
   OpenMmLists theirs(*scene);
-  DchContender ours("dch", *scene, MaintenancePolicy::automatic, nullptr);
+  DchContender ours("dch", *scene, {});
   check(*scene, theirs);
   Measurement their_time, our_time;
   for (int k = 0; k < options.repetitions; ++k)
