@@ -57,6 +57,11 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
   const auto dual = dual_basis(periods, rank);
   for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) dual_[axes[k]] = dual[k];
 
+  if (box.kind() != Box::Kind::triclinic) {
+    constexpr double kClear = 0.5 * (1 - 1e-9);
+    for (int axis = 0; axis < 3; ++axis)
+      clear_half_[axis] = box.periodic(axis) ? kClear * box.vector(axis)[axis] : kMaxCoordinate * 4;
+  }
   // Two images of a particle can both be at the cutoff only if it is half a lattice vector, a shortest one.
   if (rank > 0 && 2 * std::sqrt(largest_) >= box.shortest_period() * (1 - kRounding)) {
     for (const Vec3 v : box.relevant()) {
@@ -90,6 +95,8 @@ bool PairFilter::is_wanted(std::int32_t i, std::int32_t j) const {
 bool PairFilter::is_within(std::int32_t i, std::int32_t j, double cutoff2) const {
   if (i > j) std::swap(i, j);
   const Vec3 d = positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)];
+  if (std::abs(d.x) < clear_half_.x && std::abs(d.y) < clear_half_.y && std::abs(d.z) < clear_half_.z)
+    return norm2(d) <= cutoff2;  // the nearest image, and no other one is as near
   const Vec3 shift = box_.nearest_image(d) - d;
   const Vec3 n = rounded({dot(dual_[0], shift), dot(dual_[1], shift), dot(dual_[2], shift)});
   if (image_distance2(d, n, cell_) <= cutoff2) return true;

@@ -40,6 +40,11 @@ class PairFilter {
   enum class By { one_cutoff, radii, types };
   By by() const { return by_; }
   const ListParams& params() const { return params_; }
+  /// Has the positions of a pair fetched that is to be decided soon.
+  void ask_for(std::int32_t i, std::int32_t j) const {
+    __builtin_prefetch(&positions_[static_cast<std::size_t>(i)]);
+    __builtin_prefetch(&positions_[static_cast<std::size_t>(j)]);
+  }
   bool is_ghost(std::int32_t i) const { return first_ghost_ >= 0 && i >= first_ghost_; }
   Span<const std::int32_t> excluded_with(std::int32_t i) const {
     return exclusions_ != nullptr ? exclusions_->partners(i) : Span<const std::int32_t>();
@@ -76,6 +81,7 @@ class PairFilter {
 
   std::array<Vec3, 3> cell_{};  ///< as given
   std::array<Vec3, 3> dual_{};  ///< gives the integers of a lattice vector; zero along open axes
+  Vec3 clear_half_{};           ///< displacements below these along each axis are those of the nearest image
   std::vector<Vec3>
       other_images_;  ///< integers of the lattice vectors that may lead to another image as near
 };

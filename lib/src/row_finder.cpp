@@ -216,6 +216,8 @@ void RowFinder::note_open_pairs(const Scene<Metric>& scene, const Request& reque
         pair.slot_i = points.source[block] * kBlock + row;
         pair.slot_j = source.slot_of_id[pair.j];
         __builtin_prefetch(&source.blocks->position[pair.slot_j]);
+      } else {
+        request.filter->ask_for(pair.i, pair.j);
       }
       open_.push_back(pair);
     }

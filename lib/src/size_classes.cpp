@@ -65,26 +65,38 @@ void widen_by_types(const ListParams& params, SizeClasses& classes) {
 
 }  // namespace
 
+/// Classes between powers of the ratio; those that no particle is in are left out.
+template <class Size>
+void SizeClasses::divide(const Size& size, double smallest, double largest) {
+  std::vector<double> bounds;
+  for (double bound = kRatio * smallest; bound <= largest; bound *= kRatio) bounds.push_back(bound);
+  std::vector<std::int32_t> class_of(bounds.size() + 1, -1);  // first 0 where there are particles
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const double own = size[i];
+    std::int32_t below = 0;
+    for (const double bound : bounds) below += own >= bound;
+    of[i] = below;
+    class_of[below] = 0;
+  }
+  std::int32_t classes = 0;
+  for (std::int32_t& number : class_of)
+    if (number == 0) number = classes++;
+  count = static_cast<std::size_t>(classes);
+  for (std::int32_t& number : of) number = class_of[number];
+}
+
 SizeClasses::SizeClasses(Span<const ListParams> requests, std::size_t n, double farthest) : of(n, 0) {
   const bool can_be_told_apart =
       std::all_of(requests.begin(), requests.end(),
                   [&](const ListParams& request) { return request.list_radius() < farthest; });
   if (n > 0 && can_be_told_apart) {
     const Sizes size(requests[0]);
-    double smallest = size[0];
-    for (std::size_t i = 0; i < n; ++i) smallest = std::min(smallest, size[i]);
-    std::vector<std::int32_t> rank_of;  // by power of the ratio: first which occur, then their class
-    for (std::size_t i = 0; i < n && smallest > 0; ++i) {
-      of[i] = static_cast<std::int32_t>(std::log(size[i] / smallest) / std::log(kRatio));
-      if (static_cast<std::size_t>(of[i]) >= rank_of.size())
-        rank_of.resize(static_cast<std::size_t>(of[i]) + 1, -1);
-      rank_of[of[i]] = 0;
+    double smallest = size[0], largest = size[0];
+    for (std::size_t i = 0; i < n; ++i) {
+      smallest = std::min(smallest, size[i]);
+      largest = std::max(largest, size[i]);
     }
-    std::int32_t classes = 0;
-    for (std::int32_t& rank : rank_of)
-      if (rank == 0) rank = classes++;
-    if (classes > 0) count = static_cast<std::size_t>(classes);
-    for (std::size_t i = 0; i < n && classes > 0; ++i) of[i] = rank_of[of[i]];
+    if (smallest > 0) divide(size, smallest, largest);
   }
   reach.assign(count * count, 0.0);
   for (const ListParams& request : requests) {

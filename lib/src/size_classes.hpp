@@ -22,6 +22,10 @@ struct SizeClasses {
   std::size_t count = 1;         ///< the smallest first
   std::vector<std::int32_t> of;  ///< class of each particle
   std::vector<double> reach;     ///< largest list radius of a pair, count x count [length]
+
+ private:
+  template <class Size>
+  void divide(const Size& size, double smallest, double largest);
 };
 
 }  // namespace dch::detail
