@@ -112,7 +112,7 @@ std::size_t GridContender::memory_bytes() const {
   return bytes;
 }
 
-SizeGridContender::SizeGridContender(const Scene& scene) {
+SizeGridContender::SizeGridContender(std::string name, const Scene& scene) : name_(std::move(name)) {
   NeighborList list;
   double best = kNever;
   std::size_t layers = 0;
@@ -127,18 +127,24 @@ SizeGridContender::SizeGridContender(const Scene& scene) {
     }
 }
 
-std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor) {
+std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor,
+                                                        const std::string& only) {
   std::vector<std::unique_ptr<Contender>> all;
-  const auto add = [&](std::string name, const DchContender::Mode& mode) {
-    all.push_back(std::make_unique<DchContender>(std::move(name), scene, mode));
+  const auto is_wanted = [&](const std::string& name) { return only.empty() || name == only; };
+  const auto add = [&](const std::string& name, const DchContender::Mode& mode) {
+    if (is_wanted(name)) all.push_back(std::make_unique<DchContender>(name, scene, mode));
   };
   add("dch", {});
   add("dch, superset", {.superset = true});
   add("dch, built anew", {.policy = MaintenancePolicy::always_rebuild});
   if (executor) add("dch, " + std::to_string(executor->threads()) + " threads", {.executor = executor});
-  if (SizeGridContender::can_make(scene)) all.push_back(std::make_unique<SizeGridContender>(scene));
+  // Grids are tuned when they are made, which takes a while.
+  const std::string by_size = "grids by size";
+  if (SizeGridContender::can_make(scene) && is_wanted(by_size))
+    all.push_back(std::make_unique<SizeGridContender>(by_size, scene));
   for (const auto& [name, cells] :
        {std::pair("dense grid", SimdGrid::Cells::dense), std::pair("hash grid", SimdGrid::Cells::hash)}) {
+    if (!is_wanted(name)) continue;
     auto grid = std::make_unique<GridContender>(name, scene, cells);
     if (grid->fits()) all.push_back(std::move(grid));
   }

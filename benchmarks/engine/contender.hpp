@@ -85,10 +85,10 @@ class GridContender : public Contender {
 class SizeGridContender : public Contender {
  public:
   /// Takes the sizes in one grid and the widths of cells that are fastest on the scene's present positions.
-  explicit SizeGridContender(const Scene& scene);
+  SizeGridContender(std::string name, const Scene& scene);
   static bool can_make(const Scene& scene) { return !scene.radii.empty(); }
 
-  std::string name() const override { return "grids by size"; }
+  std::string name() const override { return name_; }
   void make_lists(const Scene& scene, std::vector<NeighborList>& lists) override {
     grid_->list(scene.positions, scene.box, lists.front());
   }
@@ -96,11 +96,14 @@ class SizeGridContender : public Contender {
   std::size_t memory_bytes() const override { return grid_->memory_bytes(); }
 
  private:
+  std::string name_;
   std::unique_ptr<SizeGrid> grid_;
 };
 
 /// All that can make the lists of the scene: hierarchies first, then grids.
 /// @param executor of an additional hierarchy that uses several threads, or null
-std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor);
+/// @param only the name of the one that is wanted; empty for all
+std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Executor* executor,
+                                                        const std::string& only);
 
 }  // namespace dch::bench

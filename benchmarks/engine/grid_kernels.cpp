@@ -122,9 +122,11 @@ struct Row {
 }
 
 #if defined(__x86_64__)
-/// Squares of the differences of 32 coordinates from one.
+/// Squares of the differences of 32 coordinates from one. Half a period, -2^15, is the one difference whose
+/// square overflows, to a negative number: it is taken for one less.
 DCH_AVX512 inline __m512i squares(const std::int16_t* from, std::int16_t at) {
-  const __m512i d = _mm512_sub_epi16(_mm512_loadu_si512(from), _mm512_set1_epi16(at));
+  const __m512i d = _mm512_max_epi16(_mm512_sub_epi16(_mm512_loadu_si512(from), _mm512_set1_epi16(at)),
+                                     _mm512_set1_epi16(-32767));
   return _mm512_mulhrs_epi16(d, d);
 }
 

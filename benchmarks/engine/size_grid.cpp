@@ -18,6 +18,8 @@ namespace {
 
 /// Largest difference of coordinates in units, below 2^15.
 constexpr double kLargestUnits = 32000;
+/// The shift that makes units of side / 2^16.
+constexpr int kWholeBox = 16;
 /// Coordinates are cut off to whole units, so a difference is off by less than one along each axis.
 const double kCoordinateBlur = std::sqrt(3.0);
 
@@ -62,11 +64,15 @@ void SizeGrid::fit_units(std::size_t which) {
   Layer& layer = layers_[which];
   const double own = layer.is_coarse() ? 0 : layer.width, distance = 2 * layer.most + skin_;
   double longest = own + distance + layer.width;
-  for (std::size_t b = 0; b < which; ++b)
-    longest = std::max(longest, own + layer.most + layers_[b].most + skin_ + layers_[b].width);
+  for (std::size_t b = 0; b < which; ++b) {
+    const double reach = layer.most + layers_[b].most + skin_, cell = layers_[b].width;
+    // Where the cells around a box are all there are, candidates come from anywhere.
+    const bool everywhere = own + 2 * (reach + cell) >= side_;
+    longest = std::max(longest, everywhere ? side_ : own + reach + cell);
+  }
   layer.shift = 0;
   const auto unit = [&] { return std::ldexp(side_, layer.shift - 32); };
-  while (layer.shift < 16 && longest > kLargestUnits * unit()) ++layer.shift;
+  while (layer.shift < kWholeBox && longest > kLargestUnits * unit()) ++layer.shift;
   layer.unit = unit();
   layer.blur = kCoordinateBlur;
   if (which > 0 || layer.least < layer.most) layer.blur += 1 + per_code_ / 2 / layer.unit;
@@ -213,7 +219,8 @@ std::int32_t SizeGrid::test_block(const Layer& layer, const BlockPoints& points,
   }
   unpack(near_.word.data(), static_cast<float>(per_code_ / layer.unit), count, number_.data(),
          radius_.data());
-  const bool one_distance = layer.least == layer.most && &layer == layers_.data();
+  // The library's test must not meet a difference of half a period, which units of side / 2^16 let happen.
+  const bool one_distance = layer.least == layer.most && &layer == layers_.data() && layer.shift < kWholeBox;
   if (!one_distance)
     return test_radii(points, reach, near_.at(0), radius_.data(), count, band(layer), mask_.data(), chunks,
                       unsettled_.data());

@@ -108,9 +108,8 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
   SceneOptions scene_options = options.scene;
   scene_options.most_frames = static_cast<std::size_t>(options.lists) + 1;
   const std::unique_ptr<Scene> scene = make_scene(name, scene_options);
-  Contenders contenders = make_contenders(*scene, executor);
-  if (!options.only.empty())
-    std::erase_if(contenders, [&](const auto& contender) { return contender->name() != options.only; });
+  Contenders contenders = make_contenders(*scene, executor, options.only);
+  if (contenders.empty()) throw Error(name + ": there is no contender '" + options.only + "'");
   SceneResult result;
   result.scene = name;
   result.origin = scene->origin;

@@ -3,11 +3,13 @@
 
 import json
 import os
+import resource
 import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUTS = os.path.join(HERE, "..", "inputs")
@@ -32,15 +34,22 @@ def need_file(path, trajectory):
 
 
 def run(command, folder, processor):
-    """Output of a program that stays on one processor."""
+    """Output of a program that stays on one processor, and the share of it that the program had."""
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_hwloc_base_binding_policy="none")
+    before, start = processor_seconds(), time.monotonic()
     done = subprocess.run(["taskset", "-c", str(processor), *command], cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
         print(done.stdout[-2000:], file=sys.stderr)
         fail(f"{command[0]} ended with status {done.returncode}")
-    return done.stdout
+    return done.stdout, (processor_seconds() - before) / (time.monotonic() - start)
+
+
+def processor_seconds():
+    """Of all programs run so far."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def add_arguments(parser):
