@@ -67,6 +67,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
     placing_later = false;
     place_points(metric);
   });
+  for (detail::Level& level : levels) level.complete = level.reach;
   ++stats.builds;
   stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
   if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));

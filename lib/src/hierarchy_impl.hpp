@@ -27,6 +27,10 @@ inline constexpr double kInflate = 1 + 1e-12;
 /// is put off. More: fewer repairs, more edges for lists to dismiss.
 inline constexpr double kMotionSlack = 0.2;
 
+/// How much farther than rho_i edges of level i >= 2 reach, in units of R_i, so that they need not be enumerated
+/// anew at each repair. More: fewer enumerations, more edges.
+inline constexpr double kEdgeSlack = 0.1;
+
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 inline constexpr double kMinRadius = 1e-100;
 
@@ -75,6 +79,7 @@ struct Hierarchy::Impl {
   double threshold_of_level(int i) const;
   void set_base_radius(Span<const Vec3> positions);
   void set_wrap_slack();
+  void set_lengths(int level);
 
   // The nodes of all levels alike
   std::int32_t size(int level) const { return level == 0 ? points.size() : levels[level].size(); }
@@ -253,6 +258,9 @@ struct Hierarchy::Impl {
   void cover_points(const Metric& metric);
   template <class Metric>
   void cover_level(const Metric& metric, int level);
+  bool edges_are_complete(int level) const;
+  template <class Metric>
+  void find_too_close(const Metric& metric, int level);
   template <class Metric>
   void connect_level(const Metric& metric, int level);
   void separate_level(int level);
@@ -283,7 +291,7 @@ struct Hierarchy::Impl {
   std::vector<Vec3> batch_centers;
   std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
   std::vector<std::array<std::int32_t, 2>>
-      too_close;                     ///< of connect_level(): pairs that separate_level() settles
+      too_close;                     ///< of a level: pairs that separate_level() settles
   std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;

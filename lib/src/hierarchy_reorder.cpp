@@ -42,6 +42,9 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
     fresh.radius2 = old.radius2;
     fresh.threshold = old.threshold;
     fresh.threshold2 = old.threshold2;
+    fresh.reach = old.reach;
+    fresh.complete = old.complete;
+    fresh.moved = old.moved;
     fresh.resize(old.alive());
     fresh.edges.reserve(old.edges.entries());
     std::vector<std::int32_t> old_of_new(static_cast<std::size_t>(old.alive()));

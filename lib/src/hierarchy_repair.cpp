@@ -21,6 +21,7 @@
 namespace dch {
 
 using detail::kNone;
+using detail::Level;
 using detail::with_metric;
 using Clock = std::chrono::steady_clock;
 
@@ -46,6 +47,7 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
     } else {
       const bool same_box = box == b;
       box = b;
+      for (Level& level : levels) level.complete = same_box ? level.complete : 0;
       if (!pending) anchors = levels[1].position;
       raw.assign(positions.begin(), positions.end());
       with_metric(box, [&](const auto& metric) {
@@ -86,8 +88,14 @@ double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, co
 template <class Metric>
 void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
   Level& level = levels[i];
-  for (std::int32_t k = 0; k < level.size(); ++k)
-    if (level.is_alive(k)) level.position[k] = metric.wrap(raw[level.id[k]]);
+  double moved2 = 0;
+  for (std::int32_t k = 0; k < level.size(); ++k) {
+    if (!level.is_alive(k)) continue;
+    const Vec3 at = metric.wrap(raw[level.id[k]]);
+    moved2 = std::max(moved2, metric.distance2(level.position[k], at));
+    level.position[k] = at;
+  }
+  level.moved += std::sqrt(moved2) * kInflate;
 }
 
 template <class Metric>
@@ -175,7 +183,11 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
     const auto covering = Clock::now();
     if (i < top()) cover_level(metric, i);
     cover_seconds += seconds_since(covering);
-    connect_level(metric, i);
+    if (edges_are_complete(i)) {
+      find_too_close(metric, i);
+    } else {
+      connect_level(metric, i);
+    }
     unfold_joined(i);
     separate_level(i);
   }
@@ -242,15 +254,36 @@ void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
   }
 }
 
+// The level below needs all edges within rho_i + kEdgeSlack R_i / 2, to find all within its own reach. Of two nodes,
+// one may have come when the other had moved already, which then counts twice.
+bool Hierarchy::Impl::edges_are_complete(int i) const {
+  const Level& level = levels[i];
+  return i > 1 && level.complete - 3 * level.moved >= level.threshold + 0.5 * kEdgeSlack * level.radius * kInflate;
+}
+
+/// What connect_level() finds, where edges are known to be complete.
+template <class Metric>
+void Hierarchy::Impl::find_too_close(const Metric& metric, int i) {
+  const Level& level = levels[i];
+  const double separation2 = levels[i - 1].radius2;
+  too_close.clear();
+  for (std::int32_t k = 0; k < level.size(); ++k)
+    for (const std::int32_t other : level.edges.row(k))
+      if (k < other && metric.distance2(level.position[k], level.position[other]) <= separation2)
+        too_close.push_back({k, other});
+}
+
 template <class Metric>
 void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   Level& level = levels[i];
+  level.complete = level.reach;
+  level.moved = 0;
   level.edges.clear();
   level.edges.resize(level.position.size());
   too_close.clear();
   const double separation2 = levels[i - 1].radius2;
   const auto connect_node = [&](std::int32_t k) {
-    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.threshold2);
+    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.reach * level.reach);
     row.clear();
     for (std::size_t h = 0; h < hits; ++h) {
       const std::size_t c = candidates.hit(h);
@@ -271,8 +304,8 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
     return;
   }
   const Level& above = levels[i + 1];
-  const double reach = (level.threshold + level.radius) * kInflate,
-               parent_reach = (level.threshold + 2 * level.radius) * kInflate;
+  const double reach = (level.reach + level.radius) * kInflate,
+               parent_reach = (level.reach + 2 * level.radius) * kInflate;
   siblings.fill(level, above);
   for (std::int32_t parent = 0; parent < above.size(); ++parent) {
     if (!above.is_alive(parent)) continue;

@@ -57,7 +57,8 @@ struct LevelInfo {
   double covering_radius = 0;  ///< R_i = 2^i r0: level i+1 covers level i within it [length]
   double edge_threshold = 0;   ///< rho_i [length]
   std::int64_t nodes = 0;
-  std::int64_t edges = 0;       ///< of G_c at this level; -1 for level 0, where lists enumerate them
+  std::int64_t edges = 0;       ///< stored: those of G_c and, from level 2 on, some longer ones; -1 for level 0,
+                                ///< where lists enumerate them
   std::int64_t max_degree = 0;  ///< most stored edges of a node
 };
 
