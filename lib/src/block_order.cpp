@@ -11,8 +11,8 @@ namespace {
 
 float median(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
 
-/// Moves those of points [begin, end) for which `is_first` holds to the front. Without a branch that depends on a
-/// coordinate, which would be mispredicted every other time. Returns the end of those.
+/// Moves those of points [begin, end) for which `is_first` holds to the front. Without a branch that depends
+/// on a coordinate, which would be mispredicted every other time. Returns the end of those.
 template <class IsFirst>
 std::int32_t partition(LocalPoint* points, std::int32_t begin, std::int32_t end, const IsFirst& is_first) {
   std::int32_t first = begin;

@@ -17,8 +17,8 @@ std::int32_t blocks_for(std::int32_t count);
 /// Points in the first `block` of `blocks` blocks, which take nearly the same number each.
 std::int32_t share_of_blocks(std::int32_t count, std::int32_t blocks, std::int32_t block);
 
-/// Orders points so that the blocks that share_of_blocks() cuts them into are the leaves of a k-d tree: the longest
-/// side of the box around them is halved again and again.
+/// Orders points so that the blocks that share_of_blocks() cuts them into are the leaves of a k-d tree: the
+/// longest side of the box around them is halved again and again.
 void order_by_halving(LocalPoint* points, std::int32_t count);
 
 }  // namespace dch::detail

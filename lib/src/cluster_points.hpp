@@ -11,10 +11,16 @@
 #include <dch/vec3.hpp>
 
 #include "hierarchy_level.hpp"
+#include "pair_filter.hpp"
 #include "point_blocks.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::detail {
+
+/// Lengths of one unit of the integers that lists are made with.
+struct ListUnits {
+  double point = 1, box = 1;  ///< of points, and of the boxes of blocks [length]
+};
 
 /// The points as lists are made from them: relative to the center of their cluster (a node of level 1), in
 /// blocks with a box around each, first as lengths, then as 16-bit integers. The blocks of a cluster lie side
@@ -26,9 +32,9 @@ struct ClusterPoints {
     double width = 0;        ///< of the box around the points and the center, along its longest side [length]
     double block_width = 0;  ///< the same of the widest block
     std::int32_t uncovered = 0;  ///< points farther from the center than asked
-    BlockBox box{};          ///< of all blocks
-    BlockSpan span{};        ///< the same in the units of points
-    bool owned = true;       ///< whether a point is not a ghost
+    BlockBox box{};              ///< of all blocks
+    BlockSpan span{};            ///< the same in the units of points
+    bool owned = true;           ///< whether a point is not a ghost
   };
   struct Offset {
     float x, y, z;
@@ -46,13 +52,14 @@ struct ClusterPoints {
   void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, PointBlocks& points,
                double covered2, Executor* executor);
 
-  /// Fits the units to lists within `reach` and rounds everything to them. `error` bounds how far the
-  /// distance of two positions may be from their pair distance [length].
-  void quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error,
-                Executor* executor);
+  /// Rounds everything to the units. `filter` says what the cutoffs of pairs depend on.
+  void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
+                const PairFilter& filter, Executor* executor);
 
   /// Box around blocks [first, last) of a cluster, in the units of points.
   BlockSpan span_of(std::int32_t first, std::int32_t last) const;
+  /// Largest tag in blocks [first, last), which have tags.
+  std::int16_t largest_tag(std::int32_t first, std::int32_t last) const;
 
   std::size_t memory_bytes() const;
 
@@ -67,14 +74,17 @@ struct ClusterPoints {
   double largest_block_width = 0;
 
   // What quantize() makes
-  double per_point_unit = 1, per_box_unit = 1;  ///< [1/length]
-  std::int16_t box_limit = 0;                   ///< see ListKernels::collect
-  std::int16_t in = 0, out = 0;                 ///< see ListKernels::test
-  std::vector<BlockPoints> points;              ///< by block, as all below
+  ListUnits units;
+  struct {
+    double point = 1, box = 1;
+  } per_unit;                       ///< the inverse [1/length]
+  std::vector<BlockPoints> points;  ///< by block, as all below
   std::vector<BlockBox> boxes;
   std::vector<BlockSpan> spans;
-  std::vector<std::array<std::int32_t, kBlock>> ids;
-  std::vector<std::uint8_t> owned;  ///< whether a point is not a ghost
+  std::vector<std::array<std::int32_t, kBlock>> ids;   ///< particles
+  std::vector<std::array<std::int16_t, kBlock>> tags;  ///< what their cutoffs depend on, 0 in empty lanes:
+                                                       ///< radii in units or types; empty if nothing
+  std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
   void lay_out(const Level& centers, const PointBlocks& points);
@@ -83,7 +93,9 @@ struct ClusterPoints {
                    double covered2, Executor* executor);
   template <class Meter>
   void measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& points, Cluster& cluster);
-  void quantize_cluster(const PointBlocks& points, std::int32_t first_ghost, Cluster& cluster);
+  void quantize_cluster(const PointBlocks& points, Span<const std::int32_t> particle_of_id,
+                        const PairFilter& filter, Cluster& cluster);
+  void tag_block(std::int32_t block, const PairFilter& filter);
 };
 
 /// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.

@@ -24,8 +24,8 @@ double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_ra
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
   if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
-  const double motion = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
-  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + motion + wrap_slack;
+  const double slack = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
+  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + slack + wrap_slack;
 }
 
 void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
@@ -85,7 +85,7 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   bytes += lone.capacity() * sizeof(LoneNode);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes + points.memory_bytes() + cluster_rows.memory_bytes() + assembler.memory_bytes();
+  return bytes + points.memory_bytes() + cluster_points.memory_bytes() + list_finder.memory_bytes();
 }
 
 // --- building
@@ -289,7 +289,13 @@ std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
   return ids;
 }
 
-void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->list(params, out); }
+void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->lists({&params, 1}, {&out}); }
+void Hierarchy::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  for (NeighborList& list : out) each.push_back(&list);
+  impl_->lists(requests, each);
+}
 bool Hierarchy::repair_pending() const { return impl_->pending; }
 void Hierarchy::repair() { impl_->repair_if_pending(); }
 std::string Hierarchy::validate() const { return impl_->validate(); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Building from scratch: points are inserted along a space-filling curve (thesis 5.4.1), some dozens at a time.
-// The nodes of level 1 near such a batch are looked up once, by one search of the hierarchy; each point takes the
-// nearest of them that covers it, or else becomes a node itself, which goes into the levels above and into the
-// batch's store. The points get their places when all are known, in their final order.
+// Building from scratch: points are inserted along a space-filling curve (thesis 5.4.1), some dozens at a
+// time. The nodes of level 1 near such a batch are looked up once, by one search of the hierarchy; each point
+// takes the nearest of them that covers it, or else becomes a node itself, which goes into the levels above
+// and into the batch's store. The points get their places when all are known, in their final order.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -77,8 +77,8 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
 template <class Metric>
 void Hierarchy::Impl::choose_clusters(const Metric& metric) {
   const auto order = detail::space_filling_order(raw, box, base_radius / kCurveCells);
-  // Within this of the batch's center, the nearest images of a point and of a node that covers it are apart by
-  // their distance.
+  // Within this of the batch's center, the nearest images of a point and of a node that covers it are apart
+  // by their distance.
   const double most = std::min(base_radius, box.max_cutoff() / kInflate - base_radius);
   for (std::size_t first = 0; first < order.size();) {
     const Vec3 corner = metric.wrap(raw[order[first]]);
@@ -130,7 +130,8 @@ void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
 
 /// Gives a point a parent in level 1, a new one if there was none, or a lone node. Returns which.
 template <class Metric>
-Hierarchy::Impl::Hint Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint) {
+Hierarchy::Impl::Hint Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at, std::int32_t id,
+                                                   Hint hint) {
   const Cover cover = locate(metric, at, 1, hint);
   const std::int32_t cluster = lift(metric, 0, id, at, cover);
   if (cluster != kNone) slot_of_id[id] = cluster;
@@ -164,13 +165,14 @@ void Hierarchy::Impl::place_points(const Metric& metric) {
       const Vec3 at = metric.displacement(levels[1].position[k], metric.wrap(raw[members[begin]]));
       local.push_back(local_point(at, members[begin]));
     }
-    fill_cluster(points, k, local, [&](std::int32_t id) { return id; },
-                 [&](std::int32_t id) { return metric.wrap(raw[id]); });
+    fill_cluster(
+        points, k, local, [&](std::int32_t id) { return id; },
+        [&](std::int32_t id) { return metric.wrap(raw[id]); });
   }
 }
 
-#define DCH_INSTANTIATE(Metric)                                       \
-  template void Hierarchy::Impl::choose_clusters(const Metric&);      \
+#define DCH_INSTANTIATE(Metric)                                  \
+  template void Hierarchy::Impl::choose_clusters(const Metric&); \
   template void Hierarchy::Impl::place_points(const Metric&);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)

@@ -9,10 +9,11 @@
 
 #include "block_order.hpp"
 #include "candidate_buffer.hpp"
-#include "cluster_rows.hpp"
+#include "cluster_points.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
-#include "list_assembly.hpp"
+#include "list_finder.hpp"
+#include "list_source.hpp"
 #include "metric.hpp"
 #include "point_blocks.hpp"
 #include "sibling_store.hpp"
@@ -71,8 +72,10 @@ struct Hierarchy::Impl {
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
   std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
-  bool measured = false;      ///< whether cluster_rows holds the points as they are now
-  std::int64_t strayed = 0;   ///< nodes that changed their parent since the nodes were last put in order
+  double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
+  detail::ClusterPoints cluster_points;
+  bool measured = false;     ///< whether cluster_points holds the points as they are now
+  std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
@@ -144,7 +147,8 @@ struct Hierarchy::Impl {
   static detail::LocalPoint local_point(Vec3 at, std::int32_t index) {
     return {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, index};
   }
-  /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their indices.
+  /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their
+  /// indices.
   template <class IdOf, class PositionOf>
   void fill_cluster(detail::PointBlocks& blocks, std::int32_t cluster, std::vector<detail::LocalPoint>& local,
                     const IdOf& id_of, const PositionOf& position_of) {
@@ -168,7 +172,9 @@ struct Hierarchy::Impl {
   /// What slot_of_id and Level::down hold for the k-th lone node; an involution.
   static std::int32_t place_of_lone(std::int32_t k) { return -2 - k; }
   static std::int32_t lone_at(std::int32_t place) { return -2 - place; }
-  bool is_lone(int level, std::int32_t node) const { return level > 1 && levels[level].down[node] < detail::kNone; }
+  bool is_lone(int level, std::int32_t node) const {
+    return level > 1 && levels[level].down[node] < detail::kNone;
+  }
   /// Whether a point's node of some level is not in memory, being on its own.
   bool stands_alone(std::int32_t id, int level) const {
     return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() && is_lone_point(id) &&
@@ -185,8 +191,8 @@ struct Hierarchy::Impl {
   void fold();
   /// Number of lone nodes of the levels above.
   std::int32_t lone_above(int level) const;
-  /// Empty rows for the lone points.
-  void append_lone_rows(NeighborList& list) const;
+  /// Points that are lone nodes, by id.
+  std::vector<std::int32_t> lone_points() const;
   /// Lowest node of a point that is in memory: its cluster, or the lone node.
   Hint lowest_node(std::int32_t id) const {
     if (is_lone_point(id)) return {lone[lone_at(slot_of_id[id])].level, lone[lone_at(slot_of_id[id])].node};
@@ -201,9 +207,9 @@ struct Hierarchy::Impl {
   void disconnect(int level, std::int32_t node);
 
   // hierarchy_update.cpp: places for single points
-  /// Fills near[target] with the nodes of that level within `reach` of a point, and near[] of the levels above it
-  /// up to that of the node it returns, whose neighbors include all that are wanted. Levels >= target must be in
-  /// order.
+  /// Fills near[target] with the nodes of that level within `reach` of a point, and near[] of the levels
+  /// above it up to that of the node it returns, whose neighbors include all that are wanted. Levels >=
+  /// target must be in order.
   template <class Metric>
   Hint find_near(const Metric& metric, Vec3 at, int target, double reach, Hint hint);
   template <class Metric>
@@ -212,8 +218,8 @@ struct Hierarchy::Impl {
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
   /// Gives a point nodes in the levels between `level` and its cover, linked to each other and to the cover.
-  /// Returns the lowest one, or the cover's node if there are none between. From level 0 on it ends at the first
-  /// that is lone, and returns kNone.
+  /// Returns the lowest one, or the cover's node if there are none between. From level 0 on it ends at the
+  /// first that is lone, and returns kNone.
   template <class Metric>
   std::int32_t lift(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
   /// Links a node of `level` >= 1 to its cover.
@@ -276,7 +282,11 @@ struct Hierarchy::Impl {
   /// Appends the neighbors of a node in its level of G_c.
   template <class Metric>
   void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
-  void list(const ListParams& request, NeighborList& out);
+  void lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  /// Brings up to date what lists are made from. Returns how far the distance of two wrapped positions may be
+  /// from their pair distance [length].
+  double prepare_for_lists();
+  detail::ListSource list_source(Span<const std::int32_t> particle_of_id);
 
   // hierarchy_validate.cpp
   std::string validate() const;
@@ -296,9 +306,7 @@ struct Hierarchy::Impl {
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
-  detail::ClusterRows cluster_rows;
-  NeighborList rows;  ///< as ClusterRows found them, where another order is asked for
-  detail::ListAssembler assembler;
+  detail::ListFinder list_finder;
 };
 
 }  // namespace dch

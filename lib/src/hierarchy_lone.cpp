@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Path compression: points on their own (docs/decisions/0009-points-on-their-own.md). A node that has itself as its
-// only descendant and no edge stands in no level below in memory. If no node of level i is within rho_i of it, none
-// of level j < i is within rho_j: such a node's ancestor in level i is within R_i - R_j of it, and
-// rho_i >= rho_j + 2 (R_i - R_j).
+// Path compression: points on their own (docs/decisions/0009-points-on-their-own.md). A node that has itself
+// as its only descendant and no edge stands in no level below in memory. If no node of level i is within
+// rho_i of it, none of level j < i is within rho_j: such a node's ancestor in level i is within R_i - R_j of
+// it, and rho_i >= rho_j + 2 (R_i - R_j).
 #include "hierarchy_impl.hpp"
 
 namespace dch {
@@ -50,15 +50,17 @@ void Hierarchy::Impl::unfold(int level, std::int32_t node) {
 
 void Hierarchy::Impl::unfold_joined(int level) {
   for (std::int32_t k = 0; k < levels[level].size(); ++k)
-    if (levels[level].is_alive(k) && is_lone(level, k) && !levels[level].edges.row(k).empty()) unfold(level, k);
+    if (levels[level].is_alive(k) && is_lone(level, k) && !levels[level].edges.row(k).empty())
+      unfold(level, k);
 }
 
-/// Whether a node of level 2 or above has no edge and no other descendant than itself, of which the levels below know
-/// already if it is lone there.
+/// Whether a node of level 2 or above has no edge and no other descendant than itself, of which the levels
+/// below know already if it is lone there.
 bool Hierarchy::Impl::could_be_lone(int level, std::int32_t node) const {
   if (is_lone(level, node) || !levels[level].edges.row(node).empty()) return false;
   const std::int32_t below = levels[level].down[node];
-  if (levels[level].first_child[node] != below || levels[level - 1].next_sibling[below] != kNone) return false;
+  if (levels[level].first_child[node] != below || levels[level - 1].next_sibling[below] != kNone)
+    return false;
   if (level > 2) return is_lone(level - 1, below);
   const std::int32_t block = levels[1].first_child[below];
   return points.count[block] == 1 && points.next[block] == kNone;
@@ -88,11 +90,10 @@ std::int32_t Hierarchy::Impl::lone_above(int level) const {
   return count;
 }
 
-void Hierarchy::Impl::append_lone_rows(NeighborList& list) const {
-  for (const LoneNode& node : lone) {
-    list.particle.push_back(levels[node.level].id[node.node]);
-    list.first.push_back(list.first.back());
-  }
+std::vector<std::int32_t> Hierarchy::Impl::lone_points() const {
+  std::vector<std::int32_t> ids;
+  for (const LoneNode& node : lone) ids.push_back(levels[node.level].id[node.node]);
+  return ids;
 }
 
 }  // namespace dch

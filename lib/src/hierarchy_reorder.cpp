@@ -25,9 +25,7 @@ std::vector<std::int32_t> depth_first_order(const Level& level, const Level* abo
   return order;
 }
 
-std::int32_t renamed(const std::vector<std::int32_t>& order, std::int32_t k) {
-  return k < 0 ? k : order[k];
-}
+std::int32_t renamed(const std::vector<std::int32_t>& order, std::int32_t k) { return k < 0 ? k : order[k]; }
 
 }  // namespace
 
@@ -92,8 +90,9 @@ void Hierarchy::Impl::reorder_points() {
       for_each_child(1, k, [&](std::int32_t slot) {
         local.push_back(local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
       });
-      fill_cluster(fresh, k, local, [&](std::int32_t slot) { return points.id[slot]; },
-                   [&](std::int32_t slot) { return points.position[slot]; });
+      fill_cluster(
+          fresh, k, local, [&](std::int32_t slot) { return points.id[slot]; },
+          [&](std::int32_t slot) { return points.position[slot]; });
     }
   });
   points = std::move(fresh);

@@ -101,7 +101,7 @@ void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
 template <class Metric>
 void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
   refresh_level(metric, 1);
-  cluster_rows.points().refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
   measured = true;
 }
 
@@ -113,7 +113,7 @@ void Hierarchy::Impl::refresh_centers(const Metric& metric) {
 template <class Metric>
 std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
   std::int64_t count = 0;
-  for (const auto& cluster : cluster_rows.points().clusters) count += cluster.uncovered;
+  for (const auto& cluster : cluster_points.clusters) count += cluster.uncovered;
   for (int i = 2; i <= top(); ++i) {
     const double limit2 = levels[i - 1].radius2;
     for (std::int32_t k = 0; k < levels[i].size(); ++k) {
@@ -129,27 +129,30 @@ std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_rows.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  if (!measured) cluster_points.measure(metric, levels[1], points, levels[0].radius2, params.executor);
   measured = true;
 }
 
 // Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
 // more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
-// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count as
-// clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count
+// as clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
 template <class Metric>
 bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
   measure(metric);
   const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
+  motion = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k)) continue;
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
-    if (cluster_rows.points().clusters[k].extent + moved > limit) return false;
+    if (cluster_points.clusters[k].extent + moved > limit) return false;
+    motion = std::max(motion, moved);
   }
   for (const LoneNode& node : lone) {
     const Level& level = levels[node.level];
-    const double moved = std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
+    const double moved =
+        std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
     if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
   }
   return true;
@@ -209,10 +212,10 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
 }
 
-/// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new since
-/// then hold none but those that were found to be near enough.
+/// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
+/// since then hold none but those that were found to be near enough.
 bool Hierarchy::Impl::is_known_to_cover(std::int32_t cluster) const {
-  const auto& clusters = cluster_rows.points().clusters;
+  const auto& clusters = cluster_points.clusters;
   return static_cast<std::size_t>(cluster) >= clusters.size() || clusters[cluster].uncovered == 0;
 }
 
@@ -352,8 +355,9 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
     }
     points.next[last] = level.first_child[heir];
     level.first_child[heir] = level.first_child[node];
-    auto& clusters = cluster_rows.points().clusters;
-    if (static_cast<std::size_t>(heir) >= clusters.size()) clusters.resize(static_cast<std::size_t>(heir) + 1);
+    auto& clusters = cluster_points.clusters;
+    if (static_cast<std::size_t>(heir) >= clusters.size())
+      clusters.resize(static_cast<std::size_t>(heir) + 1);
     ++clusters[heir].uncovered;  // for all that is known
   }
   detach(i, node);

@@ -14,11 +14,12 @@ using detail::OpenMetric;
 using detail::OrthorhombicMetric;
 
 // A node of level t = `target` within `reach` of p has its ancestor of level l within
-// reach + R_t + ... + R_{l-1} = reach + R_l - R_t of p, so a descent that keeps the nodes within that misses none.
+// reach + R_t + ... + R_{l-1} = reach + R_l - R_t of p, so a descent that keeps the nodes within that misses
+// none.
 //
-// A hint a of level l replaces the descent's upper part: if |pa| plus that is at most rho_l, every node wanted is
-// within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's parent too,
-// since |pa| grows by at most R_l, what is kept by R_l, and rho_l by 2 R_l or more.
+// A hint a of level l replaces the descent's upper part: if |pa| plus that is at most rho_l, every node
+// wanted is within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's
+// parent too, since |pa| grows by at most R_l, what is kept by R_l, and rho_l by 2 R_l or more.
 template <class Metric>
 Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, int target, double reach,
                                                  Hint hint) {
@@ -27,7 +28,8 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
   // Climb until the hint's surroundings are wide enough.
   Hint start = hint.node == kNone ? Hint{top(), kNone} : hint;
   for (; start.level < top(); ++start.level) {
-    const double room = levels[start.level].threshold - (reach + levels[start.level].radius - less) * kInflate;
+    const double room =
+        levels[start.level].threshold - (reach + levels[start.level].radius - less) * kInflate;
     const double d2 = metric.distance2(at, levels[start.level].position[start.node]);
     if (room > 0 && d2 * (kInflate * kInflate) <= room * room) break;
     start.node = levels[start.level].parent[start.node];
@@ -48,8 +50,8 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
   return start;
 }
 
-/// Fills near[] of a node's level with those of its neighbors, itself and in the top level all that are within
-/// reach of a point.
+/// Fills near[] of a node's level with those of its neighbors, itself and in the top level all that are
+/// within reach of a point.
 template <class Metric>
 void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, double reach) {
   const Level& level = levels[middle.level];
@@ -68,8 +70,8 @@ void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, do
   for (const std::int32_t neighbor : level.edges.row(middle.node)) keep(neighbor);
 }
 
-// A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l - R_{t-1},
-// and so is a parent in level l, which has to be within R_{l-1}.
+// A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l -
+// R_{t-1}, and so is a parent in level l, which has to be within R_{l-1}.
 template <class Metric>
 Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, Hint hint) {
   if (target > top()) return {top() + 1, kNone};
@@ -244,15 +246,15 @@ void Hierarchy::Impl::trim_top() {
   }
 }
 
-#define DCH_INSTANTIATE(Metric)                                                            \
+#define DCH_INSTANTIATE(Metric)                                                                      \
   template Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric&, Vec3, int, double, Hint); \
-  template std::int32_t Hierarchy::Impl::lift(const Metric&, int, std::int32_t, Vec3, Cover); \
-  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint); \
-  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);          \
-  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);   \
-  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                \
-  template void Hierarchy::Impl::grow_top(const Metric&);                                  \
-  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);          \
+  template std::int32_t Hierarchy::Impl::lift(const Metric&, int, std::int32_t, Vec3, Cover);        \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);           \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                    \
+  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);             \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                          \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                            \
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);                    \
   template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)

@@ -60,7 +60,8 @@ void check_blocks(const Impl& h, Verdict& verdict) {
     verdict.require(seen[block] || points.cluster[block] == kNone, 0, "block ", block, " is in no chain");
 }
 
-/// Lone nodes: known to their points, without edges and children. That no other node is near is for check_pairs().
+/// Lone nodes: known to their points, without edges and children. That no other node is near is for
+/// check_pairs().
 template <class Impl>
 void check_lone_nodes(const Impl& h, Verdict& verdict) {
   for (std::size_t k = 0; k < h.lone.size(); ++k) {
@@ -70,8 +71,8 @@ void check_lone_nodes(const Impl& h, Verdict& verdict) {
                              h.slot_of_id[h.id(i, node)] == place,
                          i, "lone node ", k, " is not that of its point"))
       return;
-    verdict.require(h.levels[i].first_child[node] == kNone && h.levels[i].edges.row(node).empty(), i, "point ",
-                    h.id(i, node), " is not on its own");
+    verdict.require(h.levels[i].first_child[node] == kNone && h.levels[i].edges.row(node).empty(), i,
+                    "point ", h.id(i, node), " is not on its own");
   }
 }
 
@@ -109,7 +110,8 @@ void check_nesting(const Impl& h, Verdict& verdict) {
                       h.id(i, k), " is not its own parent although it stands in the level above");
     }
     if (i == h.top()) continue;
-    const auto lone = std::count_if(h.lone.begin(), h.lone.end(), [&](const auto& n) { return n.level == i + 1; });
+    const auto lone =
+        std::count_if(h.lone.begin(), h.lone.end(), [&](const auto& n) { return n.level == i + 1; });
     verdict.require(lifted + lone == h.alive(i + 1), i + 1, "holds nodes without a node below");
   }
 }
@@ -209,7 +211,8 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
                         h.id(i, k), " is longer than any should be");
     verdict.require(joined.set(static_cast<std::int32_t>(m), row), i, "point ", a.id, " has a repeated edge");
     for (const std::int32_t k : row)
-      verdict.require(k != a.node && h.is_alive(i, k), i, "point ", a.id, " has an edge to itself or a dead node");
+      verdict.require(k != a.node && h.is_alive(i, k), i, "point ", a.id,
+                      " has an edge to itself or a dead node");
     for (const Member& b : members) {
       if (&a == &b) continue;
       const bool edge = b.node != kNone && joined.has(static_cast<std::int32_t>(m), b.node);
@@ -224,8 +227,8 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
   }
 }
 
-/// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined parents, and
-/// lone points have none so near.
+/// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined
+/// parents, and lone points have none so near.
 template <class Impl, class Metric>
 void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict) {
   Marks joined(h.size(1));
@@ -246,7 +249,8 @@ void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict
     const std::int32_t a = h.id(level, node);
     for (std::size_t b = 0; b < h.raw.size(); ++b)
       if (static_cast<std::int32_t>(b) != a && h.slot_of_id[b] != kNone)
-        require_far(metric.distance2(h.box.wrap(h.raw[a]), h.box.wrap(h.raw[b])), a, static_cast<std::int32_t>(b));
+        require_far(metric.distance2(h.box.wrap(h.raw[a]), h.box.wrap(h.raw[b])), a,
+                    static_cast<std::int32_t>(b));
   }
 }
 

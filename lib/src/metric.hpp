@@ -10,7 +10,8 @@
 namespace dch::detail {
 
 /// Distances between points that wrap(), which is Box::wrap, has put into the cell. All three are bitwise
-/// symmetric in p and q, which the structural predicates rely on: a tie must come out the same from both sides.
+/// symmetric in p and q, which the structural predicates rely on: a tie must come out the same from both
+/// sides.
 struct OpenMetric {
   explicit OpenMetric(const Box&) {}
   static Vec3 wrap(Vec3 p) { return p; }
@@ -30,7 +31,8 @@ struct OrthorhombicMetric {
     }
   }
   Vec3 wrap(Vec3 p) const {
-    const bool is_inside = p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < high.x && p.y < high.y && p.z < high.z;
+    const bool is_inside =
+        p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < high.x && p.y < high.y && p.z < high.z;
     return is_inside ? p : box->wrap(p);
   }
   BrickCell brick() const {

@@ -23,6 +23,23 @@ std::string position_text(std::size_t i, Vec3 p) {
 
 bool in_range(double x) { return std::abs(x) <= kMaxCoordinate; }  // false for NaN
 
+void check_radii(const ListParams& params, std::size_t n) {
+  if (params.radii.size() != n) {
+    throw InvalidParameter(std::to_string(params.radii.size()) + " radii given for " + std::to_string(n) +
+                           " particles; give one each");
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double radius = params.radii[i];
+    if (!(std::isfinite(radius) && radius >= 0)) {
+      throw InvalidParameter("particle " + std::to_string(i) + " has the radius " + describe(radius) +
+                             "; a radius must be finite and not negative");
+    }
+    largest = std::max(largest, radius);
+  }
+  if (largest == 0) throw InvalidParameter("every radius is 0; at least one must be > 0");
+}
+
 void check_types(const ListParams& params, std::size_t n) {
   const int types = params.cutoffs.types();
   if (params.types.empty() && (types == 1 || n == 0)) return;
@@ -165,12 +182,13 @@ void check_skin(double skin) {
 
 void check_list_params(const ListParams& params, std::size_t n, double radius) {
   check_skin(params.skin);
+  if (!params.radii.empty()) check_radii(params, n);
   if (params.list_radius() > radius) {
     throw InvalidParameter("cutoff + skin = " + describe(params.list_radius()) +
                            " exceeds the search radius " + describe(radius) +
                            " that the engine was made for; make it with a larger one");
   }
-  check_types(params, n);
+  if (params.radii.empty()) check_types(params, n);
   if (params.exclusions != nullptr && !params.exclusions->empty() && params.exclusions->size() != n) {
     throw InvalidParameter("exclusions made for " + std::to_string(params.exclusions->size()) +
                            " particles do not fit " + std::to_string(n) + " particles");

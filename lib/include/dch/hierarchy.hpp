@@ -14,6 +14,10 @@
 
 namespace dch {
 
+namespace detail {
+class SizedSearch;
+}
+
 /// How the edge thresholds rho_i of the conflict graph grow with the level.
 enum class EdgeRule {
   /// rho_{i+1} = rho_i + 2 R_i, the smallest thresholds for which Lemma 5.3.1(5) holds: far fewer edges.
@@ -50,6 +54,9 @@ struct HierarchyParams {
   bool fold_lone_points = true;
   /// Threads to make lists with; null for that of the caller alone. Not owned; results do not depend on it.
   Executor* executor = nullptr;
+  /// For make_dch_search: whether the cutoffs of particles may differ much, by radii or types. Then there is
+  /// a hierarchy for each class of sizes, made when a list is asked for; `radius` is the largest list radius.
+  bool size_classes = false;
 };
 
 /// One level of a hierarchy, for tests, statistics and plots.
@@ -143,6 +150,9 @@ class Hierarchy {
   /// The list of all pairs params asks for; row k is the point with id k, rows of free ids are empty.
   /// @throws InvalidParameter if params.list_radius() exceeds radius, or types or exclusions do not fit.
   void list(const ListParams& params, NeighborList& out);
+  /// Several lists, out[k] being that of requests[k]: at little more than the cost of the one with the
+  /// largest radius, if the cutoffs of all depend on the same types or radii, or on neither.
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out);
 
   /// Checks every invariant of Lemma 5.3.1 and of the data layout against all pairs: nesting, coverage,
   /// separation, parents, children, edges of every level. O(n^2) time, for tests and for --verify. Returns an
@@ -153,6 +163,7 @@ class Hierarchy {
 
  private:
   friend struct HierarchyTestAccess;  // tests plant faults for validate() to find
+  friend class detail::SizedSearch;   // makes lists from several hierarchies
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

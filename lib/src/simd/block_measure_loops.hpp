@@ -58,8 +58,8 @@ inline bool measure_block_loops(const BrickCell& cell, const double* positions, 
   for (std::int32_t lane = 0; lane < kBlock; ++lane)  // empty lanes repeat the first point
     p[lane] = positions + 3 * static_cast<std::int64_t>(index[lane < count ? lane : 0]);
   for (int axis = 0; axis < 3; ++axis)
-    at[axis] = Lanes{p[0][axis], p[1][axis], p[2][axis], p[3][axis],
-                     p[4][axis], p[5][axis], p[6][axis], p[7][axis]};
+    at[axis] =
+        Lanes{p[0][axis], p[1][axis], p[2][axis], p[3][axis], p[4][axis], p[5][axis], p[6][axis], p[7][axis]};
   for (int axis = 0; axis < 3; ++axis) {
     measure_axis(cell, axis, center[axis], at[axis], relative[axis], outside);
     out.low[axis] = least_of(relative[axis]);
