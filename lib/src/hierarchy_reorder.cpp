@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hierarchy_impl.hpp"
+#include "hierarchy_blocks.hpp"
 
 namespace dch {
 
@@ -88,7 +88,8 @@ void Hierarchy::Impl::reorder_points() {
     for (std::int32_t k = 0; k < levels[1].size(); ++k) {
       local.clear();
       for_each_child(1, k, [&](std::int32_t slot) {
-        local.push_back(local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
+        local.push_back(
+            detail::local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
       });
       fill_cluster(
           fresh, k, local, [&](std::int32_t slot) { return points.id[slot]; },

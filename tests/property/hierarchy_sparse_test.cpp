@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A droplet and its gas in boxes hundreds of times wider than a list reaches: most points stand on their own in
-// most levels, and are in memory in the others only.
+// A droplet and its gas in boxes hundreds of times wider than a list reaches: most points stand on their own
+// in most levels, and are in memory in the others only.
 #include <gtest/gtest.h>
 
 #include <dch/all_pairs.hpp>
@@ -40,7 +40,8 @@ std::vector<HierarchyParams> variants() {
   lazy.radius = kRadius;
   HierarchyParams unfolded = repairing();
   unfolded.fold_lone_points = false;
-  return {repairing(), repairing(EdgeRule::additive, 1), repairing(EdgeRule::thesis, 1), wide, lazy, unfolded};
+  return {repairing(), repairing(EdgeRule::additive, 1), repairing(EdgeRule::thesis, 1), wide, lazy,
+          unfolded};
 }
 
 class HierarchySparse : public ::testing::TestWithParam<scenes::NamedBox> {};

@@ -163,7 +163,8 @@ TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
   const Vec3 near_the_others = hierarchy_.position(0) + Vec3{0.01, 0, 0};
   for (int i = level; i < hierarchy_.levels(); ++i)  // all its nodes
     for (std::int32_t k = 0; k < inside().levels[i].size(); ++k)
-      if (inside().levels[i].id[k] == inside().id(level, node)) inside().levels[i].position[k] = near_the_others;
+      if (inside().levels[i].id[k] == inside().id(level, node))
+        inside().levels[i].position[k] = near_the_others;
   EXPECT_NE(hierarchy_.validate(), "");
 }
 
