@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// New positions: taken over and measured in one pass, and what is done then: nothing while the edges are certified
-// to be enough for lists, else a repair or a new build, whichever is cheaper by the structure's own timings.
+// New positions: taken over and measured in one pass, and what is done then: nothing while the edges are
+// certified to be enough for lists, else a repair or a new build, whichever is cheaper by the structure's own
+// timings.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
