@@ -26,7 +26,7 @@ inline constexpr double kInflate = 1 + 1e-12;
 
 /// How far points may move, in units of R_0, before the edges of level 1 have to be made anew, where repair
 /// is put off. More: fewer repairs, more edges for lists to dismiss.
-inline constexpr double kMotionSlack = 0.2;
+inline constexpr double kMotionSlack = 0.4;
 
 /// How much farther than rho_i edges of level i >= 2 reach, in units of R_i, so that they need not be
 /// enumerated anew at each repair. More: fewer enumerations, more edges.

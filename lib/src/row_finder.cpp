@@ -8,6 +8,8 @@
 namespace dch::detail {
 namespace {
 
+constexpr std::size_t kFewExclusions = 24;  ///< of a particle: up to here each is looked for in the row
+
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
 }
@@ -256,14 +258,23 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
 /// Exclusions and ghosts, and cutoffs where the kernels did not know them. Returns how many are left.
 std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
                                      std::int32_t count) {
-  std::int32_t kept = 0;
-  for (std::int32_t k = 0; k < count; ++k) {
-    const std::int32_t other = row[k];
-    row[kept] = other;
-    kept += request.limits.per_pair ? request.filter->accept(particle, other)
-                                    : request.filter->is_wanted(particle, other);
+  const PairFilter& filter = *request.filter;
+  const auto keep_if = [&](const auto& is_kept) {
+    return static_cast<std::int32_t>(std::copy_if(row, row + count, row, is_kept) - row);
+  };
+  if (request.limits.per_pair) return keep_if([&](std::int32_t j) { return filter.accept(particle, j); });
+  const Span<const std::int32_t> excluded = filter.excluded_with(particle);
+  if (excluded.size() > kFewExclusions) {
+    count = keep_if([&](std::int32_t j) { return !std::binary_search(excluded.begin(), excluded.end(), j); });
+  } else {
+    for (const std::int32_t other : excluded) {
+      std::int32_t found = 0;
+      for (std::int32_t k = 0; k < count; ++k) found += row[k] == other;  // compilers make vectors of this
+      if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, other) - row);
+    }
   }
-  return kept;
+  if (filter.is_ghost(particle)) count = keep_if([&](std::int32_t j) { return !filter.is_ghost(j); });
+  return count;
 }
 
 std::size_t RowFinder::memory_bytes() const {
