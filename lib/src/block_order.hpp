@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include <dch/vec3.hpp>
+
 namespace dch::detail {
 
 /// A point of a cluster, to be put in order.
@@ -10,6 +12,10 @@ struct LocalPoint {
   float at[3];         ///< relative to the cluster's center [length]
   std::int32_t index;  ///< the caller's
 };
+
+inline LocalPoint local_point(Vec3 at, std::int32_t index) {
+  return {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, index};
+}
 
 /// Blocks that `count` points fill.
 std::int32_t blocks_for(std::int32_t count);

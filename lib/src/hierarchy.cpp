@@ -38,28 +38,27 @@ void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
     const double wanted = detail::base_radius_for(positions, box, params.radius);
     base_radius = std::ldexp(r0, static_cast<int>(std::lround(std::log2(wanted / r0))));
   }
-  for (int i = 0; i <= top(); ++i) {
-    levels[i].radius = radius_of_level(i);
-    levels[i].radius2 = levels[i].radius * levels[i].radius;
-  }
+  for (int i = 0; i <= top(); ++i) set_lengths(i);
 }
 
-void Hierarchy::Impl::set_wrap_slack() {
-  wrap_slack = 2 * detail::WrapError(box).bound(largest_reach);  // twice, so that insertions seldom exceed it
-  for (int i = 0; i <= top(); ++i) {
-    levels[i].threshold = threshold_of_level(i);
-    levels[i].threshold2 = levels[i].threshold * levels[i].threshold;
-  }
-}
-
-void Hierarchy::Impl::push_level() {
-  const int i = static_cast<int>(levels.size());
-  Level level;
+void Hierarchy::Impl::set_lengths(int i) {
+  Level& level = levels[i];
   level.radius = radius_of_level(i);
   level.radius2 = level.radius * level.radius;
   level.threshold = threshold_of_level(i);
   level.threshold2 = level.threshold * level.threshold;
-  levels.push_back(std::move(level));
+  level.reach = level.threshold + (i > 1 ? kEdgeSlack * level.radius : 0);
+}
+
+void Hierarchy::Impl::set_wrap_slack() {
+  wrap_slack = 2 * detail::WrapError(box).bound(largest_reach);  // twice, so that insertions seldom exceed it
+  for (int i = 0; i <= top(); ++i) set_lengths(i);
+}
+
+void Hierarchy::Impl::push_level() {
+  levels.emplace_back();
+  set_lengths(top());
+  levels.back().complete = levels.back().reach;
 }
 
 void Hierarchy::Impl::pop_level() {

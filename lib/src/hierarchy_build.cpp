@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "base_radius.hpp"
-#include "hierarchy_impl.hpp"
+#include "hierarchy_blocks.hpp"
 #include "position_check.hpp"
 #include "space_filling_order.hpp"
 
@@ -67,6 +67,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
     placing_later = false;
     place_points(metric);
   });
+  for (detail::Level& level : levels) level.complete = level.reach;
   ++stats.builds;
   stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
   if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));
@@ -162,7 +163,7 @@ void Hierarchy::Impl::place_points(const Metric& metric) {
     local.clear();
     for (; begin < first[k]; ++begin) {
       const Vec3 at = metric.displacement(levels[1].position[k], metric.wrap(raw[members[begin]]));
-      local.push_back(local_point(at, members[begin]));
+      local.push_back(detail::local_point(at, members[begin]));
     }
     fill_cluster(
         points, k, local, [&](std::int32_t id) { return id; },

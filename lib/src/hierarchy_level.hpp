@@ -17,6 +17,9 @@ inline constexpr std::int32_t kNone = -1;
 struct Level {
   double radius = 0, radius2 = 0;        ///< R_i: the level above covers this one within it
   double threshold = 0, threshold2 = 0;  ///< rho_i: edges join nodes within it
+  double reach = 0;     ///< from level 2 on edges join some farther ones, up to this when made
+  double complete = 0;  ///< all within this were joined when edges were last enumerated
+  double moved = 0;     ///< how far a node has moved since, at most
 
   std::vector<Vec3> position;              ///< wrapped into the cell
   std::vector<std::int32_t> id;            ///< the caller's name of the point

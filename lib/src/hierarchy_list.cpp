@@ -48,8 +48,10 @@ template <class Metric>
 void Hierarchy::Impl::neighbors(const Metric& metric, int i, std::int32_t node,
                                 std::vector<std::int32_t>& nodes) const {
   if (i > 0) {
-    const auto stored = levels[i].edges.row(node);
-    nodes.insert(nodes.end(), stored.begin(), stored.end());
+    for (const std::int32_t other : levels[i].edges.row(node))
+      if (i == 1 ||
+          metric.distance2(levels[i].position[node], levels[i].position[other]) <= levels[i].threshold2)
+        nodes.push_back(other);
     return;
   }
   const std::int32_t cluster = points.parent(node);

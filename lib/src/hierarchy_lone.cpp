@@ -37,6 +37,7 @@ void Hierarchy::Impl::unfold(int level, std::int32_t node) {
   const std::int32_t below = levels[level - 1].add(id, at);
   attach(level - 1, below, node);
   levels[level - 1].up[below] = node;
+  levels[level - 1].complete = 0;  // it may have got neighbors there by motion
   levels[level].down[node] = below;
   if (level > 2) {
     make_lone(level - 1, below);

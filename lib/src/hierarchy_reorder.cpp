@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hierarchy_impl.hpp"
+#include "hierarchy_blocks.hpp"
 
 namespace dch {
 
@@ -40,6 +40,9 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
     fresh.radius2 = old.radius2;
     fresh.threshold = old.threshold;
     fresh.threshold2 = old.threshold2;
+    fresh.reach = old.reach;
+    fresh.complete = old.complete;
+    fresh.moved = old.moved;
     fresh.resize(old.alive());
     fresh.edges.reserve(old.edges.entries());
     std::vector<std::int32_t> old_of_new(static_cast<std::size_t>(old.alive()));
@@ -85,7 +88,8 @@ void Hierarchy::Impl::reorder_points() {
     for (std::int32_t k = 0; k < levels[1].size(); ++k) {
       local.clear();
       for_each_child(1, k, [&](std::int32_t slot) {
-        local.push_back(local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
+        local.push_back(
+            detail::local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
       });
       fill_cluster(
           fresh, k, local, [&](std::int32_t slot) { return points.id[slot]; },

@@ -4,11 +4,10 @@
 // levels above in order:
 //   1. cover: every node of the level finds a parent again, near its old one first, or is promoted;
 //   2. connect: edges are enumerated among children of equal or neighboring *new* parents, which
-//   Lemma 5.3.1(5)
-//      makes complete for any displacement;
+//      Lemma 5.3.1(5) makes complete for any displacement; from level 2 on only where they may have become
+//      incomplete;
 //   3. separate: of two nodes within R_{i-1} one is demoted, and its children are handed to the other, to be
-//   looked
-//      at when their own level's turn comes.
+//      looked at when their own level's turn comes.
 // Settling the orphans one after the other, each promoted one with its edges at once, keeps the centers
 // separated.
 #include <algorithm>
@@ -16,157 +15,18 @@
 #include <cmath>
 
 #include "hierarchy_impl.hpp"
-#include "position_check.hpp"
 
 namespace dch {
 
 using detail::kNone;
-using detail::with_metric;
+using detail::Level;
 using Clock = std::chrono::steady_clock;
 
 namespace {
-// Share of the nodes that may lie away from their siblings before all are put in order again. Not critical:
-// without any reordering, repair and list of a melt of 32,000 atoms took 3 % longer after 120 rebuilds.
-constexpr double kStrayed = 0.1;
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 }  // namespace
-
-void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
-  ++stats.updates;
-  const auto start = Clock::now();
-  try {
-    largest_reach = check_positions_of_points(positions, b);
-    detail::check_radius(params.radius, b);
-    const bool fresh = stats.builds == 0;
-    if (fresh || (params.policy == MaintenancePolicy::always_rebuild && free_ids.empty())) {
-      build(positions, b);
-    } else {
-      const bool same_box = box == b;
-      box = b;
-      if (!pending) anchors = levels[1].position;
-      raw.assign(positions.begin(), positions.end());
-      with_metric(box, [&](const auto& metric) {
-        refresh_clusters(metric);
-        if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
-          pending = true;
-          ++stats.refreshes;
-          return;
-        }
-        set_wrap_slack();
-        refresh_centers(metric);
-        const auto counting = Clock::now();
-        const std::int64_t orphans = count_orphans(metric);
-        const double check_seconds = seconds_since(counting);
-        if (params.policy != MaintenancePolicy::always_repair && free_ids.empty() && !repair_pays(orphans)) {
-          build(positions, b);
-          per_orphan.fade();
-        } else {
-          repair(metric, check_seconds);
-        }
-      });
-    }
-  } catch (...) {
-    reset(Box());
-    throw;
-  }
-  stats.maintain_seconds += seconds_since(start);
-}
-
-double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
-  if (free_ids.empty()) return detail::check_positions(positions, b);
-  std::vector<Vec3> live(positions.begin(), positions.end());
-  for (std::size_t id = 0; id < live.size(); ++id)
-    if (slot_of_id[id] == kNone) live[id] = b.origin();
-  return detail::check_positions(live, b);
-}
-
-template <class Metric>
-void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
-  Level& level = levels[i];
-  for (std::int32_t k = 0; k < level.size(); ++k)
-    if (level.is_alive(k)) level.position[k] = metric.wrap(raw[level.id[k]]);
-}
-
-template <class Metric>
-void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
-  refresh_level(metric, 1);
-  cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
-  measured = true;
-}
-
-template <class Metric>
-void Hierarchy::Impl::refresh_centers(const Metric& metric) {
-  for (int i = 2; i <= top(); ++i) refresh_level(metric, i);
-}
-
-template <class Metric>
-std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
-  std::int64_t count = 0;
-  for (const auto& cluster : cluster_points.clusters) count += cluster.uncovered;
-  for (int i = 2; i <= top(); ++i) {
-    const double limit2 = levels[i - 1].radius2;
-    for (std::int32_t k = 0; k < levels[i].size(); ++k) {
-      if (!levels[i].is_alive(k)) continue;
-      const Vec3 center = levels[i].position[k];
-      for_each_child(i, k, [&](std::int32_t child) {
-        count += metric.distance2(position(i - 1, child), center) > limit2;
-      });
-    }
-  }
-  return count;
-}
-
-template <class Metric>
-void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_points.measure(metric, levels[1], points, levels[0].radius2, params.executor);
-  measured = true;
-}
-
-// Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
-// more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
-// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count
-// as clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
-template <class Metric>
-bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
-  if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
-  measure(metric);
-  const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
-  motion = 0;
-  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k)) continue;
-    const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
-    if (cluster_points.clusters[k].extent + moved > limit) return false;
-    motion = std::max(motion, moved);
-  }
-  for (const LoneNode& node : lone) {
-    const Level& level = levels[node.level];
-    const double moved =
-        std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
-    if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
-  }
-  return true;
-}
-
-void Hierarchy::Impl::repair_if_pending() {
-  if (!pending) return;
-  set_wrap_slack();
-  with_metric(box, [&](const auto& metric) {
-    refresh_centers(metric);
-    repair(metric, 0);
-  });
-}
-
-// Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
-// of its repairs so far. Until both have been seen once, repair, which is what measures them.
-bool Hierarchy::Impl::repair_pays(std::int64_t orphans) const {
-  if (!build_per_point.known() || !sweep_per_point.known() || !per_orphan.known()) return true;
-  const auto n = static_cast<double>(raw.size());
-  return sweep_per_point.seconds() * n + per_orphan.seconds() * static_cast<double>(orphans) <
-         build_per_point.seconds() * n;
-}
 
 template <class Metric>
 void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
@@ -178,7 +38,11 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
     const auto covering = Clock::now();
     if (i < top()) cover_level(metric, i);
     cover_seconds += seconds_since(covering);
-    connect_level(metric, i);
+    if (edges_are_complete(i)) {
+      find_too_close(metric, i);
+    } else {
+      connect_level(metric, i);
+    }
     unfold_joined(i);
     separate_level(i);
   }
@@ -190,14 +54,16 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   fold();
   ++stats.repairs;
   pending = measured = false;
-  strayed += stats.reparented - reparented_before;
-  if (static_cast<double>(strayed) > kStrayed * static_cast<double>(raw.size())) reorder();
-
+  const std::int64_t orphans = stats.reparented - reparented_before;
   const double n = static_cast<double>(std::max<std::size_t>(raw.size(), 1));
   const double orphan_seconds = std::max(0.0, cover_seconds - check_seconds);
   sweep_per_point.observe((seconds_since(start) - orphan_seconds) / n);
-  const std::int64_t orphans = stats.reparented - reparented_before;
   if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
+  strayed += orphans;
+  if (static_cast<double>(strayed) <= kStrayed * n) return;
+  const auto reordering = Clock::now();
+  reorder();
+  reorder_per_point.observe(seconds_since(reordering) / n);
 }
 
 /// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
@@ -245,15 +111,37 @@ void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
   }
 }
 
+// The level below needs all edges within rho_i + kEdgeSlack R_i / 2, to find all within its own reach. Of two
+// nodes, one may have come when the other had moved already, which then counts twice.
+bool Hierarchy::Impl::edges_are_complete(int i) const {
+  const Level& level = levels[i];
+  return i > 1 &&
+         level.complete - 3 * level.moved >= level.threshold + 0.5 * kEdgeSlack * level.radius * kInflate;
+}
+
+/// What connect_level() finds, where edges are known to be complete.
+template <class Metric>
+void Hierarchy::Impl::find_too_close(const Metric& metric, int i) {
+  const Level& level = levels[i];
+  const double separation2 = levels[i - 1].radius2;
+  too_close.clear();
+  for (std::int32_t k = 0; k < level.size(); ++k)
+    for (const std::int32_t other : level.edges.row(k))
+      if (k < other && metric.distance2(level.position[k], level.position[other]) <= separation2)
+        too_close.push_back({k, other});
+}
+
 template <class Metric>
 void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   Level& level = levels[i];
+  level.complete = level.reach;
+  level.moved = 0;
   level.edges.clear();
   level.edges.resize(level.position.size());
   too_close.clear();
   const double separation2 = levels[i - 1].radius2;
   const auto connect_node = [&](std::int32_t k) {
-    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.threshold2);
+    const std::size_t hits = candidates.select(metric, level.position[k], 0, level.reach * level.reach);
     row.clear();
     for (std::size_t h = 0; h < hits; ++h) {
       const std::size_t c = candidates.hit(h);
@@ -274,8 +162,8 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
     return;
   }
   const Level& above = levels[i + 1];
-  const double reach = (level.threshold + level.radius) * kInflate,
-               parent_reach = (level.threshold + 2 * level.radius) * kInflate;
+  const double reach = (level.reach + level.radius) * kInflate,
+               parent_reach = (level.reach + 2 * level.radius) * kInflate;
   siblings.fill(level, above);
   for (std::int32_t parent = 0; parent < above.size(); ++parent) {
     if (!above.is_alive(parent)) continue;
@@ -333,10 +221,7 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
   ++stats.demotions;
 }
 
-#define DCH_INSTANTIATE(Metric)                                              \
-  template std::int64_t Hierarchy::Impl::count_orphans(const Metric&) const; \
-  template void Hierarchy::Impl::measure(const Metric&);                     \
-  template void Hierarchy::Impl::repair(const Metric&, double);
+#define DCH_INSTANTIATE(Metric) template void Hierarchy::Impl::repair(const Metric&, double);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)
 DCH_INSTANTIATE(detail::LatticeMetric)

@@ -96,7 +96,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
   Level& at = levels[level];
   const Vec3 position = at.position[node];
   const auto join = [&](std::int32_t other) {
-    if (other == node || metric.distance2(position, at.position[other]) > at.threshold2) return;
+    if (other == node || metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
     at.edges.push(node, other);
     at.edges.push(other, node);
     if (is_lone(level, other)) unfold(level, other);
@@ -107,7 +107,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     return;
   }
   const Level& above = levels[level + 1];
-  const double reach = (at.threshold + at.radius) * kInflate;
+  const double reach = (at.reach + at.radius) * kInflate;
   const auto join_children = [&](std::int32_t parent) {
     if (metric.distance2(position, above.position[parent]) > reach * reach) return;
     for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])

@@ -198,11 +198,17 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
     verdict.require(h.is_alive(i, k) || h.levels[i].edges.row(k).empty(), i, "a dead node has edges");
   Marks joined(h.size(i));
   std::vector<std::int32_t> row;
+  const double longest = h.levels[i].threshold + 2 * (h.levels[i].reach - h.levels[i].threshold);
+  const double longest2 = longest * longest;
   const std::vector<Member> members = members_of(h, i);
   for (std::size_t m = 0; m < members.size() && !verdict.failed(); ++m) {
     const Member& a = members[m];
     row.clear();
     if (a.node != kNone) h.neighbors(metric, i, a.node, row);
+    if (a.node != kNone && i > 1)
+      for (const std::int32_t k : h.levels[i].edges.row(a.node))
+        verdict.require(metric.distance2(a.at, h.position(i, k)) <= longest2, i, "edge between ", a.id,
+                        " and ", h.id(i, k), " is longer than any should be");
     verdict.require(joined.set(static_cast<std::int32_t>(m), row), i, "point ", a.id, " has a repeated edge");
     for (const std::int32_t k : row)
       verdict.require(k != a.node && h.is_alive(i, k), i, "point ", a.id,

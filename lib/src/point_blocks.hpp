@@ -76,7 +76,12 @@ struct PointBlocks {
       for (std::int32_t lane = 0; lane < count[block]; ++lane) f(block * kBlock + lane);
   }
 
-  void clear() { *this = PointBlocks(); }
+  /// Keeps the memory, for the next build.
+  void clear() {
+    position.clear();
+    for (auto* array : {&id, &cluster, &next, &count, &free}) array->clear();
+    alive = 0;
+  }
   std::size_t memory_bytes() const {
     return position.capacity() * sizeof(Vec3) +
            (id.capacity() + cluster.capacity() + next.capacity() + count.capacity() + free.capacity()) *

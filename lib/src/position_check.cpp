@@ -119,15 +119,14 @@ struct Surroundings {
     }
     are_finite = differences == 0;
   }
-  double largest_coordinate() const {
-    return std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
-  }
+  double largest_coordinate() const { return std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z}); }
   Vec3 low, high;
   bool are_finite;
 };
 
 /// Throws for the first position that has something wrong with it, else returns the largest reach.
-double check_one_by_one(Span<const Vec3> positions, const WrapError& error, double farthest, double tolerance) {
+double check_one_by_one(Span<const Vec3> positions, const WrapError& error, double farthest,
+                        double tolerance) {
   double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3 p = positions[i];
@@ -162,7 +161,8 @@ double check_positions(Span<const Vec3> positions, const Box& box) {
   if (positions.empty()) return 0;
   const Surroundings around(positions);
   const double largest = error.reach_between(around.low, around.high);
-  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest) return largest;
+  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest)
+    return largest;
   return check_one_by_one(positions, error, farthest, tolerance);
 }
 

@@ -49,8 +49,9 @@ struct HierarchyParams {
   /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and
   /// all pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
   int max_roots = 16;
-  /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in levels
-  /// i and above only, and in no cluster of level 1; so that gas in a huge box costs as much as in a small one.
+  /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in
+  /// levels i and above only, and in no cluster of level 1; so that gas in a huge box costs as much as in a
+  /// small one.
   bool fold_lone_points = true;
   /// Threads to make lists with; null for that of the caller alone. Not owned; results do not depend on it.
   Executor* executor = nullptr;
@@ -64,7 +65,8 @@ struct LevelInfo {
   double covering_radius = 0;  ///< R_i = 2^i r0: level i+1 covers level i within it [length]
   double edge_threshold = 0;   ///< rho_i [length]
   std::int64_t nodes = 0;
-  std::int64_t edges = 0;       ///< of G_c at this level; -1 for level 0, where lists enumerate them
+  std::int64_t edges = 0;  ///< stored: those of G_c and, from level 2 on, some longer ones; -1 for level 0,
+                           ///< where lists enumerate them
   std::int64_t max_degree = 0;  ///< most stored edges of a node
 };
 

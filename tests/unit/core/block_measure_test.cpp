@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "simd/block_measure.hpp"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>
@@ -7,7 +9,6 @@
 
 #include "metric.hpp"
 #include "random.hpp"
-#include "simd/block_measure.hpp"
 
 namespace dch::detail {
 namespace {
@@ -27,8 +28,8 @@ Measured measure(InstructionSet set, const OrthorhombicMetric& metric, const std
   Measured m;
   const double from[3] = {center.x, center.y, center.z};
   m.done = measure_block(set)(metric.brick(), &positions[0].x, index.data(),
-                              static_cast<std::int32_t>(index.size()), from, covered2, &m.wrapped[0].x, m.offset,
-                              m.extremes);
+                              static_cast<std::int32_t>(index.size()), from, covered2, &m.wrapped[0].x,
+                              m.offset, m.extremes);
   return m;
 }
 

@@ -237,6 +237,52 @@ TEST(HierarchyTest, ParentsLeadToARootInEveryLevel) {
   }
 }
 
+// A point on its own stands in all levels up to its highest, though it is not in memory in the lower ones.
+TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
+  HierarchyParams params = with_radius(1);
+  params.base_radius = 0.5;
+  params.max_roots = 1;
+  for (const bool fold : {true, false}) {
+    params.fold_lone_points = fold;
+    Hierarchy h(params);
+    std::vector<Vec3> points = scenes::uniform(200, {5, 5, 5}, 1);
+    points.push_back({200, 0, 0});
+    h.build(points, Box::none());
+    EXPECT_EQ(h.validate(), "");
+    const std::int32_t alone = 200;
+    ASSERT_GE(h.top_level(alone), 6);
+    for (int i = 0; i < h.top_level(alone); ++i) {
+      EXPECT_EQ(h.parent(alone, i), alone) << i;
+      if (i < 5) {
+        EXPECT_TRUE(h.neighbors(alone, i).empty()) << i;
+      }
+    }
+    EXPECT_EQ(h.level(0).nodes, 201);
+    std::int64_t standing = 0;
+    for (std::int32_t id = 0; id <= alone; ++id) standing += h.top_level(id) >= 2;
+    EXPECT_EQ(h.level(2).nodes, standing);
+    EXPECT_THROW(h.neighbors(alone, h.levels()), InvalidParameter);
+    EXPECT_THROW(h.parent(alone, -1), InvalidParameter);
+    h.remove(alone);
+    EXPECT_EQ(h.validate(), "");
+  }
+}
+
+// Path compression: the box around a droplet and its gas may be as wide as it likes.
+TEST(HierarchyTest, MemoryDoesNotGrowWithTheBox) {
+  const auto bytes_in = [](double width) {
+    Hierarchy h(with_radius(1));
+    std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
+    for (const Vec3 f : scenes::uniform(400, {1, 1, 1}, 4)) points.push_back(width * f);
+    h.build(points, Box::orthorhombic({width, width, width}));
+    NeighborList list;
+    h.list(list_of(1), list);
+    return static_cast<double>(h.stats().memory_bytes);
+  };
+  const double narrow = bytes_in(200);
+  for (const double width : {1e3, 1e5, 1e7}) EXPECT_LT(bytes_in(width), 1.1 * narrow) << width;
+}
+
 TEST(HierarchyTest, RenumberingKeepsTheStructure) {
   std::vector<Vec3> points = scenes::uniform(200, {6, 6, 6}, 4);
   Hierarchy h(with_radius(1));

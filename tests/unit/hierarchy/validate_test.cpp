@@ -130,6 +130,55 @@ TEST_F(ValidateTest, ReportsAMissingEdgeWhileRepairIsPending) {
   expect_report("have parents that no edge joins");
 }
 
+/// A dense cube and three points far from it and from each other.
+class ValidateLonePointsTest : public ::testing::Test {
+ protected:
+  ValidateLonePointsTest() : hierarchy_(params()) {
+    std::vector<Vec3> points = scenes::uniform(200, {8, 8, 8}, 7);
+    for (const Vec3 far : {Vec3{100, 0, 0}, Vec3{0, 200, 0}, Vec3{0, 0, 300}}) points.push_back(far);
+    hierarchy_.build(points, Box::none());
+  }
+  static HierarchyParams params() {
+    HierarchyParams p;
+    p.radius = 1.5;
+    p.base_radius = 0.7;
+    p.max_roots = 1;
+    return p;
+  }
+  HierarchyTestAccess::Impl& inside() { return HierarchyTestAccess::impl(hierarchy_); }
+  void expect_report(const std::string& part) {
+    const std::string report = hierarchy_.validate();
+    EXPECT_NE(report.find(part), std::string::npos) << "reported: '" << report << "'";
+  }
+  Hierarchy hierarchy_;
+};
+
+TEST_F(ValidateLonePointsTest, SoundHierarchyPasses) {
+  EXPECT_EQ(hierarchy_.validate(), "");
+  ASSERT_EQ(inside().lone.size(), 3u);
+}
+
+TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
+  const auto [level, node] = inside().lone[0];
+  const Vec3 near_the_others = hierarchy_.position(0) + Vec3{0.01, 0, 0};
+  for (int i = level; i < hierarchy_.levels(); ++i)  // all its nodes
+    for (std::int32_t k = 0; k < inside().levels[i].size(); ++k)
+      if (inside().levels[i].id[k] == inside().id(level, node))
+        inside().levels[i].position[k] = near_the_others;
+  EXPECT_NE(hierarchy_.validate(), "");
+}
+
+TEST_F(ValidateLonePointsTest, ReportsALonePointThatAnotherPlaceClaims) {
+  std::swap(inside().lone[0], inside().lone[1]);
+  expect_report("is not that of its point");
+}
+
+TEST_F(ValidateLonePointsTest, ReportsALonePointWithAnEdge) {
+  const auto [level, node] = inside().lone[0];
+  inside().levels[level].edges.push(node, node == 0 ? 1 : 0);
+  expect_report("is not on its own");
+}
+
 TEST_F(ValidateTest, ReportsTooManyRoots) {
   inside().params.max_roots = 0;
   expect_report("roots");
