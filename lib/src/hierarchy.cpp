@@ -83,7 +83,8 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
   std::size_t bytes =
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes + points.memory_bytes() + cluster_rows.memory_bytes() + assembler.memory_bytes();
+  return bytes + points.memory_bytes() + cluster_rows.memory_bytes() + assembler.memory_bytes() +
+         pair_finder.memory_bytes();
 }
 
 // --- building

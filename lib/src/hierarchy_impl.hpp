@@ -8,6 +8,7 @@
 #include <dch/hierarchy.hpp>
 
 #include "candidate_buffer.hpp"
+#include "cluster_pair_finder.hpp"
 #include "cluster_rows.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
@@ -172,6 +173,12 @@ struct Hierarchy::Impl {
   template <class Metric>
   void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
   void list(const ListParams& request, NeighborList& out);
+  /// Bound on how far a distance of wrapped points is from their pair distance; repairs if that has become
+  /// more than edges allow for [length].
+  double settle_wrap_error();
+
+  // hierarchy_cluster_pairs.cpp
+  void cluster_pairs(const ListParams& request, ClusterPairs& out);
 
   // hierarchy_validate.cpp
   std::string validate() const;
@@ -191,6 +198,7 @@ struct Hierarchy::Impl {
   detail::ClusterRows cluster_rows;
   NeighborList rows;  ///< as ClusterRows found them, where another order is asked for
   detail::ListAssembler assembler;
+  detail::ClusterPairFinder pair_finder;
 };
 
 }  // namespace dch

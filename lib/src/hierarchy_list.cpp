@@ -48,9 +48,7 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
 
 }  // namespace
 
-void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
-  const auto start = std::chrono::steady_clock::now();
-  detail::check_list_params(request, raw.size(), params.radius);
+double Hierarchy::Impl::settle_wrap_error() {
   const double wrap_error = detail::WrapError(box).bound(largest_reach);
   if (wrap_error > wrap_slack) {  // points inserted since the last update lie much farther out
     set_wrap_slack();
@@ -58,7 +56,13 @@ void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
   }
   const double rounding =
       32 * std::numeric_limits<double>::epsilon() * params.radius;  // of relative positions
-  const double error = wrap_error + rounding;
+  return wrap_error + rounding;
+}
+
+void Hierarchy::Impl::list(const ListParams& request, NeighborList& out) {
+  const auto start = std::chrono::steady_clock::now();
+  detail::check_list_params(request, raw.size(), params.radius);
+  const double error = settle_wrap_error();
   const detail::PairFilter filter(raw, box, request, error);
   const bool as_found =
       request.order == RowOrder::by_structure && request.kind == ListKind::half && request.first_ghost < 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/cluster_pairs.hpp>
 #include <dch/executor.hpp>
 #include <dch/neighbor_list.hpp>
 #include <dch/pair_search.hpp>
@@ -139,6 +140,13 @@ class Hierarchy {
   /// The list of all pairs params asks for; row k is the point with id k, rows of free ids are empty.
   /// @throws InvalidParameter if params.list_radius() exceeds radius, or types or exclusions do not fit.
   void list(const ListParams& params, NeighborList& out);
+
+  /// The same pairs for SIMD force kernels, clusters being cut from the nodes of level 1. params.kind and
+  /// params.order have no meaning here. O(n) at bounded density; the same result on any number of threads and
+  /// any instruction set.
+  /// @throws InvalidParameter as list(), and if the radius is outside 1e-9..1e9, where single precision might
+  /// overflow.
+  void cluster_pairs(const ListParams& params, ClusterPairs& out);
 
   /// Checks every invariant of Lemma 5.3.1 and of the data layout against all pairs: nesting, coverage,
   /// separation, parents, children, edges of every level. O(n^2) time, for tests and for --verify. Returns an
