@@ -173,7 +173,7 @@ void cluster_pairs(benchmark::State& state) {
     hierarchy.cluster_pairs(request(), pairs);
     benchmark::DoNotOptimize(pairs.entries.data());
   }
-  report_per(state, "ns/atom", melt.atoms());
+  report_per(state, "time/atom", melt.atoms());
   count_slots(state, melt);
 }
 
@@ -192,7 +192,7 @@ void neighbor_list(benchmark::State& state) {
     hierarchy.list(by_structure, list);
     benchmark::DoNotOptimize(list.j.data());
   }
-  report_per(state, "ns/atom", melt.atoms());
+  report_per(state, "time/atom", melt.atoms());
 }
 
 void refresh(benchmark::State& state) {
@@ -202,7 +202,7 @@ void refresh(benchmark::State& state) {
     melt.pairs.refresh(melt.positions, melt.box);
     benchmark::DoNotOptimize(melt.pairs.at.data());
   }
-  report_per(state, "ns/atom", melt.atoms());
+  report_per(state, "time/atom", melt.atoms());
 }
 
 template <dch::ForcePrecision precision, bool sums>
@@ -220,7 +220,7 @@ void forces(benchmark::State& state) {
     }
     benchmark::DoNotOptimize(force.data());
   }
-  report_per(state, "ns/useful", static_cast<double>(melt.useful));
+  report_per(state, "time/useful", static_cast<double>(melt.useful));
   count_slots(state, melt);
 }
 
@@ -235,7 +235,7 @@ void forces_of_types(benchmark::State& state) {
     potential.add_forces(melt.pairs, precision, force);
     benchmark::DoNotOptimize(force.data());
   }
-  report_per(state, "ns/useful", static_cast<double>(melt.useful));
+  report_per(state, "time/useful", static_cast<double>(melt.useful));
 }
 
 const std::vector<std::int64_t> kSets{0, 1, 2, 3};

@@ -21,33 +21,58 @@ constexpr std::int32_t kMostShifts = 0x10000;          ///< that the entries of 
 constexpr int kPartsPerThread = 4;
 constexpr double kFloatRounding = 0x1p-24;
 
-/// Bits 4 a + b of all a and b in two sets of slots.
-std::uint32_t all_pairs_of(std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t spread = (a & 1) | (a & 2) << 3 | (a & 4) << 6 | (a & 8) << 9;
-  return spread * b;
+/// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
+std::uint32_t spread(std::uint32_t slots) {
+  return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
 }
 
-/// Rounded outward.
-float round_down(double v) { return static_cast<float>(v - std::abs(v) * kFloatRounding * 2); }
-float round_up(double v) { return static_cast<float>(v + std::abs(v) * kFloatRounding * 2); }
+/// Puts those below `limit` along an axis in front, without branches; returns where the others begin.
+template <class Point>
+Point* partition(Point* first, Point* last, int axis, float limit) {
+  for (Point* p = first; p != last; ++p) {
+    const Point point = *p;
+    *p = *first;
+    *first = point;
+    first += point.at[axis] < limit;
+  }
+  return first;
+}
+
+/// What std::nth_element does with the points along an axis. Limits are guessed as if the points were spread
+/// evenly between `low` and `high`, which mostly leaves little to do after the first.
+template <class Point>
+void split(Point* first, Point* nth, Point* last, int axis, float low, float high) {
+  constexpr std::ptrdiff_t kFew = 12;
+  constexpr int kGuesses = 4;
+  for (int guess = 0; guess < kGuesses && last - first > kFew; ++guess) {
+    const float limit =
+        low + (high - low) * (static_cast<float>(nth - first) + 0.5f) / static_cast<float>(last - first);
+    Point* const middle = partition(first, last, axis, limit);
+    if (middle == nth) return;
+    (middle < nth ? first : last) = middle;
+    (middle < nth ? low : high) = limit;
+  }
+  std::nth_element(first, nth, last,
+                   [axis](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
+}
 
 /// Orders points so that each four of them are the leaf of a k-d tree; the last leaf may have fewer.
 template <class Point>
 void order_by_fours(Point* begin, std::int32_t count) {
   if (count <= kSlots) return;
-  Vec3 low = begin->at, high = low;
+  float low[3], high[3];
+  std::copy_n(begin->at, 3, low);
+  std::copy_n(begin->at, 3, high);
   for (const Point* p = begin + 1; p != begin + count; ++p) {
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], p->at[axis]);
       high[axis] = std::max(high[axis], p->at[axis]);
     }
   }
-  const Vec3 size = high - low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const std::int32_t fours = (count + kSlots - 1) / kSlots;
-  const std::int32_t middle = fours / 2 * kSlots;
-  std::nth_element(begin, begin + middle, begin + count,
-                   [axis](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
+  const float size[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  const auto axis = static_cast<int>(std::max_element(size, size + 3) - size);
+  const std::int32_t middle = (count + kSlots - 1) / kSlots / 2 * kSlots;
+  split(begin, begin + middle, begin + count, axis, low[axis], high[axis]);
   order_by_fours(begin, middle);
   order_by_fours(begin + middle, count - middle);
 }
@@ -74,7 +99,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   // longer than `longest`.
   const double longest = scene.reach + 4 * largest_extent;
   const double reach = (scene.reach + 16 * kFloatRounding * longest) * (1 + 8 * kFloatRounding);
-  limit2_ = round_up(reach * reach);
+  limit2_ = static_cast<float>(reach * reach * (1 + 2 * kFloatRounding));
   images_ = CellImages(scene.box);
   one_image_ = !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
@@ -150,7 +175,8 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
   scene.points.for_each(scene.nodes.first_child[k], [&](std::int32_t slot) {
     const Vec3 at = scene.metric.displacement(center, scene.points.position[slot]);
     extent2 = std::max(extent2, norm2(at));
-    local.push_back({at, scene.points.id[slot]});
+    local.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
+                     scene.points.id[slot]});
   });
   const auto count = static_cast<std::int32_t>(local.size());
   order_by_fours(local.data(), count);
@@ -173,19 +199,20 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count
   ClusterOfFour<double>& at = out.at[cluster];
   ClusterOfFour<float>& rounded = out.at_float[cluster];
   std::uint32_t ghosts = 0;
-  Vec3 low = points->at, high = low;
+  float box[6];
+  for (int axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
   for (int slot = 0; slot < kSlots; ++slot) {
     const LocalPoint& point = points[slot < count ? slot : 0];
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], point.at[axis]);
-      high[axis] = std::max(high[axis], point.at[axis]);
+      box[axis] = std::min(box[axis], point.at[axis]);
+      box[axis + 3] = std::max(box[axis + 3], point.at[axis]);
     }
-    at.x[slot] = point.at.x;
-    at.y[slot] = point.at.y;
-    at.z[slot] = point.at.z;
-    rounded.x[slot] = static_cast<float>(point.at.x);
-    rounded.y[slot] = static_cast<float>(point.at.y);
-    rounded.z[slot] = static_cast<float>(point.at.z);
+    rounded.x[slot] = point.at[0];
+    rounded.y[slot] = point.at[1];
+    rounded.z[slot] = point.at[2];
+    at.x[slot] = double{point.at[0]};  // near enough for refresh() to tell the image
+    at.y[slot] = double{point.at[1]};
+    at.z[slot] = double{point.at[2]};
     const std::size_t k = cluster * kSlots + static_cast<std::size_t>(slot);
     out.particle[k] = slot < count ? point.id : kNone;
     out.type[k] = slot < count && !request.types.empty() ? request.types[static_cast<std::size_t>(point.id)] : 0;
@@ -193,8 +220,6 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count
     if (request.first_ghost >= 0 && point.id >= request.first_ghost) ghosts |= 1u << slot;
     if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.id)] = static_cast<std::int32_t>(k);
   }
-  const float box[6] = {round_down(low.x), round_down(low.y), round_down(low.z),
-                        round_up(high.x),  round_up(high.y),  round_up(high.z)};
   boxes_.set(cluster, box);
   filled_[cluster] = static_cast<std::uint8_t>((1u << count) - 1);
   ghost_[cluster] = static_cast<std::uint8_t>(ghosts);
@@ -210,8 +235,7 @@ void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, 
   const std::vector<Vec3>& center = scene.nodes.position;
   const auto limit_for = [&](std::int32_t other) { return (scene.reach + extent(k) + extent(other)) * kInflate; };
   part.near.clear();
-  part.cluster.clear();
-  part.shift_of.clear();
+  part.source.clear();
   const auto first_shift = static_cast<std::int32_t>(part.shift.size());
   collect(k, k, Vec3{}, Vec3{}, clusters, part);
   const auto add = [&](std::int32_t other, Vec3 between) {
@@ -240,7 +264,7 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
                        static_cast<float>(between.z)};
   float box[6];
   for (int s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
-  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters)));
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
   const std::int32_t found = kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_,
                                                   part.chosen.data());
   if (found == 0) return;
@@ -258,8 +282,7 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
     }
     for (int s = 0; s < 6; ++s) part.boxes.side[s][part.near.size()] = boxes_.side[s][cluster] + by[s % 3];
     part.near.push_back(moved);
-    part.cluster.push_back(c);
-    part.shift_of.push_back(shift);
+    part.source.push_back({c, shift});
   }
 }
 
@@ -268,7 +291,7 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
                                    const ListParams& request, const ClusterPairs& clusters, Part& part) {
   const std::int32_t c = nodes_[static_cast<std::size_t>(k)].first + own;
   const auto count = static_cast<std::int32_t>(part.near.size()) - own;
-  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(count)));
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(count + kBoxesAtOnce)));
   std::int32_t* const chosen = part.chosen.data();
   float box[6];
   for (int s = 0; s < 6; ++s) box[s] = part.boxes.side[s][static_cast<std::size_t>(own)];
@@ -277,23 +300,29 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
                                   chosen, found);
   const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
   if (excludes) mark_exclusions(*request.exclusions, c, clusters, part);
+  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
+  const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
+  const std::size_t before = part.entries.size();
+  part.entries.resize(before + static_cast<std::size_t>(found));
+  ClusterPairs::Entry* const first = part.entries.data();
+  ClusterPairs::Entry* to = first + before;
   bool has_row = false;
   for (std::int32_t n = 0; n < found; ++n) {
-    const auto near = static_cast<std::size_t>(own + chosen[n]);
-    const std::int32_t other = part.cluster[near];
-    const auto a = static_cast<std::size_t>(c), b = static_cast<std::size_t>(other);
-    std::uint32_t mask = all_pairs_of(filled_[a], filled_[b]) & ~all_pairs_of(ghost_[a], ghost_[b]);
+    const auto [other, shift] = part.source[static_cast<std::size_t>(own + chosen[n])];
+    const auto b = static_cast<std::size_t>(other);
+    std::uint32_t mask = filled * filled_[b] & ~(ghosts * ghost_[b]);
     if (chosen[n] == 0) mask &= kPairsWithinCluster;
     if (excludes) mask &= ~std::uint32_t{part.excluded[b]};
     if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
     if (mask == 0) continue;
-    const std::int32_t shift = part.shift_of[near];
-    if (!has_row || shift - part.rows.back().first_shift >= kMostShifts)
-      part.rows.push_back({static_cast<std::int64_t>(part.entries.size()), c, has_row ? shift : first_shift});
-    has_row = true;
-    part.entries.push_back({other, static_cast<std::uint16_t>(mask),
-                            static_cast<std::uint16_t>(shift - part.rows.back().first_shift)});
+    if (!has_row || shift - first_shift >= kMostShifts) {
+      if (has_row) first_shift = shift;
+      part.rows.push_back({to - first, c, first_shift});
+      has_row = true;
+    }
+    *to++ = {other, static_cast<std::uint16_t>(mask), static_cast<std::uint16_t>(shift - first_shift)};
   }
+  part.entries.resize(static_cast<std::size_t>(to - part.entries.data()));
   if (excludes) unmark_exclusions(*request.exclusions, c, clusters, part);
 }
 
@@ -374,7 +403,7 @@ std::size_t ClusterPairFinder::memory_bytes() const {
                       bytes_of(slot_of_);
   for (const Part& part : parts_)
     bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) + bytes_of_boxes(part.boxes) +
-             bytes_of(part.near) + bytes_of(part.cluster) + bytes_of(part.shift_of) + bytes_of(part.chosen) +
+             bytes_of(part.near) + bytes_of(part.source) + bytes_of(part.chosen) +
              bytes_of(part.excluded);
   return bytes;
 }

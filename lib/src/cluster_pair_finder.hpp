@@ -47,8 +47,8 @@ class ClusterPairFinder {
     double extent = 0;  ///< distance of the farthest point from the center [length]
     float box[6]{};     ///< around its points, relative to the center
   };
-  struct LocalPoint {
-    Vec3 at;
+  struct alignas(16) LocalPoint {
+    float at[3];  ///< relative to the center
     std::int32_t id;
   };
   /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
@@ -60,6 +60,10 @@ class ClusterPairFinder {
     }
     BoxArrays from(std::int32_t k) const;
   };
+  /// Which cluster stands near a node, and by which of the part's shifts.
+  struct Source {
+    std::int32_t cluster, shift;
+  };
   /// What one part of the work finds and needs.
   struct Part {
     std::vector<ClusterPairs::Row> rows;
@@ -67,7 +71,7 @@ class ClusterPairFinder {
     std::vector<ClusterPairs::Shift> shift;
     Boxes boxes;  ///< of the clusters near a node, those of the node first
     std::vector<ClusterOfFour<float>> near;
-    std::vector<std::int32_t> cluster, shift_of;  ///< of `near`
+    std::vector<Source> source;  ///< of `near`
     std::vector<std::int32_t> chosen;
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
   };

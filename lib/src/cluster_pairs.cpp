@@ -77,7 +77,14 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
     const Vec3 between = origin[static_cast<std::size_t>(shift[s].to)] -
                          origin[static_cast<std::size_t>(shift[s].from)];
     const Vec3 vector = between + images.vector(shift[s].image);
-    for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s], shift_vector_float[s]);
+    ClusterOfFour<double>& whole = shift_vector[s].whole;
+    ClusterShift<float>& parts = shift_vector_float[s];
+    for (int slot = 0; slot < kSlots; ++slot) {
+      put(vector, slot, whole, parts.high);
+      parts.low.x[slot] = static_cast<float>(whole.x[slot] - double{parts.high.x[slot]});
+      parts.low.y[slot] = static_cast<float>(whole.y[slot] - double{parts.high.y[slot]});
+      parts.low.z[slot] = static_cast<float>(whole.z[slot] - double{parts.high.z[slot]});
+    }
   }
   box = now;
 }

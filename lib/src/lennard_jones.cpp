@@ -67,7 +67,7 @@ void add_cluster_forces(const ClusterPairs& pairs, const std::vector<ClusterOfFo
 
 template <class Real>
 void run(const detail::LjFunctions<Real>& functions, const ClusterPairs& pairs,
-         const std::vector<ClusterOfFour<Real>>& at, const std::vector<ClusterOfFour<Real>>& shift,
+         const std::vector<ClusterOfFour<Real>>& at, const std::vector<ClusterShift<Real>>& shift,
          const std::array<std::vector<Real>, 6>& tables, int types, std::vector<ClusterOfFour<Real>>& scratch,
          Span<Vec3> forces, LennardJonesSums* sums) {
   scratch.assign(at.size(), ClusterOfFour<Real>());

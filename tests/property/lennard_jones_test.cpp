@@ -47,7 +47,8 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
     for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
       set_instruction_set(set);
       const bool full = precision == ForcePrecision::full;
-      const double limit = full ? rounding_in(pairs.box) : 2e-6;
+      // A liquid averages over many pairs; here a few close ones may make up all of the force.
+      const double limit = full ? rounding_in(pairs.box) : 1e-5;
       const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
       std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
       const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces);
@@ -56,9 +57,9 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
       EXPECT_LT(force_error(once_more, expected.force), limit) << where;
       double scale = std::abs(expected.sums.energy);
       for (const double v : expected.sums.virial) scale += std::abs(v);
-      EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-6) * scale) << where;
+      EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-5) * scale) << where;
       for (std::size_t k = 0; k < 6; ++k)
-        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-6) * scale) << where << k;
+        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-5) * scale) << where << k;
     }
 }
 

@@ -19,7 +19,7 @@ inline Vec3 slot_displacement(const ClusterPairs& pairs, const ClusterPairs::Row
                               const ClusterPairs::Entry& entry, int a, int b) {
   const auto& i = pairs.at[static_cast<std::size_t>(row.cluster)];
   const auto& j = pairs.at[static_cast<std::size_t>(entry.cluster)];
-  const auto& s = pairs.shift_vector[static_cast<std::size_t>(row.first_shift + entry.shift)];
+  const auto& s = pairs.shift_vector[static_cast<std::size_t>(row.first_shift + entry.shift)].whole;
   return {j.x[b] + s.x[b] - i.x[a], j.y[b] + s.y[b] - i.y[a], j.z[b] + s.z[b] - i.z[a]};
 }
 

@@ -23,6 +23,19 @@ struct alignas(64) ClusterOfFour<float> {
   float unused[4]{};  ///< fills the register and the cache line; 0
 };
 
+/// A vector from one origin to another, the same for all four slots: the sum of its parts. Single precision
+/// takes two, else the rounding of long vectors would be most of its error.
+template <class Real>
+struct ClusterShift;
+template <>
+struct ClusterShift<double> {
+  ClusterOfFour<double> whole;
+};
+template <>
+struct ClusterShift<float> {
+  ClusterOfFour<float> high, low;
+};
+
 /// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
 ///
 /// Every pair of particles that the ListParams ask for stands in one entry, once (twice if two of its images
@@ -67,8 +80,8 @@ struct ClusterPairs {
   // What refresh() writes. Padding stands where the first particle of its cluster is.
   std::vector<ClusterOfFour<double>> at;         ///< by cluster, relative to its origin [length]
   std::vector<ClusterOfFour<float>> at_float;    ///< the same in single precision
-  std::vector<ClusterOfFour<double>> shift_vector;       ///< by shift, the same in all four slots [length]
-  std::vector<ClusterOfFour<float>> shift_vector_float;  ///< the same in single precision
+  std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
+  std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
 
   std::size_t particles = 0;  ///< number of positions
   int types = 1;              ///< of ListParams::cutoffs

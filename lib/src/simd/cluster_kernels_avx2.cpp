@@ -29,6 +29,9 @@ struct Avx2Float {
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
   }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    return append_lanes(lanes, first, to);
+  }
   static V less(V a, V b, std::uint32_t mask, int part) {
     const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * part))), lane);
@@ -42,10 +45,12 @@ struct Avx2Float {
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {twice(_mm_load_ps(at.x)), twice(_mm_load_ps(at.y)), twice(_mm_load_ps(at.z))};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterOfFour<float>& shift) {
-    return {twice(_mm_add_ps(_mm_load_ps(at.x), _mm_load_ps(shift.x))),
-            twice(_mm_add_ps(_mm_load_ps(at.y), _mm_load_ps(shift.y))),
-            twice(_mm_add_ps(_mm_load_ps(at.z), _mm_load_ps(shift.z)))};
+  static V moved(const float* at, const float* low, const float* high) {
+    return twice(_mm_add_ps(_mm_add_ps(_mm_load_ps(at), _mm_load_ps(low)), _mm_load_ps(high)));
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
+    return {moved(at.x, shift.low.x, shift.high.x), moved(at.y, shift.low.y, shift.high.y),
+            moved(at.z, shift.low.z, shift.high.z)};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
@@ -105,10 +110,10 @@ struct Avx2Double {
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
   static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterOfFour<double>& shift) {
-    return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.x)),
-            add(_mm256_load_pd(at.y), _mm256_load_pd(shift.y)),
-            add(_mm256_load_pd(at.z), _mm256_load_pd(shift.z))};
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+    return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.whole.x)),
+            add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
+            add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
   }
   static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));

@@ -27,6 +27,13 @@ struct Avx512Float {
   static V msub(V a, V b, V c) { return _mm512_fmsub_ps(a, b, c); }
   static V inverse(V a) { return _mm512_div_ps(set1(1), a); }
   static std::uint32_t bits_at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    const __m512i numbers = _mm512_add_epi32(
+        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), _mm512_set1_epi32(first));
+    // Compressed in a register, then stored whole: a compressing store is many times slower on some processors.
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), numbers));
+    return __builtin_popcount(lanes);
+  }
   static __mmask16 less(V a, V b, std::uint32_t mask, int) {
     return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
   }
@@ -43,8 +50,8 @@ struct Avx512Float {
     return {_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
             _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterOfFour<float>& shift) {
-    return four_times(add(_mm512_load_ps(at.x), _mm512_load_ps(shift.x)));
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
+    return four_times(add(add(_mm512_load_ps(&at), _mm512_load_ps(&shift.low)), _mm512_load_ps(&shift.high)));
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int) {
     const __m512i slot = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
@@ -62,7 +69,7 @@ struct Avx512Float {
     return add(_mm512_shuffle_f32x4(xy, zz, 0x88), _mm512_maskz_shuffle_f32x4(0x0FFF, xy, zz, 0xDD));
   }
   static void add_over_i(const Coordinates<Avx512Float>& force, ClusterOfFour<float>& to) {
-    _mm512_store_ps(to.x, add(_mm512_load_ps(to.x), fold(force.x[0], force.y[0], force.z[0])));
+    _mm512_store_ps(&to, add(_mm512_load_ps(&to), fold(force.x[0], force.y[0], force.z[0])));
   }
   static __m128 over_j(V a) {
     const V pairs = add(a, _mm512_permute_ps(a, 0xB1));
@@ -110,8 +117,8 @@ struct Avx512Double {
   static V twice(const double* at, const double* shift) {
     return _mm512_broadcast_f64x4(_mm256_add_pd(_mm256_load_pd(at), _mm256_load_pd(shift)));
   }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterOfFour<double>& shift) {
-    return {twice(at.x, shift.x), twice(at.y, shift.y), twice(at.z, shift.z)};
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+    return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
   }
   static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));

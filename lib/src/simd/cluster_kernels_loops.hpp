@@ -28,6 +28,13 @@ Coordinates<S> spread(const ClusterOfFour<typename S::Real>& cluster) {
   return all;
 }
 
+/// Writes first + lane for each bit that is set. Returns how many.
+[[maybe_unused]] inline std::int32_t append_lanes(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+  std::int32_t written = 0;
+  for (; lanes != 0; lanes &= lanes - 1) to[written++] = first + __builtin_ctz(lanes);
+  return written;
+}
+
 // --- search: without fused operations, so that all sets round alike
 
 template <class S>
@@ -51,7 +58,7 @@ std::int32_t near_boxes(const BoxArrays& boxes, std::int32_t count, const float*
     }
     std::uint32_t lanes = S::bits_at_most(distance2, limit);
     if (count - k < S::kLanes) lanes &= (1u << (count - k)) - 1;
-    for (; lanes != 0; lanes &= lanes - 1) chosen[found++] = k + __builtin_ctz(lanes);
+    found += S::append(lanes, k, chosen + found);
   }
   return found;
 }

@@ -38,6 +38,9 @@ struct Portable {
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;
     return bits;
   }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    return append_lanes(lanes, first, to);
+  }
   static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int part) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] < b.lane[k]) << k;
@@ -48,8 +51,14 @@ struct Portable {
   }
   static V spread(const Real* four, int part) { return set1(four[part]); }
   static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
-  static Cluster load_cluster(const ClusterOfFour<Real>& at, const ClusterOfFour<Real>& shift) {
-    return {add(load(at.x), load(shift.x)), add(load(at.y), load(shift.y)), add(load(at.z), load(shift.z))};
+  static Cluster moved(const Cluster& cluster, const ClusterOfFour<Real>& by) {
+    return {add(cluster.x, load(by.x)), add(cluster.y, load(by.y)), add(cluster.z, load(by.z))};
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
+    return moved(moved(load_cluster(at), shift.low), shift.high);
+  }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+    return moved(load_cluster(at), shift.whole);
   }
   static V lookup(const Real* table, const std::int32_t* row, const std::int32_t* column, int part) {
     return each([&](int k) { return table[row[part] + column[k]]; });

@@ -29,6 +29,9 @@ struct SseFloat {
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
   }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    return append_lanes(lanes, first, to);
+  }
   static V less(V a, V b, std::uint32_t mask, int part) {
     const __m128i lane = _mm_setr_epi32(1, 2, 4, 8);
     const __m128i bits = _mm_and_si128(_mm_set1_epi32(static_cast<int>(mask >> (4 * part))), lane);
@@ -39,9 +42,12 @@ struct SseFloat {
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {_mm_load_ps(at.x), _mm_load_ps(at.y), _mm_load_ps(at.z)};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterOfFour<float>& shift) {
-    return {add(_mm_load_ps(at.x), _mm_load_ps(shift.x)), add(_mm_load_ps(at.y), _mm_load_ps(shift.y)),
-            add(_mm_load_ps(at.z), _mm_load_ps(shift.z))};
+  static V moved(const float* at, const float* low, const float* high) {
+    return add(add(_mm_load_ps(at), _mm_load_ps(low)), _mm_load_ps(high));
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
+    return {moved(at.x, shift.low.x, shift.high.x), moved(at.y, shift.low.y, shift.high.y),
+            moved(at.z, shift.low.z, shift.high.z)};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const float* const from = table + row[part];
@@ -103,8 +109,9 @@ struct SseDouble {
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
   static V spread(const double* four, int part) { return set1(four[part]); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterOfFour<double>& shift) {
-    return {add(load(at.x), load(shift.x)), add(load(at.y), load(shift.y)), add(load(at.z), load(shift.z))};
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+    const ClusterOfFour<double>& by = shift.whole;
+    return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
   static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const double* const from = table + row[part];

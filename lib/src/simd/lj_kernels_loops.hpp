@@ -58,7 +58,7 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
     const Coordinates<S> i = spread<S>(task.at[row.cluster]);
-    const ClusterOfFour<typename S::Real>* const shift = task.shift + row.first_shift;
+    const ClusterShift<typename S::Real>* const shift = task.shift + row.first_shift;
     coefficient.choose_i(row.cluster);
     Coordinates<S> force_i;
     V energy = S::zero(), virial[6];

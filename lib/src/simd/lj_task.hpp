@@ -15,14 +15,14 @@ struct LjCoefficients {
   const Real *cutoff2, *force12, *force6, *energy12, *energy6, *energy_shift;
 };
 
-/// Lennard-Jones forces of cluster pairs. The single-precision shifts are clusters of four equal vectors.
+/// Lennard-Jones forces of cluster pairs.
 template <class Real>
 struct LjTask {
   const ClusterPairs::Row* rows;  ///< and one more
   std::int64_t row_count;
   const ClusterPairs::Entry* entries;
   const ClusterOfFour<Real>* at;
-  const ClusterOfFour<Real>* shift;
+  const ClusterShift<Real>* shift;
   const std::int32_t* type;  ///< by slot
   std::int32_t types;
   LjCoefficients<Real> coefficients;
