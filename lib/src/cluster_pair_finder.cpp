@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "binary_grid.hpp"
 #include "cell_images.hpp"
 #include "cluster_points.hpp"
 #include "metric.hpp"
@@ -154,7 +155,10 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
   out.origin_of.resize(all);
   out.at.resize(all);
   out.at_float.resize(all);
+  // Positions relative to origins with few digits, and differences of those, hardly ever round.
+  const BinaryGrid grid(out.list_radius);
   out.origin = scene.nodes.position;
+  for (Vec3& origin : out.origin) origin = {grid(origin.x), grid(origin.y), grid(origin.z)};
   boxes_.make_room(all + kBoxesAtOnce);
   filled_.resize(all);
   ghost_.resize(all);

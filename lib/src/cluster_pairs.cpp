@@ -6,6 +6,7 @@
 
 #include <dch/error.hpp>
 
+#include "binary_grid.hpp"
 #include "cell_images.hpp"
 #include "describe.hpp"
 
@@ -18,13 +19,16 @@ Vec3 slot_of(const ClusterOfFour<double>& cluster, int slot) {
   return {cluster.x[slot], cluster.y[slot], cluster.z[slot]};
 }
 
-void put(Vec3 at, int slot, ClusterOfFour<double>& cluster, ClusterOfFour<float>& rounded) {
+void put(Vec3 at, int slot, ClusterOfFour<double>& cluster) {
   cluster.x[slot] = at.x;
   cluster.y[slot] = at.y;
   cluster.z[slot] = at.z;
-  rounded.x[slot] = static_cast<float>(at.x);
-  rounded.y[slot] = static_cast<float>(at.y);
-  rounded.z[slot] = static_cast<float>(at.z);
+}
+
+void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, float& center) {
+  const double middle = grid(0.25 * ((from[0] + from[1]) + (from[2] + from[3])));
+  center = static_cast<float>(middle);
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to[slot] = static_cast<float>(from[slot] - middle);
 }
 
 bool same_periodicity(const Box& a, const Box& b) {
@@ -48,6 +52,7 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
   const detail::CellImages images(now);
+  const detail::BinaryGrid grid(list_radius);
   const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
   for (std::int32_t c = 0; c < clusters(); ++c) {
     const Vec3 center = origin[static_cast<std::size_t>(origin_of[static_cast<std::size_t>(c)])];
@@ -56,7 +61,7 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
     for (int slot = 0; slot < kSlots; ++slot) {
       const std::int32_t i = particle[static_cast<std::size_t>(c * kSlots + slot)];
       if (i == kPadding) {
-        put(slot_of(cluster, 0), slot, cluster, rounded);
+        put(slot_of(cluster, 0), slot, cluster);
         continue;
       }
       // Taken straight from the new position, so that rounding does not add up; the image is that nearest to
@@ -70,20 +75,21 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
                                 " is not finite; check the coordinates of this step");
         d = d + images.vector(images.integers(now.nearest_image(moved) - moved));
       }
-      put(d, slot, cluster, rounded);
+      put(d, slot, cluster);
     }
+    round_axis(grid, cluster.x, rounded.x, rounded.center[0]);
+    round_axis(grid, cluster.y, rounded.y, rounded.center[1]);
+    round_axis(grid, cluster.z, rounded.z, rounded.center[2]);
   }
   for (std::size_t s = 0; s < shift.size(); ++s) {
     const Vec3 between = origin[static_cast<std::size_t>(shift[s].to)] -
                          origin[static_cast<std::size_t>(shift[s].from)];
     const Vec3 vector = between + images.vector(shift[s].image);
-    ClusterOfFour<double>& whole = shift_vector[s].whole;
     ClusterShift<float>& parts = shift_vector_float[s];
-    for (int slot = 0; slot < kSlots; ++slot) {
-      put(vector, slot, whole, parts.high);
-      parts.low.x[slot] = static_cast<float>(whole.x[slot] - double{parts.high.x[slot]});
-      parts.low.y[slot] = static_cast<float>(whole.y[slot] - double{parts.high.y[slot]});
-      parts.low.z[slot] = static_cast<float>(whole.z[slot] - double{parts.high.z[slot]});
+    for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s].whole);
+    for (int axis = 0; axis < 3; ++axis) {
+      parts.high[axis] = static_cast<float>(grid(vector[axis]));
+      parts.low[axis] = static_cast<float>(vector[axis] - double{parts.high[axis]});
     }
   }
   box = now;

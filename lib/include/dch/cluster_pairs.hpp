@@ -20,20 +20,19 @@ struct alignas(32) ClusterOfFour<double> {
 template <>
 struct alignas(64) ClusterOfFour<float> {
   float x[4]{}, y[4]{}, z[4]{};
-  float unused[4]{};  ///< fills the register and the cache line; 0
+  float center[4]{};  ///< what coordinates are relative to; the fourth is 0, and all are in forces
 };
 
-/// A vector from one origin to another, the same for all four slots: the sum of its parts. Single precision
-/// takes two, else the rounding of long vectors would be most of its error.
+/// A vector from one origin to another.
 template <class Real>
 struct ClusterShift;
 template <>
 struct ClusterShift<double> {
-  ClusterOfFour<double> whole;
+  ClusterOfFour<double> whole;  ///< the same for all four slots
 };
 template <>
-struct ClusterShift<float> {
-  ClusterOfFour<float> high, low;
+struct alignas(16) ClusterShift<float> {
+  float high[4]{}, low[4]{};  ///< the vector is their sum; the fourth numbers are 0
 };
 
 /// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
@@ -42,10 +41,13 @@ struct ClusterShift<float> {
 /// are exactly half a period away, both at the list radius). Entries hold other pairs too, farther apart than
 /// the list radius: a force kernel tests its cutoff. Hierarchy::cluster_pairs() makes them.
 ///
-/// Particles are held relative to an origin near them (a node of level 1), so that single precision is as good
-/// in a large box as in a small one. The displacement from slot a of cluster I to slot b of cluster J of an
-/// entry is (at[J][b] + shift) - at[I][a], with the shift that the entry names; it leads to the one image of
-/// the particle that is meant, and needs no box.
+/// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
+/// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the entry
+/// names; it leads to the one image of the particle that is meant, and needs no box. In single precision,
+/// particles are relative to the center of their cluster. Centers relative to origins, and the high parts of
+/// shifts, are multiples of the power of two below list_radius / 10000, so that
+///     (at_float[J][b] + (((J.center + high) - I.center) + low)) - at_float[I][a]
+/// rounds in its last steps only, where numbers are as small as the displacement.
 struct ClusterPairs {
   static constexpr int kSlots = 4;  ///< in a cluster
 
@@ -77,15 +79,15 @@ struct ClusterPairs {
   std::vector<Vec3> origin;             ///< [length]
   std::vector<Shift> shift;
 
-  // What refresh() writes. Padding stands where the first particle of its cluster is.
+  // What refresh() writes. Padding stands where the first particle of its cluster does.
   std::vector<ClusterOfFour<double>> at;         ///< by cluster, relative to its origin [length]
-  std::vector<ClusterOfFour<float>> at_float;    ///< the same in single precision
+  std::vector<ClusterOfFour<float>> at_float;    ///< relative to their centers
   std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
   std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
 
   std::size_t particles = 0;  ///< number of positions
   int types = 1;              ///< of ListParams::cutoffs
-  double list_radius = 0;     ///< of the ListParams [length]
+  double list_radius = 1;     ///< of the ListParams [length]
   Box box;
 
   std::int32_t clusters() const { return static_cast<std::int32_t>(origin_of.size()); }

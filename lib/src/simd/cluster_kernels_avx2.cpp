@@ -45,12 +45,14 @@ struct Avx2Float {
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {twice(_mm_load_ps(at.x)), twice(_mm_load_ps(at.y)), twice(_mm_load_ps(at.z))};
   }
-  static V moved(const float* at, const float* low, const float* high) {
-    return twice(_mm_add_ps(_mm_add_ps(_mm_load_ps(at), _mm_load_ps(low)), _mm_load_ps(high)));
-  }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
-    return {moved(at.x, shift.low.x, shift.high.x), moved(at.y, shift.low.y, shift.high.y),
-            moved(at.z, shift.low.z, shift.high.z)};
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    const __m128 between =
+        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
+    const __m128 by = _mm_add_ps(between, _mm_load_ps(shift.low));
+    return {twice(_mm_add_ps(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00))),
+            twice(_mm_add_ps(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55))),
+            twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
@@ -110,7 +112,8 @@ struct Avx2Double {
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
   static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
     return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.whole.x)),
             add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
             add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};

@@ -38,9 +38,9 @@ struct Avx512Float {
     return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
   }
   static V keep(__mmask16 lanes, V a) { return _mm512_maskz_mov_ps(lanes, a); }
+  static __m512i slots() { return _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3); }
   static V spread(const float* four, int) {
-    const __m512i slot = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
-    return _mm512_permutexvar_ps(slot, _mm512_broadcast_f32x4(_mm_load_ps(four)));
+    return _mm512_permutexvar_ps(slots(), _mm512_broadcast_f32x4(_mm_load_ps(four)));
   }
   static Cluster four_times(V cluster) {
     return {_mm512_shuffle_f32x4(cluster, cluster, 0x00), _mm512_shuffle_f32x4(cluster, cluster, 0x55),
@@ -50,13 +50,16 @@ struct Avx512Float {
     return {_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
             _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
-    return four_times(add(add(_mm512_load_ps(&at), _mm512_load_ps(&shift.low)), _mm512_load_ps(&shift.high)));
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    const __m128 between =
+        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
+    const __m128 by = _mm_add_ps(between, _mm_load_ps(shift.low));
+    return four_times(add(_mm512_load_ps(&at), _mm512_permutexvar_ps(slots(), _mm512_castps128_ps512(by))));
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int) {
-    const __m512i slot = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
     const __m512i rows = _mm512_permutexvar_epi32(
-        slot, _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
+        slots(), _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
     const __m512i columns =
         _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
     return _mm512_i32gather_ps(_mm512_add_epi32(rows, columns), table, 4);
@@ -65,7 +68,7 @@ struct Avx512Float {
   static V fold(V x, V y, V z) {
     const V xy = add(_mm512_shuffle_f32x4(x, y, 0x44), _mm512_shuffle_f32x4(x, y, 0xEE));
     const V zz = add(z, _mm512_shuffle_f32x4(z, z, 0xEE));
-    // The fourth part, that of ClusterOfFour::unused, stays 0.
+    // The fourth part, that of ClusterOfFour::center, stays 0.
     return add(_mm512_shuffle_f32x4(xy, zz, 0x88), _mm512_maskz_shuffle_f32x4(0x0FFF, xy, zz, 0xDD));
   }
   static void add_over_i(const Coordinates<Avx512Float>& force, ClusterOfFour<float>& to) {
@@ -117,7 +120,8 @@ struct Avx512Double {
   static V twice(const double* at, const double* shift) {
     return _mm512_broadcast_f64x4(_mm256_add_pd(_mm256_load_pd(at), _mm256_load_pd(shift)));
   }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
     return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
   }
   static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {

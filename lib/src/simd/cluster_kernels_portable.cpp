@@ -51,14 +51,16 @@ struct Portable {
   }
   static V spread(const Real* four, int part) { return set1(four[part]); }
   static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
-  static Cluster moved(const Cluster& cluster, const ClusterOfFour<Real>& by) {
-    return {add(cluster.x, load(by.x)), add(cluster.y, load(by.y)), add(cluster.z, load(by.z))};
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    float by[3];
+    for (int k = 0; k < 3; ++k) by[k] = ((at.center[k] + shift.high[k]) - own.center[k]) + shift.low[k];
+    return {add(load(at.x), set1(by[0])), add(load(at.y), set1(by[1])), add(load(at.z), set1(by[2]))};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
-    return moved(moved(load_cluster(at), shift.low), shift.high);
-  }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
-    return moved(load_cluster(at), shift.whole);
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
+    const ClusterOfFour<double>& by = shift.whole;
+    return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
   static V lookup(const Real* table, const std::int32_t* row, const std::int32_t* column, int part) {
     return each([&](int k) { return table[row[part] + column[k]]; });

@@ -42,12 +42,12 @@ struct SseFloat {
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {_mm_load_ps(at.x), _mm_load_ps(at.y), _mm_load_ps(at.z)};
   }
-  static V moved(const float* at, const float* low, const float* high) {
-    return add(add(_mm_load_ps(at), _mm_load_ps(low)), _mm_load_ps(high));
-  }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift) {
-    return {moved(at.x, shift.low.x, shift.high.x), moved(at.y, shift.low.y, shift.high.y),
-            moved(at.z, shift.low.z, shift.high.z)};
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    const V between = sub(add(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
+    const V by = add(between, _mm_load_ps(shift.low));
+    return {add(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00)), add(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55)),
+            add(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA))};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
     const float* const from = table + row[part];
@@ -109,7 +109,8 @@ struct SseDouble {
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
   static V spread(const double* four, int part) { return set1(four[part]); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }

@@ -57,7 +57,8 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   PairCoefficients<S, kOneType> coefficient(task);
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
-    const Coordinates<S> i = spread<S>(task.at[row.cluster]);
+    const ClusterOfFour<typename S::Real>& own = task.at[row.cluster];
+    const Coordinates<S> i = spread<S>(own);
     const ClusterShift<typename S::Real>* const shift = task.shift + row.first_shift;
     coefficient.choose_i(row.cluster);
     Coordinates<S> force_i;
@@ -67,7 +68,7 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
     const std::int64_t end = task.rows[r + 1].first;
     for (std::int64_t e = row.first; e < end; ++e) {
       const ClusterPairs::Entry entry = task.entries[e];
-      const auto j = S::load_cluster(task.at[entry.cluster], shift[entry.shift]);
+      const auto j = S::load_cluster(task.at[entry.cluster], shift[entry.shift], own);
       coefficient.choose_j(entry.cluster);
       Coordinates<S> force;
       for (int p = 0; p < S::kParts; ++p) {
