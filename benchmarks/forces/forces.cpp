@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Cluster pairs and Lennard-Jones forces in the Lennard-Jones melt: density 0.8442, cutoff 2.5, skin 0.3. The
-// melt is made here, by running it with the forces that are measured until it has melted. `useful` counts pairs
-// within the cutoff. Arguments: atoms along each axis of the cubic start, and the instruction set.
+// melt is made here, by running it with the forces that are measured until it has melted. `useful` counts
+// pairs within the cutoff. Arguments: atoms along each axis of the cubic start, and the instruction set.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -111,7 +111,8 @@ std::vector<dch::Vec3> plain_forces(const Melt& melt) {
   std::vector<dch::Vec3> force(melt.positions.size());
   for (std::size_t i = 0; i < list.size(); ++i)
     for (const std::int32_t j : list.row(i)) {
-      const dch::Vec3 d = melt.box.nearest_image(melt.positions[static_cast<std::size_t>(j)] - melt.positions[i]);
+      const dch::Vec3 d =
+          melt.box.nearest_image(melt.positions[static_cast<std::size_t>(j)] - melt.positions[i]);
       const double s = 1 / norm2(d), s3 = s * s * s;
       const dch::Vec3 f = 24 * s3 * s * (2 * s3 - 1) * d;
       force[static_cast<std::size_t>(j)] = force[static_cast<std::size_t>(j)] + f;
@@ -244,23 +245,23 @@ BENCHMARK(cluster_pairs)->ArgsProduct({{20}, kSets})->Unit(benchmark::kMilliseco
 BENCHMARK(cluster_pairs)->Args({40, 3})->Unit(benchmark::kMillisecond);
 BENCHMARK(neighbor_list)->Args({20, 3})->Unit(benchmark::kMillisecond);
 BENCHMARK(refresh)->Args({20, 3})->Unit(benchmark::kMillisecond);
-#define DCH_FORCES(precision)                                                                         \
-  BENCHMARK(forces<dch::ForcePrecision::precision, false>)                                            \
-      ->Name("forces_" #precision)                                                                    \
-      ->ArgsProduct({{20}, kSets})                                                                    \
-      ->Args({40, 3})                                                                                 \
-      ->Unit(benchmark::kMillisecond);                                                                \
-  BENCHMARK(forces<dch::ForcePrecision::precision, true>)                                             \
-      ->Name("forces_and_sums_" #precision)                                                           \
-      ->Args({20, 3})                                                                                 \
-      ->Unit(benchmark::kMillisecond);                                                                \
-  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 4>)                                       \
-      ->Name("forces_of_4_types_" #precision)                                                         \
-      ->ArgsProduct({{20}, kSets})                                                                    \
-      ->Unit(benchmark::kMillisecond);                                                                \
-  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 8>)                                       \
-      ->Name("forces_of_8_types_" #precision)                                                         \
-      ->Args({20, 3})                                                                                 \
+#define DCH_FORCES(precision)                                   \
+  BENCHMARK(forces<dch::ForcePrecision::precision, false>)      \
+      ->Name("forces_" #precision)                              \
+      ->ArgsProduct({{20}, kSets})                              \
+      ->Args({40, 3})                                           \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces<dch::ForcePrecision::precision, true>)       \
+      ->Name("forces_and_sums_" #precision)                     \
+      ->Args({20, 3})                                           \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 4>) \
+      ->Name("forces_of_4_types_" #precision)                   \
+      ->ArgsProduct({{20}, kSets})                              \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 8>) \
+      ->Name("forces_of_8_types_" #precision)                   \
+      ->Args({20, 3})                                           \
       ->Unit(benchmark::kMillisecond)
 DCH_FORCES(mixed);
 DCH_FORCES(full);

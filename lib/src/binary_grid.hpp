@@ -5,8 +5,8 @@
 
 namespace dch::detail {
 
-/// Rounds to multiples of a power of two about 10,000 times smaller than a length, so that sums and differences
-/// of such numbers are exact: in single precision up to 1000 of these lengths.
+/// Rounds to multiples of a power of two about 10,000 times smaller than a length, so that sums and
+/// differences of such numbers are exact: in single precision up to 1000 of these lengths.
 class BinaryGrid {
  public:
   explicit BinaryGrid(double length) : shift_(0x1.8p52 * std::ldexp(1, std::ilogb(length) - 13)) {}

@@ -102,7 +102,8 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   const double reach = (scene.reach + 16 * kFloatRounding * longest) * (1 + 8 * kFloatRounding);
   limit2_ = static_cast<float>(reach * reach * (1 + 2 * kFloatRounding));
   images_ = CellImages(scene.box);
-  one_image_ = !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
+  one_image_ =
+      !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
   for (int a = 0; a < scene.request.cutoffs.types(); ++a)
     for (int b = 0; b < scene.request.cutoffs.types(); ++b)
@@ -219,7 +220,8 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count
     at.z[slot] = double{point.at[2]};
     const std::size_t k = cluster * kSlots + static_cast<std::size_t>(slot);
     out.particle[k] = slot < count ? point.id : kNone;
-    out.type[k] = slot < count && !request.types.empty() ? request.types[static_cast<std::size_t>(point.id)] : 0;
+    out.type[k] =
+        slot < count && !request.types.empty() ? request.types[static_cast<std::size_t>(point.id)] : 0;
     if (slot >= count) continue;
     if (request.first_ghost >= 0 && point.id >= request.first_ghost) ghosts |= 1u << slot;
     if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.id)] = static_cast<std::int32_t>(k);
@@ -237,7 +239,9 @@ template <class Metric>
 void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters,
                                     Part& part) {
   const std::vector<Vec3>& center = scene.nodes.position;
-  const auto limit_for = [&](std::int32_t other) { return (scene.reach + extent(k) + extent(other)) * kInflate; };
+  const auto limit_for = [&](std::int32_t other) {
+    return (scene.reach + extent(k) + extent(other)) * kInflate;
+  };
   part.near.clear();
   part.source.clear();
   const auto first_shift = static_cast<std::int32_t>(part.shift.size());
@@ -269,8 +273,8 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
   float box[6];
   for (int s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
   part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
-  const std::int32_t found = kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_,
-                                                  part.chosen.data());
+  const std::int32_t found =
+      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_, part.chosen.data());
   if (found == 0) return;
   const auto shift = static_cast<std::int32_t>(part.shift.size());
   part.shift.push_back({k, other, image});
@@ -403,12 +407,12 @@ std::size_t ClusterPairFinder::memory_bytes() const {
     for (const auto& coordinates : boxes.side) bytes += bytes_of(coordinates);
     return bytes;
   };
-  std::size_t bytes = bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) +
-                      bytes_of(slot_of_);
+  std::size_t bytes =
+      bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
   for (const Part& part : parts_)
-    bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) + bytes_of_boxes(part.boxes) +
-             bytes_of(part.near) + bytes_of(part.source) + bytes_of(part.chosen) +
-             bytes_of(part.excluded);
+    bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) +
+             bytes_of_boxes(part.boxes) + bytes_of(part.near) + bytes_of(part.source) +
+             bytes_of(part.chosen) + bytes_of(part.excluded);
   return bytes;
 }
 

@@ -79,7 +79,8 @@ class ClusterPairFinder {
   template <class Metric>
   void cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
   template <class Metric>
-  void cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local, ClusterPairs& out);
+  void cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
+                ClusterPairs& out);
   void put_cluster(const LocalPoint* points, std::int32_t count, std::int32_t c, const ListParams& request,
                    ClusterPairs& out);
   template <class Metric>
@@ -102,14 +103,14 @@ class ClusterPairFinder {
 
   const ClusterKernels* kernels_ = nullptr;
   CellImages images_{Box()};
-  bool one_image_ = true;    ///< whether only the nearest image of a node can matter to another one
+  bool one_image_ = true;     ///< whether only the nearest image of a node can matter to another one
   bool drops_types_ = false;  ///< whether some pair of types has no cutoff
-  float limit2_ = 0;  ///< squared reach with its margin
+  float limit2_ = 0;          ///< squared reach with its margin
   std::vector<Node> nodes_;
-  Boxes boxes_;  ///< of all clusters, each relative to its node
-  std::vector<std::uint8_t> filled_;  ///< by cluster: bit of each slot that is no padding
-  std::vector<std::uint8_t> ghost_;   ///< by cluster: bit of each slot with a ghost
-  std::vector<std::int32_t> slot_of_; ///< by particle; kept where there are exclusions
+  Boxes boxes_;                        ///< of all clusters, each relative to its node
+  std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
+  std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
+  std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
   std::vector<Part> parts_;
 };
 

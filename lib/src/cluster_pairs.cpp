@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <dch/cluster_pairs.hpp>
-
 #include <cmath>
 #include <string>
 
+#include <dch/cluster_pairs.hpp>
 #include <dch/error.hpp>
 
 #include "binary_grid.hpp"
@@ -82,8 +81,8 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
     round_axis(grid, cluster.z, rounded.z, rounded.center[2]);
   }
   for (std::size_t s = 0; s < shift.size(); ++s) {
-    const Vec3 between = origin[static_cast<std::size_t>(shift[s].to)] -
-                         origin[static_cast<std::size_t>(shift[s].from)];
+    const Vec3 between =
+        origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
     const Vec3 vector = between + images.vector(shift[s].image);
     ClusterShift<float>& parts = shift_vector_float[s];
     for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s].whole);

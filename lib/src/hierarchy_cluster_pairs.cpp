@@ -34,6 +34,8 @@ void Hierarchy::Impl::cluster_pairs(const ListParams& request, ClusterPairs& out
   stats.list_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void Hierarchy::cluster_pairs(const ListParams& params, ClusterPairs& out) { impl_->cluster_pairs(params, out); }
+void Hierarchy::cluster_pairs(const ListParams& params, ClusterPairs& out) {
+  impl_->cluster_pairs(params, out);
+}
 
 }  // namespace dch

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <dch/lennard_jones.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include <dch/error.hpp>
+#include <dch/lennard_jones.hpp>
 
 #include "describe.hpp"
 #include "simd/cluster_kernels.hpp"
@@ -36,8 +35,12 @@ std::array<double, 6> coefficients_of(const LennardJonesPair& pair, bool shifted
   const double sigma6 = std::pow(pair.sigma, 6), sigma12 = sigma6 * sigma6;
   const double energy12 = 4 * pair.epsilon * sigma12, energy6 = 4 * pair.epsilon * sigma6;
   const double s3 = std::pow(pair.cutoff, -6);
-  return {pair.cutoff * pair.cutoff, 12 * energy12, 6 * energy6,
-          energy12,                  energy6,       shifted ? s3 * (energy12 * s3 - energy6) : 0};
+  return {pair.cutoff * pair.cutoff,
+          12 * energy12,
+          6 * energy6,
+          energy12,
+          energy6,
+          shifted ? s3 * (energy12 * s3 - energy6) : 0};
 }
 
 bool fits_single(double v) {
@@ -106,8 +109,8 @@ LennardJones::LennardJones(int types, const std::vector<LennardJonesPair>& matri
           matrix[static_cast<std::size_t>(b) * side + static_cast<std::size_t>(a)];
       check_pair(pair, a, b);
       if (pair.epsilon != mirrored.epsilon || pair.sigma != mirrored.sigma || pair.cutoff != mirrored.cutoff)
-        throw InvalidParameter(pair_text(a, b) + " differs from that of types " + std::to_string(b) + " and " +
-                               std::to_string(a) + "; give a symmetric matrix");
+        throw InvalidParameter(pair_text(a, b) + " differs from that of types " + std::to_string(b) +
+                               " and " + std::to_string(a) + "; give a symmetric matrix");
       const std::array<double, 6> coefficients = coefficients_of(pair, shifted);
       for (std::size_t k = 0; k < coefficients.size(); ++k) {
         if (!std::isfinite(coefficients[k]))

@@ -107,8 +107,7 @@ TEST_P(ClusterPairsScenes, HoldEveryPairOnceInTheSmallestBox) {
   if (!box.any_periodic()) return;
   for (const double share : {1.0, 0.999, 0.9, 0.7})
     for (const double base_radius : {0.0, 0.3 * box.max_cutoff(), 3 * box.max_cutoff()})
-      for (const scenes::NamedPoints& scene :
-           scenes::hard_point_sets(box, 150, box.max_cutoff() / 2.1)) {
+      for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 150, box.max_cutoff() / 2.1)) {
         const ListParams request = request_for(share * box.max_cutoff());
         Hierarchy hierarchy = hierarchy_of(scene.points, box, box.max_cutoff(), base_radius);
         ClusterPairs pairs;
@@ -211,7 +210,8 @@ TEST(ClusterPairsTest, RefreshTakesAnotherShapeOfTheCell) {
   const Box box = Box::triclinic(a, b, c);
   const Box strained = Box::triclinic(1.01 * a, b + Vec3{0.05, 0.02, 0}, c + Vec3{0, 0.06, -0.03});
   std::vector<Vec3> points = scenes::uniform_in(box, 500, 3), moved;
-  for (const Vec3 p : points) moved.push_back(strained.wrap(scenes::from_fractional(strained, box.fractional(p))));
+  for (const Vec3 p : points)
+    moved.push_back(strained.wrap(scenes::from_fractional(strained, box.fractional(p))));
   Hierarchy hierarchy = hierarchy_of(points, box, 1.2);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(1.2), pairs);

@@ -187,7 +187,8 @@ TEST(LennardJonesTest, AddsToTheForcesThatAreThere) {
 }
 
 TEST(LennardJonesTest, RefusesWhatDoesNotFit) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
   EXPECT_THROW(LennardJones({nan, 1, 2}), InvalidParameter);
   EXPECT_THROW(LennardJones({1, -1, 2}), InvalidParameter);
   EXPECT_THROW(LennardJones({1, 1, infinite}), InvalidParameter);

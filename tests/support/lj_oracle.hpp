@@ -24,15 +24,17 @@ inline LennardJonesResult all_pairs_lennard_jones(const std::vector<Vec3>& posit
                                                   std::int32_t first_ghost = -1) {
   LennardJonesResult result;
   result.force.resize(positions.size());
-  const auto type_count = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(matrix.size()))));
+  const auto type_count =
+      static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(matrix.size()))));
   for (std::size_t i = 0; i < positions.size(); ++i)
     for (std::size_t j = i + 1; j < positions.size(); ++j) {
       const auto a = static_cast<std::int32_t>(i), b = static_cast<std::int32_t>(j);
       if (exclusions != nullptr && exclusions->excluded(a, b)) continue;
       if (first_ghost >= 0 && a >= first_ghost && b >= first_ghost) continue;
       const LennardJonesPair& pair =
-          types.empty() ? matrix[0]
-                        : matrix[static_cast<std::size_t>(types[i]) * type_count + static_cast<std::size_t>(types[j])];
+          types.empty()
+              ? matrix[0]
+              : matrix[static_cast<std::size_t>(types[i]) * type_count + static_cast<std::size_t>(types[j])];
       const Vec3 d = box.nearest_image(positions[j] - positions[i]);
       const double r2 = norm2(d);
       if (r2 >= pair.cutoff * pair.cutoff) continue;

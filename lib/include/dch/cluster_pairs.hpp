@@ -42,10 +42,10 @@ struct alignas(16) ClusterShift<float> {
 /// the list radius: a force kernel tests its cutoff. Hierarchy::cluster_pairs() makes them.
 ///
 /// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
-/// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the entry
-/// names; it leads to the one image of the particle that is meant, and needs no box. In single precision,
-/// particles are relative to the center of their cluster. Centers relative to origins, and the high parts of
-/// shifts, are multiples of the power of two below list_radius / 10000, so that
+/// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the
+/// entry names; it leads to the one image of the particle that is meant, and needs no box. In single
+/// precision, particles are relative to the center of their cluster. Centers relative to origins, and the
+/// high parts of shifts, are multiples of the power of two below list_radius / 10000, so that
 ///     (at_float[J][b] + (((J.center + high) - I.center) + low)) - at_float[I][a]
 /// rounds in its last steps only, where numbers are as small as the displacement.
 struct ClusterPairs {
@@ -73,15 +73,15 @@ struct ClusterPairs {
   std::vector<Row> rows;  ///< and one more with the number of entries
   std::vector<Entry> entries;
 
-  std::vector<std::int32_t> particle;  ///< by slot; -1 for padding
-  std::vector<std::int32_t> type;      ///< by slot, of ListParams::types; 0 without those and for padding
+  std::vector<std::int32_t> particle;   ///< by slot; -1 for padding
+  std::vector<std::int32_t> type;       ///< by slot, of ListParams::types; 0 without those and for padding
   std::vector<std::int32_t> origin_of;  ///< by cluster
   std::vector<Vec3> origin;             ///< [length]
   std::vector<Shift> shift;
 
   // What refresh() writes. Padding stands where the first particle of its cluster does.
-  std::vector<ClusterOfFour<double>> at;         ///< by cluster, relative to its origin [length]
-  std::vector<ClusterOfFour<float>> at_float;    ///< relative to their centers
+  std::vector<ClusterOfFour<double>> at;                ///< by cluster, relative to its origin [length]
+  std::vector<ClusterOfFour<float>> at_float;           ///< relative to their centers
   std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
   std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
 

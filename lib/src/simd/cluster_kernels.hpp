@@ -21,8 +21,8 @@ inline constexpr int kBoxesAtOnce = 16;
 /// The loops over clusters of four, compiled for one instruction set. No function allocates.
 struct ClusterKernels {
   /// Finds those of `count` boxes with a squared distance to a box of at most limit2. Writes their numbers,
-  /// ascending, and returns how many; room for `count` rounded up to kBoxesAtOnce is needed. All sets find the
-  /// same.
+  /// ascending, and returns how many; room for `count` rounded up to kBoxesAtOnce is needed. All sets find
+  /// the same.
   std::int32_t (*near_boxes)(const BoxArrays& boxes, std::int32_t count, const float* box, float limit2,
                              std::int32_t* chosen);
 

@@ -35,7 +35,8 @@ struct Avx2Float {
   static V less(V a, V b, std::uint32_t mask, int part) {
     const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * part))), lane);
-    return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ), _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
+    return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ),
+                         _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_ps(lanes, a); }
   static V spread(const float* four, int part) {
@@ -80,8 +81,8 @@ struct Avx2Float {
     _mm_store_ps(to.z, _mm_sub_ps(_mm_load_ps(to.z), over_j(force.z)));
   }
   static double sum(V a) {
-    const __m256d four =
-        _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)), _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
+    const __m256d four = _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)),
+                                       _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
     const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
   }
@@ -108,7 +109,8 @@ struct Avx2Double {
     const __m256i lane = _mm256_setr_epi64x(1, 2, 4, 8);
     const __m256i bits =
         _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(mask >> (4 * part))), lane);
-    return _mm256_and_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ), _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, lane)));
+    return _mm256_and_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ),
+                         _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
   static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }

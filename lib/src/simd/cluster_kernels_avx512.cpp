@@ -30,7 +30,8 @@ struct Avx512Float {
   static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
     const __m512i numbers = _mm512_add_epi32(
         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), _mm512_set1_epi32(first));
-    // Compressed in a register, then stored whole: a compressing store is many times slower on some processors.
+    // Compressed in a register, then stored whole: a compressing store is many times slower on some
+    // processors.
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), numbers));
     return __builtin_popcount(lanes);
   }
@@ -54,14 +55,18 @@ struct Avx512Float {
                               const ClusterOfFour<float>& own) {
     const __m128 between =
         _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
-    const __m128 by = _mm_add_ps(between, _mm_load_ps(shift.low));
-    return four_times(add(_mm512_load_ps(&at), _mm512_permutexvar_ps(slots(), _mm512_castps128_ps512(by))));
+    // Spread over registers by loads, which are free where shuffles are not: kept from the compiler, which
+    // would shuffle what it knows.
+    alignas(16) float by[4];
+    _mm_store_ps(by, _mm_add_ps(between, _mm_load_ps(shift.low)));
+    asm("" : "+m"(by));
+    const Cluster j = load_cluster(at);
+    return {add(j.x, set1(by[0])), add(j.y, set1(by[1])), add(j.z, set1(by[2]))};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int) {
     const __m512i rows = _mm512_permutexvar_epi32(
         slots(), _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
-    const __m512i columns =
-        _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
+    const __m512i columns = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
     return _mm512_i32gather_ps(_mm512_add_epi32(rows, columns), table, 4);
   }
   /// The sums over the four 128-bit parts of x, y and z, as a cluster.
@@ -113,8 +118,8 @@ struct Avx512Double {
   }
   static V keep(__mmask8 lanes, V a) { return _mm512_maskz_mov_pd(lanes, a); }
   static V spread(const double* four, int part) {
-    const __m512i slot = part == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1)
-                                   : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
+    const __m512i slot =
+        part == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
     return _mm512_permutexvar_pd(slot, _mm512_broadcast_f64x4(_mm256_load_pd(four)));
   }
   static V twice(const double* at, const double* shift) {

@@ -24,15 +24,23 @@ struct Portable {
   static V zero() { return {}; }
   static V set1(Real v) { return {{v, v, v, v}}; }
   static V load(const Real* p) { return {{p[0], p[1], p[2], p[3]}}; }
-  static V add(const V& a, const V& b) { return each([&](int k) { return a.lane[k] + b.lane[k]; }); }
-  static V sub(const V& a, const V& b) { return each([&](int k) { return a.lane[k] - b.lane[k]; }); }
-  static V mul(const V& a, const V& b) { return each([&](int k) { return a.lane[k] * b.lane[k]; }); }
+  static V add(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] + b.lane[k]; });
+  }
+  static V sub(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] - b.lane[k]; });
+  }
+  static V mul(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] * b.lane[k]; });
+  }
   static V max(const V& a, const V& b) {
     return each([&](int k) { return a.lane[k] > b.lane[k] ? a.lane[k] : b.lane[k]; });
   }
   static V madd(const V& a, const V& b, const V& c) { return add(mul(a, b), c); }
   static V msub(const V& a, const V& b, const V& c) { return sub(mul(a, b), c); }
-  static V inverse(const V& a) { return each([&](int k) { return 1 / a.lane[k]; }); }
+  static V inverse(const V& a) {
+    return each([&](int k) { return 1 / a.lane[k]; });
+  }
   static std::uint32_t bits_at_most(const V& a, const V& b) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;

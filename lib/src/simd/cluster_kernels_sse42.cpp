@@ -46,7 +46,8 @@ struct SseFloat {
                               const ClusterOfFour<float>& own) {
     const V between = sub(add(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
     const V by = add(between, _mm_load_ps(shift.low));
-    return {add(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00)), add(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55)),
+    return {add(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00)),
+            add(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55)),
             add(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA))};
   }
   static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
@@ -105,7 +106,8 @@ struct SseDouble {
     const __m128i bits = _mm_set1_epi64x(static_cast<long long>(mask >> (4 * part)));
     const __m128d in_low = _mm_castsi128_pd(_mm_cmpeq_epi64(_mm_and_si128(bits, lane_low), lane_low));
     const __m128d in_high = _mm_castsi128_pd(_mm_cmpeq_epi64(_mm_and_si128(bits, lane_high), lane_high));
-    return {_mm_and_pd(_mm_cmplt_pd(a.low, b.low), in_low), _mm_and_pd(_mm_cmplt_pd(a.high, b.high), in_high)};
+    return {_mm_and_pd(_mm_cmplt_pd(a.low, b.low), in_low),
+            _mm_and_pd(_mm_cmplt_pd(a.high, b.high), in_high)};
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
   static V spread(const double* four, int part) { return set1(four[part]); }

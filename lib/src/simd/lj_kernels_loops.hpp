@@ -8,6 +8,8 @@
 namespace dch::detail {
 namespace {
 
+enum Coefficient { kCutoff2, kForce12, kForce6, kEnergy12, kEnergy6, kEnergyShift };
+
 /// The coefficients of 16 pairs, part by part; those of one type are the same for all.
 template <class S, bool kOneType>
 struct PairCoefficients;
@@ -33,8 +35,9 @@ struct PairCoefficients<S, false> {
   using V = typename S::V;
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task)
-      : type(task.type), types(task.types), c(task.coefficients),
-        table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift} {}
+      : type(task.type), types(task.types), c(task.coefficients), table{c.cutoff2, c.force12,
+                                                                        c.force6,  c.energy12,
+                                                                        c.energy6, c.energy_shift} {}
   void choose_i(std::int32_t cluster) {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
@@ -49,60 +52,97 @@ struct PairCoefficients<S, false> {
   const std::int32_t* of_j = nullptr;
 };
 
-enum Coefficient { kCutoff2, kForce12, kForce6, kEnergy12, kEnergy6, kEnergyShift };
+/// Displacements and inverse squared distances of an entry's pairs; the latter are 0 where nothing acts.
+template <class S>
+struct Separations {
+  Coordinates<S> d;
+  typename S::V s[S::kParts];
+};
 
+template <class S, bool kOneType>
+Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row,
+                       const Coordinates<S>& i, const ClusterPairs::Entry& entry,
+                       PairCoefficients<S, kOneType>& coefficient) {
+  using V = typename S::V;
+  const auto j = S::load_cluster(task.at[entry.cluster], task.shift[row.first_shift + entry.shift],
+                                 task.at[row.cluster]);
+  coefficient.choose_j(entry.cluster);
+  Separations<S> found;
+  for (int p = 0; p < S::kParts; ++p) {
+    const V dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
+    const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
+    found.d.x[p] = dx;
+    found.d.y[p] = dy;
+    found.d.z[p] = dz;
+    found.s[p] = S::keep(S::less(r2, coefficient(kCutoff2, p), entry.mask, p), S::inverse(r2));
+  }
+  return found;
+}
+
+template <class S>
+struct RowSums {
+  Coordinates<S> force;
+  typename S::V energy, virial[6];
+};
+
+/// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
+template <class S, bool kOneType, bool kSums>
+void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
+           const Separations<S>& separation, PairCoefficients<S, kOneType>& coefficient, RowSums<S>& sum) {
+  using V = typename S::V;
+  coefficient.choose_j(entry.cluster);
+  Coordinates<S> force;
+  for (int p = 0; p < S::kParts; ++p) {
+    const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
+    const V s3 = S::mul(S::mul(s, s), s);
+    const V f = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
+    force.x[p] = S::mul(f, dx);
+    force.y[p] = S::mul(f, dy);
+    force.z[p] = S::mul(f, dz);
+    sum.force.x[p] = S::add(sum.force.x[p], force.x[p]);
+    sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
+    sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
+    if constexpr (kSums) {
+      const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
+      const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
+      sum.energy = S::add(sum.energy, S::msub(s3, bound, above));
+      sum.virial[0] = S::madd(dx, force.x[p], sum.virial[0]);
+      sum.virial[1] = S::madd(dy, force.y[p], sum.virial[1]);
+      sum.virial[2] = S::madd(dz, force.z[p], sum.virial[2]);
+      sum.virial[3] = S::madd(dx, force.y[p], sum.virial[3]);
+      sum.virial[4] = S::madd(dx, force.z[p], sum.virial[4]);
+      sum.virial[5] = S::madd(dy, force.z[p], sum.virial[5]);
+    }
+  }
+  S::add_over_i(force, task.force[entry.cluster]);
+}
+
+/// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
+/// than what a processor can look ahead over.
 template <class S, bool kOneType, bool kSums>
 void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
-  using V = typename S::V;
   PairCoefficients<S, kOneType> coefficient(task);
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
-    const ClusterOfFour<typename S::Real>& own = task.at[row.cluster];
-    const Coordinates<S> i = spread<S>(own);
-    const ClusterShift<typename S::Real>* const shift = task.shift + row.first_shift;
+    const Coordinates<S> i = spread<S>(task.at[row.cluster]);
     coefficient.choose_i(row.cluster);
-    Coordinates<S> force_i;
-    V energy = S::zero(), virial[6];
-    for (int p = 0; p < S::kParts; ++p) force_i.x[p] = force_i.y[p] = force_i.z[p] = S::zero();
-    for (V& v : virial) v = S::zero();
-    const std::int64_t end = task.rows[r + 1].first;
-    for (std::int64_t e = row.first; e < end; ++e) {
-      const ClusterPairs::Entry entry = task.entries[e];
-      const auto j = S::load_cluster(task.at[entry.cluster], shift[entry.shift], own);
-      coefficient.choose_j(entry.cluster);
-      Coordinates<S> force;
-      for (int p = 0; p < S::kParts; ++p) {
-        const V dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
-        const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
-        const auto within = S::less(r2, coefficient(kCutoff2, p), entry.mask, p);
-        const V s = S::keep(within, S::inverse(r2));  // 0 for other lanes, whatever stands there
-        const V s3 = S::mul(S::mul(s, s), s);
-        const V f =
-            S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
-        force.x[p] = S::mul(f, dx);
-        force.y[p] = S::mul(f, dy);
-        force.z[p] = S::mul(f, dz);
-        force_i.x[p] = S::add(force_i.x[p], force.x[p]);
-        force_i.y[p] = S::add(force_i.y[p], force.y[p]);
-        force_i.z[p] = S::add(force_i.z[p], force.z[p]);
-        if constexpr (kSums) {
-          const V above = S::keep(within, coefficient(kEnergyShift, p));
-          const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
-          energy = S::add(energy, S::msub(s3, bound, above));
-          virial[0] = S::madd(dx, force.x[p], virial[0]);
-          virial[1] = S::madd(dy, force.y[p], virial[1]);
-          virial[2] = S::madd(dz, force.z[p], virial[2]);
-          virial[3] = S::madd(dx, force.y[p], virial[3]);
-          virial[4] = S::madd(dx, force.z[p], virial[4]);
-          virial[5] = S::madd(dy, force.z[p], virial[5]);
-        }
-      }
-      S::add_over_i(force, task.force[entry.cluster]);
+    RowSums<S> sum;
+    for (int p = 0; p < S::kParts; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
+    sum.energy = S::zero();
+    for (auto& v : sum.virial) v = S::zero();
+    const ClusterPairs::Entry* entry = task.entries + row.first;
+    const ClusterPairs::Entry* const last = task.entries + task.rows[r + 1].first - 1;
+    Separations<S> separation = measure<S>(task, row, i, *entry, coefficient);
+    for (; entry != last; ++entry) {
+      const Separations<S> next = measure<S>(task, row, i, entry[1], coefficient);
+      apply<S, kOneType, kSums>(task, *entry, separation, coefficient, sum);
+      separation = next;
     }
-    S::subtract_over_j(force_i, task.force[row.cluster]);
+    apply<S, kOneType, kSums>(task, *entry, separation, coefficient, sum);
+    S::subtract_over_j(sum.force, task.force[row.cluster]);
     if constexpr (kSums) {
-      sums.energy += S::sum(energy);
-      for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(virial[k]);
+      sums.energy += S::sum(sum.energy);
+      for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(sum.virial[k]);
     }
   }
 }
