@@ -29,8 +29,11 @@ class AdjacencyRows {
   Span<const std::int32_t> row(std::int32_t k) const {
     return {data_.data() + offset_[k], static_cast<std::size_t>(count_[k])};
   }
+  /// Makes room for that many entries in all.
+  void reserve(std::int64_t entries) { data_.reserve(static_cast<std::size_t>(entries)); }
   /// Replaces an empty row.
   void assign(std::int32_t k, const std::int32_t* values, std::int32_t count) {
+    make_room(static_cast<std::size_t>(count));
     offset_[k] = static_cast<std::int64_t>(data_.size());
     count_[k] = capacity_[k] = count;
     data_.insert(data_.end(), values, values + count);
@@ -61,10 +64,15 @@ class AdjacencyRows {
   }
 
  private:
+  /// Rows of many points are most of the memory of a sparse scene: little is kept in reserve.
+  void make_room(std::size_t more) {
+    if (data_.size() + more > data_.capacity()) data_.reserve(data_.size() + data_.size() / 8 + more);
+  }
   void relocate(std::int32_t k) {
-    if (data_.size() > 1024 && static_cast<std::int64_t>(data_.size()) > 3 * live_) compact();
+    if (data_.size() > 1024 && static_cast<std::int64_t>(data_.size()) > 2 * live_) compact();
     const std::int32_t grown = capacity_[k] + capacity_[k] / 2 + 4;
     const std::size_t at = data_.size();
+    make_room(static_cast<std::size_t>(grown));
     data_.resize(at + static_cast<std::size_t>(grown));
     std::copy_n(data_.begin() + offset_[k], count_[k], data_.begin() + static_cast<std::int64_t>(at));
     offset_[k] = static_cast<std::int64_t>(at);
@@ -72,7 +80,7 @@ class AdjacencyRows {
   }
   void compact() {
     std::vector<std::int32_t> packed;
-    packed.reserve(static_cast<std::size_t>(2 * live_));
+    packed.reserve(static_cast<std::size_t>(live_ + live_ / 4));
     for (std::size_t k = 0; k < offset_.size(); ++k) {
       const auto begin = data_.begin() + offset_[k];
       offset_[k] = static_cast<std::int64_t>(packed.size());

@@ -86,6 +86,14 @@ class Oracle {
     return (1 / dot(g, a)) * g;
   }
 
+  double limit2_of(std::int32_t i, std::int32_t j) const {
+    if (!params_.radii.empty()) {
+      const double reach = params_.radii[i] + params_.radii[j] + params_.skin;
+      return reach * reach;
+    }
+    return types_ == 1 ? limit2_[0] : limit2_[params_.types[i] * types_ + params_.types[j]];
+  }
+
   bool is_near(std::int32_t i, std::int32_t j) const {
     std::array<Integer, 3> low{0, 0, 0}, high{0, 0, 0};
     for (const Period& period : periods_) {
@@ -94,7 +102,7 @@ class Oracle {
       high[period.axis] = floor_to_integer(period.reach - f);
       if (low[period.axis] > high[period.axis]) return false;
     }
-    const double limit2 = types_ == 1 ? limit2_[0] : limit2_[params_.types[i] * types_ + params_.types[j]];
+    const double limit2 = limit2_of(i, j);
     const Vec3 d = positions_[j] - positions_[i];
     for (Integer a = low[0]; a <= high[0]; ++a) {
       for (Integer b = low[1]; b <= high[1]; ++b) {

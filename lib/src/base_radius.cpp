@@ -11,8 +11,8 @@
 namespace dch::detail {
 namespace {
 
-constexpr std::size_t kSamples = 15;        ///< points around which others are counted
-constexpr std::size_t kLeastOthers = 8192;  ///< points that are counted, or one in kStride if that is more
+constexpr std::size_t kSamples = 9;         ///< points around which others are counted
+constexpr std::size_t kLeastOthers = 4096;  ///< points that are counted, or one in kStride if that is more
 constexpr std::size_t kStride = 16;
 // Of the points within R_0 of a center about a third are its children.
 constexpr double kPointsWithinRadius = 450;

@@ -38,7 +38,6 @@ class CellSearch final : public PairSearch {
 
  private:
   void clear();
-  void check_keys(Span<const std::uint64_t> keys, std::size_t n);
   void find_pairs_by_shifts(const detail::PairFilter& filter);
   void find_pairs_by_nearest_images(const detail::PairFilter& filter);
   void gather(std::int32_t cell, Vec3 shift);
@@ -66,23 +65,10 @@ void CellSearch::clear() {
   grid_.clear();
 }
 
-void CellSearch::check_keys(Span<const std::uint64_t> keys, std::size_t n) {
-  if (keys.empty()) return;
-  if (keys.size() != n) {
-    throw InvalidParameter(std::to_string(keys.size()) + " keys given for " + std::to_string(n) +
-                           " particles; give one each, or none");
-  }
-  if (const auto repeated = key_table_.fill(keys); repeated != detail::KeyTable::kAbsent) {
-    throw InvalidParameter("key " + std::to_string(keys[static_cast<std::size_t>(repeated)]) +
-                           " of particle " + std::to_string(repeated) +
-                           " names another particle too; keys must be distinct");
-  }
-}
-
 void CellSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
   const auto start = std::chrono::steady_clock::now();
   clear();
-  check_keys(keys, positions.size());
+  if (!keys.empty()) key_table_.fill(positions.size(), keys);  // throws if they repeat
   detail::check_radius(radius_, box);
   const double reach = detail::check_positions(positions, box);
 

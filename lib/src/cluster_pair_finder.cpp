@@ -27,57 +27,6 @@ std::uint32_t spread(std::uint32_t slots) {
   return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
 }
 
-/// Puts those below `limit` along an axis in front, without branches; returns where the others begin.
-template <class Point>
-Point* partition(Point* first, Point* last, int axis, float limit) {
-  for (Point* p = first; p != last; ++p) {
-    const Point point = *p;
-    *p = *first;
-    *first = point;
-    first += point.at[axis] < limit;
-  }
-  return first;
-}
-
-/// What std::nth_element does with the points along an axis. Limits are guessed as if the points were spread
-/// evenly between `low` and `high`, which mostly leaves little to do after the first.
-template <class Point>
-void split(Point* first, Point* nth, Point* last, int axis, float low, float high) {
-  constexpr std::ptrdiff_t kFew = 12;
-  constexpr int kGuesses = 4;
-  for (int guess = 0; guess < kGuesses && last - first > kFew; ++guess) {
-    const float limit =
-        low + (high - low) * (static_cast<float>(nth - first) + 0.5f) / static_cast<float>(last - first);
-    Point* const middle = partition(first, last, axis, limit);
-    if (middle == nth) return;
-    (middle < nth ? first : last) = middle;
-    (middle < nth ? low : high) = limit;
-  }
-  std::nth_element(first, nth, last,
-                   [axis](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
-}
-
-/// Orders points so that each four of them are the leaf of a k-d tree; the last leaf may have fewer.
-template <class Point>
-void order_by_fours(Point* begin, std::int32_t count) {
-  if (count <= kSlots) return;
-  float low[3], high[3];
-  std::copy_n(begin->at, 3, low);
-  std::copy_n(begin->at, 3, high);
-  for (const Point* p = begin + 1; p != begin + count; ++p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p->at[axis]);
-      high[axis] = std::max(high[axis], p->at[axis]);
-    }
-  }
-  const float size[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  const auto axis = static_cast<int>(std::max_element(size, size + 3) - size);
-  const std::int32_t middle = (count + kSlots - 1) / kSlots / 2 * kSlots;
-  split(begin, begin + middle, begin + count, axis, low[axis], high[axis]);
-  order_by_fours(begin, middle);
-  order_by_fours(begin + middle, count - middle);
-}
-
 }  // namespace
 
 void ClusterPairFinder::Boxes::make_room(std::size_t count) {
@@ -105,7 +54,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   one_image_ =
       !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
-  for (int a = 0; a < scene.request.cutoffs.types(); ++a)
+  for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
     for (int b = 0; b < scene.request.cutoffs.types(); ++b)
       drops_types_ = drops_types_ || scene.request.cutoffs(a, b) == 0;
 
@@ -148,7 +97,7 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
   }
   const auto all = static_cast<std::size_t>(clusters);
   out.particles = scene.positions.size();
-  out.types = scene.request.cutoffs.types();
+  out.types = scene.request.radii.empty() ? scene.request.cutoffs.types() : 1;
   out.list_radius = scene.request.list_radius();
   out.box = scene.box;
   out.particle.resize(all * kSlots);
@@ -219,12 +168,11 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count
     at.y[slot] = double{point.at[1]};
     at.z[slot] = double{point.at[2]};
     const std::size_t k = cluster * kSlots + static_cast<std::size_t>(slot);
-    out.particle[k] = slot < count ? point.id : kNone;
-    out.type[k] =
-        slot < count && !request.types.empty() ? request.types[static_cast<std::size_t>(point.id)] : 0;
+    out.particle[k] = slot < count ? point.index : kNone;
+    out.type[k] = slot < count && out.types > 1 ? request.types[static_cast<std::size_t>(point.index)] : 0;
     if (slot >= count) continue;
-    if (request.first_ghost >= 0 && point.id >= request.first_ghost) ghosts |= 1u << slot;
-    if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.id)] = static_cast<std::int32_t>(k);
+    if (request.first_ghost >= 0 && point.index >= request.first_ghost) ghosts |= 1u << slot;
+    if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.index)] = static_cast<std::int32_t>(k);
   }
   boxes_.set(cluster, box);
   filled_[cluster] = static_cast<std::uint8_t>((1u << count) - 1);

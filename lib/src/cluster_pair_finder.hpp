@@ -9,6 +9,7 @@
 #include <dch/executor.hpp>
 #include <dch/neighbor_list.hpp>
 
+#include "block_order.hpp"
 #include "cell_images.hpp"
 #include "hierarchy_level.hpp"
 #include "point_blocks.hpp"
@@ -46,10 +47,6 @@ class ClusterPairFinder {
     std::int32_t first = 0, clusters = 0;
     double extent = 0;  ///< distance of the farthest point from the center [length]
     float box[6]{};     ///< around its points, relative to the center
-  };
-  struct alignas(16) LocalPoint {
-    float at[3];  ///< relative to the center
-    std::int32_t id;
   };
   /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
   struct Boxes {

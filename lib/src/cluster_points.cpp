@@ -3,17 +3,66 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "metric.hpp"
 
 namespace dch::detail {
 namespace {
 
-constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
-
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 double longest(Vec3 sides) { return std::max(sides.x, std::max(sides.y, sides.z)); }
+
+/// Takes positions, by id or, if there are none, those in the slots, and puts them into the slots wrapped.
+template <class Metric>
+class BlockMeter {
+ public:
+  BlockMeter(const Metric& metric, const Vec3* positions, PointBlocks& blocks, double covered2)
+      : metric_(metric), positions_(positions), blocks_(blocks), covered2_(covered2) {
+    if constexpr (kIsBrick) cell_ = metric.brick();
+  }
+
+  void measure(std::int32_t block, Vec3 center, float* offset, BlockExtremes& out) const {
+    const std::int32_t first = block * kBlock, count = blocks_.count[block];
+    if constexpr (kIsBrick) {
+      std::int32_t slots[kBlock];
+      for (std::int32_t lane = 0; lane < kBlock; ++lane) slots[lane] = first + lane;
+      const double from[3] = {center.x, center.y, center.z};
+      const bool done = kernel_(cell_, &(positions_ ? positions_ : blocks_.position.data())->x,
+                                positions_ ? blocks_.id.data() + first : slots, count, from, covered2_,
+                                &blocks_.position[first].x, offset, out);
+      if (done) return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      out.low[axis] = std::numeric_limits<double>::infinity();
+      out.high[axis] = -out.low[axis];
+    }
+    out.extent2 = 0;
+    out.uncovered = 0;
+    for (std::int32_t slot = first; slot < first + count; ++slot) {
+      if (positions_) blocks_.position[slot] = metric_.wrap(positions_[blocks_.id[slot]]);
+      const Vec3 at = metric_.displacement(center, blocks_.position[slot]);
+      for (int axis = 0; axis < 3; ++axis) {
+        *offset++ = static_cast<float>(at[axis]);
+        out.low[axis] = std::min(out.low[axis], at[axis]);
+        out.high[axis] = std::max(out.high[axis], at[axis]);
+      }
+      out.extent2 = std::max(out.extent2, norm2(at));
+      out.uncovered += norm2(at) > covered2_;
+    }
+  }
+
+ private:
+  static constexpr bool kIsBrick = !std::is_same_v<Metric, LatticeMetric>;
+  const Metric& metric_;
+  const Vec3* positions_;
+  PointBlocks& blocks_;
+  double covered2_;
+  BrickCell cell_;
+  MeasureBlock kernel_ = measure_block(instruction_set());
+};
 
 BlockBox box_around(Vec3 low, Vec3 high, double per_unit) {
   BlockBox box{};
@@ -37,8 +86,19 @@ BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
 }  // namespace
 
 template <class Metric>
-void ClusterPoints::measure(const Metric& metric, const Level& centers, const PointBlocks& from,
+void ClusterPoints::measure(const Metric& metric, const Level& centers, PointBlocks& from, double covered2,
                             Executor* executor) {
+  measure_all(metric, centers, nullptr, from, covered2, executor);
+}
+
+template <class Metric>
+void ClusterPoints::refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions,
+                            PointBlocks& into, double covered2, Executor* executor) {
+  measure_all(metric, centers, positions.data(), into, covered2, executor);
+}
+
+/// Says where the blocks of each cluster lie.
+void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
   clusters.assign(centers.position.size(), Cluster());
   const std::size_t most = from.cluster.size();
   source.resize(most);
@@ -54,9 +114,16 @@ void ClusterPoints::measure(const Metric& metric, const Level& centers, const Po
       source[blocks++] = block;
     clusters[k].blocks = blocks - clusters[k].first_block;
   }
+}
+
+template <class Metric>
+void ClusterPoints::measure_all(const Metric& metric, const Level& centers, const Vec3* positions,
+                                PointBlocks& from, double covered2, Executor* executor) {
+  lay_out(centers, from);
+  const BlockMeter<Metric> meter(metric, positions, from, covered2);
   for_ranges(executor, centers.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t k = first; k < last; ++k)
-      if (centers.is_alive(k)) measure_cluster(metric, centers.position[k], from, clusters[k]);
+      if (centers.is_alive(k)) measure_cluster(meter, centers.position[k], from, clusters[k]);
   });
   largest_extent = largest_width = largest_block_width = 0;
   for (const Cluster& cluster : clusters) {
@@ -66,92 +133,84 @@ void ClusterPoints::measure(const Metric& metric, const Level& centers, const Po
   }
 }
 
-template <class Metric>
-void ClusterPoints::measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& from,
+template <class Meter>
+void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& from,
                                     Cluster& cluster) {
-  double extent2 = 0, block_width = 0;
+  double extent2 = 0;
   Vec3 cluster_low{}, cluster_high{};  // the center is in the box
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
-    Offset* to = offset.data() + static_cast<std::size_t>(b) * kBlock;
-    const Vec3* position = from.position.data() + static_cast<std::size_t>(source[b]) * kBlock;
-    Vec3 block_low = metric.displacement(center, position[0]), block_high = block_low;
-    const std::int32_t lanes = from.count[source[b]];
-    for (std::int32_t lane = 0; lane < lanes; ++lane) {
-      const Vec3 at = metric.displacement(center, position[lane]);
-      to[lane] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-      extent2 = std::max(extent2, norm2(at));
-      block_low = lower(block_low, at);
-      block_high = upper(block_high, at);
-    }
-    low[b] = block_low;
-    high[b] = block_high;
-    count[b] = static_cast<std::uint8_t>(lanes);
-    block_width = std::max(block_width, longest(block_high - block_low));
-    cluster_low = lower(cluster_low, block_low);
-    cluster_high = upper(cluster_high, block_high);
+    BlockExtremes measured;
+    meter.measure(source[b], center, &offset[static_cast<std::size_t>(b) * kBlock].x, measured);
+    low[b] = {measured.low[0], measured.low[1], measured.low[2]};
+    high[b] = {measured.high[0], measured.high[1], measured.high[2]};
+    count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
+    extent2 = std::max(extent2, measured.extent2);
+    cluster.uncovered += measured.uncovered;
+    cluster.block_width = std::max(cluster.block_width, longest(high[b] - low[b]));
+    cluster_low = lower(cluster_low, low[b]);
+    cluster_high = upper(cluster_high, high[b]);
   }
   cluster.extent = std::sqrt(extent2);
   cluster.width = longest(cluster_high - cluster_low);
-  cluster.block_width = block_width;
 }
 
-// Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
-// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance
-// d <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
-// roundings of 1/2 added.
-void ClusterPoints::quantize(const PointBlocks& from, std::int32_t first_ghost, double reach, double error,
+void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
+                             Span<const std::int32_t> particle_of_id, const PairFilter& filter,
                              Executor* executor) {
-  // The largest difference of coordinates that is taken: between a point of a cluster and one within reach of
-  // the cluster's box, or between the middle of the box and a point of a block within reach of it.
-  const double widest = reach + std::max(largest_width, 0.5 * largest_width + largest_block_width);
-  const double point_unit = widest * (1 + 1e-9) / kLargest;
-  const double box_unit = (reach + 6 * largest_extent) * (1 + 1e-9) / kLargest;
-  const double in_units = reach / point_unit;
-  const double limit = in_units * in_units / 0x1p15;
-  const double off = std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit;
-  const double band = (2 * off * in_units + off * off) / 0x1p15 + 1.5 + 1e-6;
-  in = static_cast<std::int16_t>(std::clamp(std::floor(limit - band) + 1, 0.0, 32767.0));
-  out = static_cast<std::int16_t>(std::clamp(std::floor(limit + band) + 1, 0.0, 32767.0));
-  // Box corners are rounded outward; their shift and the squares are rounded too.
-  const double box_reach = reach / box_unit + 2;
-  box_limit = static_cast<std::int16_t>(std::min(std::ceil(box_reach * box_reach / 0x1p15 + 1.5), 32767.0));
-  per_point_unit = 1 / point_unit;
-  per_box_unit = 1 / box_unit;
-
+  units = to_units;
+  per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(blocks);
   points.resize(all);
   boxes.resize(all);
   ids.resize(all);
   spans.resize(all);
   owned.resize(all);
+  tags.resize(filter.by() == PairFilter::By::one_cutoff ? 0 : all);
   for_ranges(executor, static_cast<std::int32_t>(clusters.size()),
              [&](std::int32_t first, std::int32_t last) {
-               for (std::int32_t k = first; k < last; ++k) quantize_cluster(from, first_ghost, clusters[k]);
+               for (std::int32_t k = first; k < last; ++k)
+                 quantize_cluster(from, particle_of_id, filter, clusters[k]);
              });
 }
 
-void ClusterPoints::quantize_cluster(const PointBlocks& from, std::int32_t first_ghost, Cluster& cluster) {
-  const auto per_unit = static_cast<float>(per_point_unit);
+void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::int32_t> particle_of_id,
+                                     const PairFilter& filter, Cluster& cluster) {
+  const auto per_point_unit = static_cast<float>(per_unit.point);
+  const std::int32_t first_ghost = filter.params().first_ghost;
   Vec3 cluster_low{}, cluster_high{};
   cluster.owned = first_ghost < 0;
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
     const Offset* at = offset.data() + static_cast<std::size_t>(b) * kBlock;
     for (int lane = 0; lane < kBlock; ++lane) {  // whatever empty lanes hold
-      points[b].x[lane] = rounded(at[lane].x * per_unit);
-      points[b].y[lane] = rounded(at[lane].y * per_unit);
-      points[b].z[lane] = rounded(at[lane].z * per_unit);
+      points[b].x[lane] = rounded(at[lane].x * per_point_unit);
+      points[b].y[lane] = rounded(at[lane].y * per_point_unit);
+      points[b].z[lane] = rounded(at[lane].z * per_point_unit);
     }
-    boxes[b] = box_around(low[b], high[b], per_box_unit);
-    spans[b] = span_around(low[b], high[b], per_point_unit);
+    boxes[b] = box_around(low[b], high[b], per_unit.box);
+    spans[b] = span_around(low[b], high[b], per_unit.point);
     std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
+    for (int lane = 0; lane < count[b] && !particle_of_id.empty(); ++lane)
+      ids[b][lane] = particle_of_id[ids[b][lane]];
     owned[b] = first_ghost < 0;
     for (int lane = 0; lane < count[b] && !owned[b]; ++lane) owned[b] = ids[b][lane] < first_ghost;
+    if (!tags.empty()) tag_block(b, filter);
     cluster.owned |= owned[b] != 0;
     cluster_low = lower(cluster_low, low[b]);
     cluster_high = upper(cluster_high, high[b]);
   }
-  cluster.box = box_around(cluster_low, cluster_high, per_box_unit);
-  cluster.span = span_around(cluster_low, cluster_high, per_point_unit);
+  cluster.box = box_around(cluster_low, cluster_high, per_unit.box);
+  cluster.span = span_around(cluster_low, cluster_high, per_unit.point);
+}
+
+void ClusterPoints::tag_block(std::int32_t block, const PairFilter& filter) {
+  tags[block].fill(0);
+  const ListParams& params = filter.params();
+  for (int lane = 0; lane < count[block]; ++lane) {
+    const std::int32_t particle = ids[block][lane];
+    tags[block][lane] = filter.by() == PairFilter::By::radii
+                            ? rounded(params.radii[particle] / units.point)
+                            : static_cast<std::int16_t>(params.types[particle] % kKernelTypes);
+  }
 }
 
 BlockSpan ClusterPoints::span_of(std::int32_t first, std::int32_t last) const {
@@ -160,18 +219,27 @@ BlockSpan ClusterPoints::span_of(std::int32_t first, std::int32_t last) const {
     all_low = lower(all_low, low[b]);
     all_high = upper(all_high, high[b]);
   }
-  return span_around(all_low, all_high, per_point_unit);
+  return span_around(all_low, all_high, per_unit.point);
+}
+
+std::int16_t ClusterPoints::largest_tag(std::int32_t first, std::int32_t last) const {
+  std::int16_t largest = 0;
+  for (std::int32_t b = first; b < last; ++b)
+    largest = std::max(largest, *std::max_element(tags[b].begin(), tags[b].end()));
+  return largest;
 }
 
 std::size_t ClusterPoints::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offset) + bytes_of(low) +
          bytes_of(high) + bytes_of(points) + bytes_of(boxes) + bytes_of(spans) + bytes_of(ids) +
-         bytes_of(owned);
+         bytes_of(tags) + bytes_of(owned);
 }
 
-#define DCH_INSTANTIATE(Metric) \
-  template void ClusterPoints::measure(const Metric&, const Level&, const PointBlocks&, Executor*);
+#define DCH_INSTANTIATE(Metric)                                                                             \
+  template void ClusterPoints::measure(const Metric&, const Level&, PointBlocks&, double, Executor*);       \
+  template void ClusterPoints::refresh(const Metric&, const Level&, Span<const Vec3>, PointBlocks&, double, \
+                                       Executor*);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

@@ -7,13 +7,20 @@
 #include <vector>
 
 #include <dch/executor.hpp>
+#include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
 #include "hierarchy_level.hpp"
+#include "pair_filter.hpp"
 #include "point_blocks.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::detail {
+
+/// Lengths of one unit of the integers that lists are made with.
+struct ListUnits {
+  double point = 1, box = 1;  ///< of points, and of the boxes of blocks [length]
+};
 
 /// The points as lists are made from them: relative to the center of their cluster (a node of level 1), in
 /// blocks with a box around each, first as lengths, then as 16-bit integers. The blocks of a cluster lie side
@@ -24,25 +31,35 @@ struct ClusterPoints {
     double extent = 0;       ///< distance of the farthest point from the center [length]
     double width = 0;        ///< of the box around the points and the center, along its longest side [length]
     double block_width = 0;  ///< the same of the widest block
-    BlockBox box{};          ///< of all blocks
-    BlockSpan span{};        ///< the same in the units of points
-    bool owned = true;       ///< whether a point is not a ghost
+    std::int32_t uncovered = 0;  ///< points farther from the center than asked
+    BlockBox box{};              ///< of all blocks
+    BlockSpan span{};            ///< the same in the units of points
+    bool owned = true;           ///< whether a point is not a ghost
   };
   struct Offset {
     float x, y, z;
   };
 
-  /// Takes the positions. To be called again when a point has moved, come or gone.
+  /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
+  /// distance from their center exceeds `covered2`.
   template <class Metric>
-  void measure(const Metric& metric, const Level& centers, const PointBlocks& points, Executor* executor);
+  void measure(const Metric& metric, const Level& centers, PointBlocks& points, double covered2,
+               Executor* executor);
 
-  /// Fits the units to lists within `reach` and rounds everything to them. `error` bounds how far the
-  /// distance of two positions may be from their pair distance [length].
-  void quantize(const PointBlocks& points, std::int32_t first_ghost, double reach, double error,
-                Executor* executor);
+  /// The same after motion, with the new positions, by id: wraps them into their slots too, in the same pass.
+  /// Those of the centers are up to date already.
+  template <class Metric>
+  void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, PointBlocks& points,
+               double covered2, Executor* executor);
+
+  /// Rounds everything to the units. `filter` says what the cutoffs of pairs depend on.
+  void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
+                const PairFilter& filter, Executor* executor);
 
   /// Box around blocks [first, last) of a cluster, in the units of points.
   BlockSpan span_of(std::int32_t first, std::int32_t last) const;
+  /// Largest tag in blocks [first, last), which have tags.
+  std::int16_t largest_tag(std::int32_t first, std::int32_t last) const;
 
   std::size_t memory_bytes() const;
 
@@ -57,19 +74,28 @@ struct ClusterPoints {
   double largest_block_width = 0;
 
   // What quantize() makes
-  double per_point_unit = 1, per_box_unit = 1;  ///< [1/length]
-  std::int16_t box_limit = 0;                   ///< see ListKernels::collect
-  std::int16_t in = 0, out = 0;                 ///< see ListKernels::test
-  std::vector<BlockPoints> points;              ///< by block, as all below
+  ListUnits units;
+  struct {
+    double point = 1, box = 1;
+  } per_unit;                       ///< the inverse [1/length]
+  std::vector<BlockPoints> points;  ///< by block, as all below
   std::vector<BlockBox> boxes;
   std::vector<BlockSpan> spans;
-  std::vector<std::array<std::int32_t, kBlock>> ids;
-  std::vector<std::uint8_t> owned;  ///< whether a point is not a ghost
+  std::vector<std::array<std::int32_t, kBlock>> ids;   ///< particles
+  std::vector<std::array<std::int16_t, kBlock>> tags;  ///< what their cutoffs depend on, 0 in empty lanes:
+                                                       ///< radii in units or types; empty if nothing
+  std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
+  void lay_out(const Level& centers, const PointBlocks& points);
   template <class Metric>
-  void measure_cluster(const Metric& metric, Vec3 center, const PointBlocks& points, Cluster& cluster);
-  void quantize_cluster(const PointBlocks& points, std::int32_t first_ghost, Cluster& cluster);
+  void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& points,
+                   double covered2, Executor* executor);
+  template <class Meter>
+  void measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& points, Cluster& cluster);
+  void quantize_cluster(const PointBlocks& points, Span<const std::int32_t> particle_of_id,
+                        const PairFilter& filter, Cluster& cluster);
+  void tag_block(std::int32_t block, const PairFilter& filter);
 };
 
 /// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.

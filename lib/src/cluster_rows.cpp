@@ -11,66 +11,121 @@ namespace {
 
 /// Parts of the work for each thread, so that none waits long for the last one.
 constexpr int kPartsPerThread = 4;
+constexpr double kInflate = 1 + 1e-12;
+constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 void start(NeighborList& list) {
   list.kind = ListKind::half;
   list.first.assign(1, 0);
   list.particle.clear();
   list.j.resize(list.j.capacity());
+  list.margin = 0;
+}
+
+/// The finest units in which the rows of source `s` can be found.
+ListUnits units_for(const ListScene& scene, std::size_t s) {
+  const ClusterPoints& own = *scene.sources[s].points;
+  double widest = 0, farthest = 0;
+  for (std::size_t a = 0; a <= s; ++a) {
+    const ClusterPoints& other = *scene.sources[a].points;
+    const double reach = scene.reach_of(s, a);
+    // The largest difference of coordinates that is taken: between a point of a cluster and one within reach
+    // of the cluster's box, or between the middle of the box and a point of a block within reach of it.
+    widest = std::max(
+        widest, reach + std::max(own.largest_width, 0.5 * own.largest_width + other.largest_block_width));
+    farthest = std::max(farthest, reach + 3 * (own.largest_extent + other.largest_extent));
+  }
+  return {widest * (1 + 1e-9) / kLargest, farthest * (1 + 1e-9) / kLargest};
+}
+
+/// Box corners are rounded outward; their shift and the squares are rounded too.
+std::int16_t box_limit(double reach, const ListUnits& units) {
+  const double box_reach = reach / units.box + 2;
+  return static_cast<std::int16_t>(std::min(std::ceil(box_reach * box_reach / 0x1p15 + 1.5), 32767.0));
 }
 
 }  // namespace
 
 template <class Metric>
-void ClusterRows::find(const Metric& metric, const Box& box, const Level& clusters, const PointBlocks& blocks,
-                       Span<const std::int32_t> slot_of_id, std::int32_t first_ghost, double error,
-                       const PairFilter& filter, Executor* executor, NeighborList& out) {
-  start(out);
-  const double reach = std::sqrt(filter.largest_distance2());
-  constexpr double kInflate = 1 + 1e-12;
+void ClusterRows::find(const Metric& metric, const ListScene& scene,
+                       const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out) {
+  for (NeighborList* list : out) start(*list);
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
-  if (box.any_periodic() && (reach + 2 * error) * kInflate >= box.max_cutoff())
-    return find_by_distance(metric, clusters, blocks, filter, out);
-  points_.quantize(blocks, first_ghost, reach, error, executor);
-  const bool one_image =
-      !box.any_periodic() || (reach + 2 * points_.largest_extent) * kInflate < box.max_cutoff();
-  const RowFinder::Scene<Metric> scene{metric,  box,    clusters, blocks,   slot_of_id,
-                                       points_, filter, reach,    one_image};
-  if (executor && executor->threads() > 1) return find_side_by_side(scene, *executor, out);
-  finders_.resize(1);
-  finders_[0].use(instruction_set());
-  for (std::int32_t k = 0; k < clusters.size(); ++k)
-    if (clusters.is_alive(k)) finders_[0].append_rows(scene, k, out);
+  const double largest = *std::max_element(scene.reach.begin(), scene.reach.end());
+  if (scene.box.any_periodic() && (largest + 2 * scene.error) * kInflate >= scene.box.max_cutoff()) {
+    for (std::size_t r = 0; r < out.size(); ++r)
+      find_by_distance(metric, scene.sources.front(), *filters[r], *out[r]);
+    return;
+  }
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    const ListUnits units = units_for(scene, s);
+    RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};
+    for (std::size_t turn = 0; turn <= s; ++turn) {
+      const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
+      const ListSource& source = scene.sources[a];
+      source.points->quantize(*source.blocks, units, source.particle_of_id, *filters.front(), scene.executor);
+      const double reach = scene.reach_of(s, a);
+      const double extents = scene.sources[s].points->largest_extent + source.points->largest_extent;
+      const bool one_image =
+          !scene.box.any_periodic() || (reach + extents) * kInflate < scene.box.max_cutoff();
+      rows.near.push_back({&source, reach, box_limit(reach, units), one_image});
+    }
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      rows.requests.push_back({filters[r], ListLimits(*filters[r], units.point, scene.error)});
+      if (filters[r]->params().superset)
+        out[r]->margin = std::max(out[r]->margin, rows.requests.back().limits.margin);
+    }
+    find_rows(rows, scene.executor, out);
+  }
 }
 
-/// Each part of the clusters by itself, then all pieces behind each other.
 template <class Metric>
-void ClusterRows::find_side_by_side(const RowFinder::Scene<Metric>& scene, Executor& executor,
-                                    NeighborList& out) {
-  const int parts = kPartsPerThread * executor.threads();
-  finders_.resize(static_cast<std::size_t>(parts));
-  pieces_.resize(static_cast<std::size_t>(parts));
-  const std::int32_t clusters = scene.centers.size();
-  executor.run(parts, [&](int part) {
-    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{clusters} * k / parts); };
-    RowFinder& finder = finders_[static_cast<std::size_t>(part)];
-    NeighborList& piece = pieces_[static_cast<std::size_t>(part)];
-    start(piece);
-    finder.use(instruction_set());
-    for (std::int32_t k = cut(part); k < cut(part + 1); ++k)
-      if (scene.centers.is_alive(k)) finder.append_rows(scene, k, piece);
+void ClusterRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
+                            const std::vector<NeighborList*>& out) {
+  const Level& centers = scene.rows().centers();
+  const auto find_part = [&](Part& part, std::int32_t first, std::int32_t last) {
+    part.finder.use(instruction_set());
+    for (std::int32_t k = first; k < last; ++k)
+      if (centers.is_alive(k)) part.finder.append_rows(scene, k, part.lists.data());
+  };
+  if (!executor || executor->threads() == 1) {
+    parts_.resize(1);
+    Part& part = parts_.front();
+    part.lists.resize(out.size());
+    for (std::size_t r = 0; r < out.size(); ++r) std::swap(part.lists[r], *out[r]);
+    find_part(part, 0, centers.size());
+    for (std::size_t r = 0; r < out.size(); ++r) std::swap(part.lists[r], *out[r]);
+    return;
+  }
+  const int parts = kPartsPerThread * executor->threads();
+  parts_.resize(static_cast<std::size_t>(parts));
+  executor->run(parts, [&](int p) {
+    const auto cut = [&](int k) {
+      return static_cast<std::int32_t>(std::int64_t{centers.size()} * k / parts);
+    };
+    Part& part = parts_[static_cast<std::size_t>(p)];
+    part.lists.resize(out.size());
+    for (NeighborList& list : part.lists) start(list);
+    find_part(part, cut(p), cut(p + 1));
   });
-  std::vector<std::size_t> first_row(pieces_.size() + 1, 0), first_entry(pieces_.size() + 1, 0);
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    first_row[p + 1] = first_row[p] + pieces_[p].size();
-    first_entry[p + 1] = first_entry[p] + static_cast<std::size_t>(pieces_[p].first.back());
+  for (std::size_t r = 0; r < out.size(); ++r) append_pieces(*executor, r, *out[r]);
+}
+
+/// Puts what the parts found behind each other.
+void ClusterRows::append_pieces(Executor& executor, std::size_t list, NeighborList& out) {
+  std::vector<std::size_t> first_row(parts_.size() + 1, out.particle.size());
+  std::vector<std::size_t> first_entry(parts_.size() + 1, static_cast<std::size_t>(out.first.back()));
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const NeighborList& piece = parts_[p].lists[list];
+    first_row[p + 1] = first_row[p] + piece.size();
+    first_entry[p + 1] = first_entry[p] + static_cast<std::size_t>(piece.first.back());
   }
   out.first.resize(first_row.back() + 1);
   out.particle.resize(first_row.back());
   if (out.j.size() < first_entry.back()) out.j.resize(first_entry.back());
-  executor.run(parts, [&](int part) {
+  executor.run(static_cast<int>(parts_.size()), [&](int part) {
     const auto p = static_cast<std::size_t>(part);
-    const NeighborList& piece = pieces_[p];
+    const NeighborList& piece = parts_[p].lists[list];
     std::copy(piece.particle.begin(), piece.particle.end(),
               out.particle.begin() + static_cast<std::ptrdiff_t>(first_row[p]));
     std::copy_n(piece.j.data(), piece.first.back(), out.j.data() + first_entry[p]);
@@ -81,8 +136,10 @@ void ClusterRows::find_side_by_side(const RowFinder::Scene<Metric>& scene, Execu
 
 /// Where lists reach half the box, with the nearest image found pair by pair.
 template <class Metric>
-void ClusterRows::find_by_distance(const Metric& metric, const Level& clusters, const PointBlocks& points,
-                                   const PairFilter& filter, NeighborList& out) {
+void ClusterRows::find_by_distance(const Metric& metric, const ListSource& source, const PairFilter& filter,
+                                   NeighborList& out) {
+  const Level& clusters = source.centers();
+  const PointBlocks& points = *source.blocks;
   std::vector<std::int32_t> own, others;
   for (std::int32_t k = 0; k < clusters.size(); ++k) {
     if (!clusters.is_alive(k)) continue;
@@ -108,18 +165,19 @@ void ClusterRows::find_by_distance(const Metric& metric, const Level& clusters, 
 }
 
 std::size_t ClusterRows::memory_bytes() const {
-  std::size_t bytes = points_.memory_bytes();
-  for (const RowFinder& finder : finders_) bytes += finder.memory_bytes();
-  for (const NeighborList& piece : pieces_)
-    bytes += piece.first.capacity() * sizeof(std::int64_t) +
-             (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);
+  std::size_t bytes = 0;
+  for (const Part& part : parts_) {
+    bytes += part.finder.memory_bytes();
+    for (const NeighborList& piece : part.lists)
+      bytes += piece.first.capacity() * sizeof(std::int64_t) +
+               (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);
+  }
   return bytes;
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                      \
-  template void ClusterRows::find(const Metric&, const Box&, const Level&, const PointBlocks&,       \
-                                  Span<const std::int32_t>, std::int32_t, double, const PairFilter&, \
-                                  Executor*, NeighborList&);
+#define DCH_INSTANTIATE(Metric)                                                                           \
+  template void ClusterRows::find(const Metric&, const ListScene&, const std::vector<const PairFilter*>&, \
+                                  const std::vector<NeighborList*>&);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

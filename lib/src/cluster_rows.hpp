@@ -8,13 +8,26 @@
 #include <dch/executor.hpp>
 #include <dch/neighbor_list.hpp>
 
-#include "cluster_points.hpp"
-#include "hierarchy_level.hpp"
+#include "list_source.hpp"
 #include "pair_filter.hpp"
-#include "point_blocks.hpp"
 #include "row_finder.hpp"
 
 namespace dch::detail {
+
+/// What lists are made of, the same for all of them.
+struct ListScene {
+  const Box& box;
+  /// Hierarchies, that of the smallest cutoffs first. The rows of one hold its pairs with those before it.
+  std::vector<ListSource> sources;
+  /// Largest list radius of the points of two sources, row-major, at most half the box where there is more
+  /// than one source [length].
+  std::vector<double> reach;
+  double error;  ///< how far the distance of two positions may be from their pair distance [length]
+  Executor* executor;
+  std::vector<std::int32_t> lone = {};  ///< particles in no cluster, since they have no neighbors: empty rows
+
+  double reach_of(std::size_t a, std::size_t b) const { return reach[a * sources.size() + b]; }
+};
 
 /// Writes neighbor lists from clusters of points that the conflict graph joins: the level-0 edges, enumerated
 /// among the children of equal or neighboring level-1 nodes (Lemma 5.3.1(5)).
@@ -25,34 +38,29 @@ namespace dch::detail {
 /// on every instruction set, so the rows are too; and they do not depend on the number of threads.
 class ClusterRows {
  public:
-  /// Takes the positions of the points relative to their cluster's center. To be called again when a point
-  /// has moved, come or gone.
+  /// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like
+  /// all others. What the filters' cutoffs depend on must be the same for all, and the first one's list
+  /// radius the largest. Edges must join all clusters of a source with points within its reach of each other.
   template <class Metric>
-  void measure(const Metric& metric, const Level& clusters, const PointBlocks& points, Executor* executor) {
-    points_.measure(metric, clusters, points, executor);
-  }
-  /// Distance of the farthest point of a cluster from its center [length].
-  double extent(std::int32_t cluster) const { return points_.clusters[cluster].extent; }
-
-  /// Finds all pairs that the filter accepts, as a half list ordered by structure, ghosts having rows like
-  /// all others. Edges must join all clusters with points within the square root of
-  /// filter.largest_distance2().
-  template <class Metric>
-  void find(const Metric& metric, const Box& box, const Level& clusters, const PointBlocks& blocks,
-            Span<const std::int32_t> slot_of_id, std::int32_t first_ghost, double error,
-            const PairFilter& filter, Executor* executor, NeighborList& out);
+  void find(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
+            const std::vector<NeighborList*>& out);
   std::size_t memory_bytes() const;
 
  private:
   template <class Metric>
-  void find_side_by_side(const RowFinder::Scene<Metric>& scene, Executor& executor, NeighborList& out);
+  void find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
+                 const std::vector<NeighborList*>& out);
+  void append_pieces(Executor& executor, std::size_t list, NeighborList& out);
   template <class Metric>
-  static void find_by_distance(const Metric& metric, const Level& clusters, const PointBlocks& points,
-                               const PairFilter& filter, NeighborList& out);
+  static void find_by_distance(const Metric& metric, const ListSource& source, const PairFilter& filter,
+                               NeighborList& out);
 
-  ClusterPoints points_;
-  std::vector<RowFinder> finders_;    ///< one a part of the work
-  std::vector<NeighborList> pieces_;  ///< what they found, where there is more than one
+  /// What one part of the work found, where there is more than one.
+  struct Part {
+    RowFinder finder;
+    std::vector<NeighborList> lists;
+  };
+  std::vector<Part> parts_;
 };
 
 }  // namespace dch::detail

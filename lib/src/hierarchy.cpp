@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -11,13 +10,11 @@
 #include "base_radius.hpp"
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
-#include "space_filling_order.hpp"
 
 namespace dch {
 
 using detail::kNone;
 using detail::with_metric;
-using Clock = std::chrono::steady_clock;
 
 // --- levels
 // -----------------------------------------------------------------------------------------------------
@@ -27,8 +24,8 @@ double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_ra
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
   if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
-  const double motion = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
-  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + motion + wrap_slack;
+  const double slack = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
+  return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + slack + wrap_slack;
 }
 
 void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
@@ -75,15 +72,21 @@ void Hierarchy::Impl::pop_level() {
 std::int32_t Hierarchy::Impl::node_of(std::int32_t id, int level) const {
   if (id < 0 || static_cast<std::size_t>(id) >= slot_of_id.size()) return kNone;
   std::int32_t node = slot_of_id[id];
-  for (int i = 0; i < level && node != kNone; ++i) node = up(i, node);
+  int i = 0;
+  if (is_lone_point(id)) {
+    i = lone[lone_at(node)].level;
+    node = i <= level ? lone[lone_at(node)].node : kNone;
+  }
+  for (; i < level && node != kNone; ++i) node = up(i, node);
   return node;
 }
 
 std::size_t Hierarchy::Impl::memory_bytes() const {
   std::size_t bytes =
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
+  bytes += lone.capacity() * sizeof(LoneNode);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes + points.memory_bytes() + cluster_rows.memory_bytes() + assembler.memory_bytes() +
+  return bytes + points.memory_bytes() + cluster_points.memory_bytes() + list_finder.memory_bytes() +
          pair_finder.memory_bytes();
 }
 
@@ -99,35 +102,14 @@ void Hierarchy::Impl::reset(const Box& b) {
   pending = measured = false;
   levels.clear();
   points.clear();
+  lone.clear();
+  placing_later = false;
+  batch_hint = {};
   raw.clear();
   slot_of_id.clear();
   free_ids.clear();
   push_level();
   push_level();
-}
-
-void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
-  const auto start = Clock::now();
-  const std::int64_t promotions = stats.promotions;
-  reset(b);
-  largest_reach = detail::check_positions(positions, b);
-  detail::check_radius(params.radius, b);
-  const auto n = positions.size();
-  set_base_radius(positions);
-  set_wrap_slack();
-  raw.assign(n, Vec3{});
-  slot_of_id.assign(n, kNone);
-  with_metric(box, [&](const auto& metric) {
-    std::int32_t hint = kNone;
-    for (const std::int32_t id : detail::space_filling_order(positions, box, params.radius)) {
-      insert(metric, id, positions[id], hint);
-      hint = slot_of_id[id];
-    }
-  });
-  reorder();
-  ++stats.builds;
-  stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
-  if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));
 }
 
 // --- public interface
@@ -198,7 +180,7 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
     h.free_ids.pop_back();
   }
   with_metric(h.box, [&](const auto& metric) {
-    h.insert(metric, id, position, near == kNone ? kNone : h.slot_of_id[near]);
+    h.insert(metric, id, position, near == kNone ? Impl::Hint{} : h.lowest_node(near));
   });
   ++h.stats.inserted;
   return id;
@@ -248,7 +230,9 @@ void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
 
 std::size_t Hierarchy::size() const { return impl_->slot_of_id.size() - impl_->free_ids.size(); }
 std::size_t Hierarchy::capacity() const { return impl_->slot_of_id.size(); }
-bool Hierarchy::contains(std::int32_t id) const { return impl_->node_of(id, 0) != kNone; }
+bool Hierarchy::contains(std::int32_t id) const {
+  return id >= 0 && static_cast<std::size_t>(id) < capacity() && impl_->slot_of_id[id] != kNone;
+}
 const Box& Hierarchy::box() const { return impl_->box; }
 const HierarchyParams& Hierarchy::params() const { return impl_->params; }
 int Hierarchy::levels() const { return static_cast<int>(impl_->levels.size()); }
@@ -266,7 +250,7 @@ LevelInfo Hierarchy::level(int i) const {
   LevelInfo info;
   info.covering_radius = level.radius;
   info.edge_threshold = level.threshold;
-  info.nodes = impl_->alive(i);
+  info.nodes = impl_->alive(i) + impl_->lone_above(i);
   info.edges = i > 0 ? level.edges.entries() / 2 : -1;
   for (std::int32_t k = 0; k < level.size(); ++k)
     info.max_degree =
@@ -276,7 +260,7 @@ LevelInfo Hierarchy::level(int i) const {
 
 int Hierarchy::top_level(std::int32_t id) const {
   if (!contains(id)) throw InvalidParameter("top_level(): there is no point with id " + std::to_string(id));
-  int i = 0;
+  int i = impl_->is_lone_point(id) ? impl_->lowest_node(id).level : 0;
   while (i < impl_->top() && impl_->node_of(id, i + 1) != kNone) ++i;
   return i;
 }
@@ -288,6 +272,7 @@ namespace {
 }  // namespace
 
 std::int32_t Hierarchy::parent(std::int32_t id, int i) const {
+  if (impl_->stands_alone(id, i)) return id;
   const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
   if (node == kNone) throw_not_in_level(id, i);
   const std::int32_t above = impl_->parent(i, node);
@@ -295,6 +280,7 @@ std::int32_t Hierarchy::parent(std::int32_t id, int i) const {
 }
 
 std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
+  if (impl_->stands_alone(id, i)) return {};
   const std::int32_t node = i < 0 || i >= levels() ? kNone : impl_->node_of(id, i);
   if (node == kNone) throw_not_in_level(id, i);
   std::vector<std::int32_t> nodes;
@@ -305,7 +291,13 @@ std::vector<std::int32_t> Hierarchy::neighbors(std::int32_t id, int i) const {
   return ids;
 }
 
-void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->list(params, out); }
+void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->lists({&params, 1}, {&out}); }
+void Hierarchy::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  for (NeighborList& list : out) each.push_back(&list);
+  impl_->lists(requests, each);
+}
 bool Hierarchy::repair_pending() const { return impl_->pending; }
 void Hierarchy::repair() { impl_->repair_if_pending(); }
 std::string Hierarchy::validate() const { return impl_->validate(); }

@@ -7,12 +7,14 @@
 
 #include <dch/hierarchy.hpp>
 
+#include "block_order.hpp"
 #include "candidate_buffer.hpp"
 #include "cluster_pair_finder.hpp"
-#include "cluster_rows.hpp"
+#include "cluster_points.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
-#include "list_assembly.hpp"
+#include "list_finder.hpp"
+#include "list_source.hpp"
 #include "metric.hpp"
 #include "point_blocks.hpp"
 #include "sibling_store.hpp"
@@ -41,9 +43,17 @@ struct Hierarchy::Impl {
   detail::PointBlocks points;            ///< level 0
   std::vector<Level> levels;             ///< level 1 always, levels[0] holds radii only
   std::vector<Vec3> raw;                 ///< positions as given, by id
-  std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids
+  std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids, or place_of_lone()
   std::vector<std::int32_t> free_ids;    ///< min-heap
   SearchStats stats;
+
+  /// A node without nodes below it in memory, since it has neither edges nor other descendants than itself.
+  struct LoneNode {
+    int level;  ///< at least 2
+    std::int32_t node;
+  };
+  std::vector<LoneNode> lone;
+  bool placing_later = false;  ///< while building: slot_of_id holds parents
 
   // What the two ways to bring the structure up to date cost, measured on itself [s].
   detail::CostEstimate build_per_point;
@@ -59,8 +69,10 @@ struct Hierarchy::Impl {
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
   std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
-  bool measured = false;      ///< whether cluster_rows holds the points as they are now
-  std::int64_t strayed = 0;   ///< nodes that changed their parent since the nodes were last put in order
+  double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
+  detail::ClusterPoints cluster_points;
+  bool measured = false;     ///< whether cluster_points holds the points as they are now
+  std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
@@ -93,22 +105,7 @@ struct Hierarchy::Impl {
     for (; child != detail::kNone; child = levels[level - 1].next_sibling[child]) f(child);
   }
 
-  // hierarchy.cpp: whole-structure operations
-  void reset(const Box& b);
-  void build(Span<const Vec3> positions, const Box& b);
-  void push_level();
-  void pop_level();
-  std::int32_t node_of(std::int32_t id, int level) const;
-  std::size_t memory_bytes() const;
-
-  // hierarchy_links.cpp: parents and children
-  void attach(int level, std::int32_t node, std::int32_t parent);
-  void detach(int level, std::int32_t node);
-  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
-  void take_point(std::int32_t slot);
-  void disconnect(int level, std::int32_t node);
-
-  // hierarchy_update.cpp: places for single points
+  // Places for nodes
   struct Cover {
     int level;  ///< lowest level >= target with a node within R_{level-1}; top() + 1 if there is none
     std::int32_t parent;  ///< that node, the nearest one; kNone if there is none
@@ -118,11 +115,107 @@ struct Hierarchy::Impl {
     int level = 0;
     std::int32_t node = detail::kNone;
   };
+
+  // hierarchy.cpp: whole-structure operations
+  void reset(const Box& b);
+  void push_level();
+  void pop_level();
+  std::int32_t node_of(std::int32_t id, int level) const;
+  std::size_t memory_bytes() const;
+
+  // hierarchy_build.cpp
+  void build(Span<const Vec3> positions, const Box& b);
+  /// Some points close to each other, to find parents for together.
+  struct Batch {
+    const std::int32_t* ids;
+    std::size_t size;
+    Vec3 center;
+    double extent;  ///< of the farthest point from the center, wrapped but not by nearest images [length]
+  };
+  template <class Metric>
+  void choose_clusters(const Metric& metric);
+  template <class Metric>
+  void settle_batch(const Metric& metric, const Batch& batch);
+  template <class Metric>
+  Hint cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
+  template <class Metric>
+  void place_points(const Metric& metric);
+  static detail::LocalPoint local_point(Vec3 at, std::int32_t index) {
+    return {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, index};
+  }
+  /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their
+  /// indices.
+  template <class IdOf, class PositionOf>
+  void fill_cluster(detail::PointBlocks& blocks, std::int32_t cluster, std::vector<detail::LocalPoint>& local,
+                    const IdOf& id_of, const PositionOf& position_of) {
+    const auto count = static_cast<std::int32_t>(local.size());
+    const std::int32_t parts = detail::blocks_for(count);
+    detail::order_by_halving(local.data(), count);
+    std::int32_t last = detail::kNone, k = 0;
+    for (std::int32_t part = 0; part < parts; ++part) {
+      const std::int32_t block = blocks.add_block(cluster, detail::kNone);
+      (last == detail::kNone ? levels[1].first_child[cluster] : blocks.next[last]) = block;
+      last = block;
+      for (; k < detail::share_of_blocks(count, parts, part + 1); ++k) {
+        const std::int32_t id = id_of(local[k].index);
+        slot_of_id[id] = blocks.push(block, id, position_of(local[k].index));
+        if (id == levels[1].id[cluster]) levels[1].down[cluster] = slot_of_id[id];
+      }
+    }
+  }
+
+  // hierarchy_lone.cpp: points on their own
+  /// What slot_of_id and Level::down hold for the k-th lone node; an involution.
+  static std::int32_t place_of_lone(std::int32_t k) { return -2 - k; }
+  static std::int32_t lone_at(std::int32_t place) { return -2 - place; }
+  bool is_lone(int level, std::int32_t node) const {
+    return level > 1 && levels[level].down[node] < detail::kNone;
+  }
+  /// Whether a point's node of some level is not in memory, being on its own.
+  bool stands_alone(std::int32_t id, int level) const {
+    return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() && is_lone_point(id) &&
+           level < lowest_node(id).level;
+  }
+  bool is_lone_point(std::int32_t id) const { return slot_of_id[id] < detail::kNone; }
+  void make_lone(int level, std::int32_t node);
+  void forget_lone(int level, std::int32_t node);
+  void unfold(int level, std::int32_t node);
+  /// Unfolds the lone nodes of a level that have edges now.
+  void unfold_joined(int level);
+  bool could_be_lone(int level, std::int32_t node) const;
+  /// Makes all nodes lone that can be.
+  void fold();
+  /// Number of lone nodes of the levels above.
+  std::int32_t lone_above(int level) const;
+  /// Points that are lone nodes, by id.
+  std::vector<std::int32_t> lone_points() const;
+  /// Lowest node of a point that is in memory: its cluster, or the lone node.
+  Hint lowest_node(std::int32_t id) const {
+    if (is_lone_point(id)) return {lone[lone_at(slot_of_id[id])].level, lone[lone_at(slot_of_id[id])].node};
+    return {1, points.parent(slot_of_id[id])};
+  }
+
+  // hierarchy_links.cpp: parents and children
+  void attach(int level, std::int32_t node, std::int32_t parent);
+  void detach(int level, std::int32_t node);
+  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
+  void take_point(std::int32_t slot);
+  void disconnect(int level, std::int32_t node);
+
+  // hierarchy_update.cpp: places for single points
+  /// Fills near[target] with the nodes of that level within `reach` of a point, and near[] of the levels
+  /// above it up to that of the node it returns, whose neighbors include all that are wanted. Levels >=
+  /// target must be in order.
+  template <class Metric>
+  Hint find_near(const Metric& metric, Vec3 at, int target, double reach, Hint hint);
+  template <class Metric>
+  void look_around(const Metric& metric, Vec3 at, Hint middle, double reach);
   /// Finds a parent in level `target` or above for a point. Levels >= target must be in order.
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
   /// Gives a point nodes in the levels between `level` and its cover, linked to each other and to the cover.
-  /// Returns the lowest one, or the cover's node if there are none between.
+  /// Returns the lowest one, or the cover's node if there are none between. From level 0 on it ends at the
+  /// first that is lone, and returns kNone.
   template <class Metric>
   std::int32_t lift(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
   /// Links a node of `level` >= 1 to its cover.
@@ -136,7 +229,7 @@ struct Hierarchy::Impl {
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  void insert(const Metric& metric, std::int32_t id, Vec3 at, std::int32_t hint_slot);
+  void insert(const Metric& metric, std::int32_t id, Vec3 at, Hint hint);
   template <class Metric>
   void remove(const Metric& metric, std::int32_t id);
   void trim_top();
@@ -144,7 +237,14 @@ struct Hierarchy::Impl {
   // hierarchy_repair.cpp
   void update(Span<const Vec3> positions, const Box& b);
   double check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
-  void refresh_positions(Span<const Vec3> positions);
+  template <class Metric>
+  void refresh_level(const Metric& metric, int level);
+  /// New positions of the points and of level 1; with this, points are measured.
+  template <class Metric>
+  void refresh_clusters(const Metric& metric);
+  /// New positions of the levels above, which keep those of the last repair while one is pending.
+  template <class Metric>
+  void refresh_centers(const Metric& metric);
   template <class Metric>
   std::int64_t count_orphans(const Metric& metric) const;
   template <class Metric>
@@ -155,6 +255,7 @@ struct Hierarchy::Impl {
   bool repair_pays(std::int64_t orphans) const;
   template <class Metric>
   void repair(const Metric& metric, double check_seconds);
+  bool is_known_to_cover(std::int32_t cluster) const;
   template <class Metric>
   void cover_points(const Metric& metric);
   template <class Metric>
@@ -166,16 +267,19 @@ struct Hierarchy::Impl {
 
   // hierarchy_reorder.cpp: puts nodes in depth-first order, siblings side by side
   void reorder();
+  /// Levels 1 and above. Returns the new index of each node of level 1.
+  std::vector<std::int32_t> reorder_levels();
   void reorder_points();
 
   // hierarchy_list.cpp
   /// Appends the neighbors of a node in its level of G_c.
   template <class Metric>
   void neighbors(const Metric& metric, int level, std::int32_t node, std::vector<std::int32_t>& nodes) const;
-  void list(const ListParams& request, NeighborList& out);
-  /// Bound on how far a distance of wrapped points is from their pair distance; repairs if that has become
-  /// more than edges allow for [length].
-  double settle_wrap_error();
+  void lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  /// Brings up to date what lists are made from. Returns how far the distance of two wrapped positions may be
+  /// from their pair distance [length].
+  double prepare_for_lists();
+  detail::ListSource list_source(Span<const std::int32_t> particle_of_id);
 
   // hierarchy_cluster_pairs.cpp
   void cluster_pairs(const ListParams& request, ClusterPairs& out);
@@ -188,16 +292,17 @@ struct Hierarchy::Impl {
     std::int32_t node;
     double distance2;
   };
-  std::vector<std::vector<Near>> near;  ///< of locate(): by level, the nodes within R_level
+  Hint batch_hint;                        ///< of settle_batch(): where the last batch was
+  std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
+  std::vector<Vec3> batch_centers;
+  std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
   std::vector<std::array<std::int32_t, 2>>
       too_close;                     ///< of connect_level(): pairs that separate_level() settles
   std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
-  detail::ClusterRows cluster_rows;
-  NeighborList rows;  ///< as ClusterRows found them, where another order is asked for
-  detail::ListAssembler assembler;
+  detail::ListFinder list_finder;
   detail::ClusterPairFinder pair_finder;
 };
 

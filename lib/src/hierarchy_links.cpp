@@ -7,6 +7,7 @@ using detail::kBlock;
 using detail::kNone;
 
 void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) {
+  if (is_lone(level + 1, parent)) unfold(level + 1, parent);
   Level& below = levels[level];
   Level& above = levels[level + 1];
   const std::int32_t first = above.first_child[parent];

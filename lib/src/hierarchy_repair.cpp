@@ -47,15 +47,16 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
       const bool same_box = box == b;
       box = b;
       if (!pending) anchors = levels[1].position;
+      raw.assign(positions.begin(), positions.end());
       with_metric(box, [&](const auto& metric) {
-        refresh_positions(positions);
-        measured = false;
+        refresh_clusters(metric);
         if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
           pending = true;
           ++stats.refreshes;
           return;
         }
         set_wrap_slack();
+        refresh_centers(metric);
         const auto counting = Clock::now();
         const std::int64_t orphans = count_orphans(metric);
         const double check_seconds = seconds_since(counting);
@@ -82,30 +83,30 @@ double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, co
   return detail::check_positions(live, b);
 }
 
-void Hierarchy::Impl::refresh_positions(Span<const Vec3> positions) {
-  raw.assign(positions.begin(), positions.end());
-  const Vec3 low = box.origin();
-  const Vec3 high = low + Vec3{box.vector(0).x, box.vector(1).y, box.vector(2).z};
-  const bool is_brick = box.kind() == Box::Kind::orthorhombic;
-  for (std::size_t id = 0; id < raw.size(); ++id) {
-    const std::int32_t slot = slot_of_id[id];
-    if (slot == kNone) continue;
-    const Vec3 p = positions[id];
-    const bool is_inside = is_brick && p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < high.x &&
-                           p.y < high.y && p.z < high.z;
-    points.position[slot] = is_inside ? p : box.wrap(p);
-  }
-  for (int i = 1; i <= top(); ++i) {
-    Level& level = levels[i];
-    for (std::int32_t k = 0; k < level.size(); ++k)
-      if (level.is_alive(k)) level.position[k] = position(i - 1, level.down[k]);
-  }
+template <class Metric>
+void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
+  Level& level = levels[i];
+  for (std::int32_t k = 0; k < level.size(); ++k)
+    if (level.is_alive(k)) level.position[k] = metric.wrap(raw[level.id[k]]);
+}
+
+template <class Metric>
+void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
+  refresh_level(metric, 1);
+  cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  measured = true;
+}
+
+template <class Metric>
+void Hierarchy::Impl::refresh_centers(const Metric& metric) {
+  for (int i = 2; i <= top(); ++i) refresh_level(metric, i);
 }
 
 template <class Metric>
 std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
   std::int64_t count = 0;
-  for (int i = 1; i <= top(); ++i) {
+  for (const auto& cluster : cluster_points.clusters) count += cluster.uncovered;
+  for (int i = 2; i <= top(); ++i) {
     const double limit2 = levels[i - 1].radius2;
     for (std::int32_t k = 0; k < levels[i].size(); ++k) {
       if (!levels[i].is_alive(k)) continue;
@@ -120,22 +121,31 @@ std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_rows.measure(metric, levels[1], points, params.executor);
+  if (!measured) cluster_points.measure(metric, levels[1], points, levels[0].radius2, params.executor);
   measured = true;
 }
 
 // Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
 // more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
-// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster.
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count
+// as clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
 template <class Metric>
 bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
   measure(metric);
   const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
+  motion = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k)) continue;
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
-    if (cluster_rows.extent(k) + moved > limit) return false;
+    if (cluster_points.clusters[k].extent + moved > limit) return false;
+    motion = std::max(motion, moved);
+  }
+  for (const LoneNode& node : lone) {
+    const Level& level = levels[node.level];
+    const double moved =
+        std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
+    if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
   }
   return true;
 }
@@ -143,7 +153,10 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
 void Hierarchy::Impl::repair_if_pending() {
   if (!pending) return;
   set_wrap_slack();
-  with_metric(box, [&](const auto& metric) { repair(metric, 0); });
+  with_metric(box, [&](const auto& metric) {
+    refresh_centers(metric);
+    repair(metric, 0);
+  });
 }
 
 // Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
@@ -159,12 +172,14 @@ template <class Metric>
 void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   const auto start = Clock::now();
   const std::int64_t reparented_before = stats.reparented;
+  measure(metric);
   double cover_seconds = 0;
   for (int i = top(); i > 0; --i) {
     const auto covering = Clock::now();
     if (i < top()) cover_level(metric, i);
     cover_seconds += seconds_since(covering);
     connect_level(metric, i);
+    unfold_joined(i);
     separate_level(i);
   }
   const auto covering = Clock::now();
@@ -172,6 +187,7 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   cover_seconds += seconds_since(covering);
   grow_top(metric);
   trim_top();
+  fold();
   ++stats.repairs;
   pending = measured = false;
   strayed += stats.reparented - reparented_before;
@@ -184,11 +200,18 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
 }
 
+/// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
+/// since then hold none but those that were found to be near enough.
+bool Hierarchy::Impl::is_known_to_cover(std::int32_t cluster) const {
+  const auto& clusters = cluster_points.clusters;
+  return static_cast<std::size_t>(cluster) >= clusters.size() || clusters[cluster].uncovered == 0;
+}
+
 template <class Metric>
 void Hierarchy::Impl::cover_points(const Metric& metric) {
   strays.clear();
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k)) continue;
+    if (!levels[1].is_alive(k) || is_known_to_cover(k)) continue;
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
       if (metric.distance2(points.position[slot], center) > levels[0].radius2)
@@ -299,6 +322,10 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
     }
     points.next[last] = level.first_child[heir];
     level.first_child[heir] = level.first_child[node];
+    auto& clusters = cluster_points.clusters;
+    if (static_cast<std::size_t>(heir) >= clusters.size())
+      clusters.resize(static_cast<std::size_t>(heir) + 1);
+    ++clusters[heir].uncovered;  // for all that is known
   }
   detach(i, node);
   disconnect(i, node);

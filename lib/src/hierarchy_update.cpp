@@ -13,57 +13,74 @@ using detail::LatticeMetric;
 using detail::OpenMetric;
 using detail::OrthorhombicMetric;
 
-// A node s of level t = `target` within R_{t-1} of p has its ancestor of level l within
-// R_{t-1} + R_t + ... + R_{l-1} = R_l - R_{t-1} of p, so a descent that keeps the nodes within that (their
-// reach) misses no parent, and neither does the search for one in level l, which has to be within R_{l-1}.
+// A node of level t = `target` within `reach` of p has its ancestor of level l within
+// reach + R_t + ... + R_{l-1} = reach + R_l - R_t of p, so a descent that keeps the nodes within that misses
+// none.
 //
-// A hint a of level l replaces the descent's upper part: if |pa| + reach <= rho_l, every node wanted is
-// within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's parent too,
-// since |pa| grows by at most R_l, the reach by R_l, and rho_l by 2 R_l or more.
+// A hint a of level l replaces the descent's upper part: if |pa| plus that is at most rho_l, every node
+// wanted is within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's
+// parent too, since |pa| grows by at most R_l, what is kept by R_l, and rho_l by 2 R_l or more.
+template <class Metric>
+Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, int target, double reach,
+                                                 Hint hint) {
+  if (near.size() < levels.size()) near.resize(levels.size());
+  const double less = levels[target].radius;
+  // Climb until the hint's surroundings are wide enough.
+  Hint start = hint.node == kNone ? Hint{top(), kNone} : hint;
+  for (; start.level < top(); ++start.level) {
+    const double room =
+        levels[start.level].threshold - (reach + levels[start.level].radius - less) * kInflate;
+    const double d2 = metric.distance2(at, levels[start.level].position[start.node]);
+    if (room > 0 && d2 * (kInflate * kInflate) <= room * room) break;
+    start.node = levels[start.level].parent[start.node];
+  }
+  look_around(metric, at, start, reach + levels[start.level].radius - less);
+  for (int level = start.level; level > target; --level) {
+    const double within = (reach + levels[level - 1].radius - less) * kInflate;
+    near[level - 1].clear();
+    for (const Near& kept : near[level]) {
+      if (is_lone(level, kept.node) && kept.distance2 <= within * within) unfold(level, kept.node);
+      for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
+           child = levels[level - 1].next_sibling[child]) {
+        const double d2 = metric.distance2(at, levels[level - 1].position[child]);
+        if (d2 <= within * within) near[level - 1].push_back({child, d2});
+      }
+    }
+  }
+  return start;
+}
+
+/// Fills near[] of a node's level with those of its neighbors, itself and in the top level all that are
+/// within reach of a point.
+template <class Metric>
+void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, double reach) {
+  const Level& level = levels[middle.level];
+  const double reach2 = reach * reach * (kInflate * kInflate);
+  near[middle.level].clear();
+  const auto keep = [&](std::int32_t node) {
+    const double d2 = metric.distance2(at, level.position[node]);
+    if (d2 <= reach2) near[middle.level].push_back({node, d2});
+  };
+  if (middle.level == top()) {
+    for (std::int32_t root = 0; root < level.size(); ++root)
+      if (level.is_alive(root)) keep(root);
+    return;
+  }
+  keep(middle.node);
+  for (const std::int32_t neighbor : level.edges.row(middle.node)) keep(neighbor);
+}
+
+// A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l -
+// R_{t-1}, and so is a parent in level l, which has to be within R_{l-1}.
 template <class Metric>
 Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, Hint hint) {
   if (target > top()) return {top() + 1, kNone};
-  if (near.size() < levels.size()) near.resize(levels.size());
-
-  const auto reach_of = [&](int level) { return levels[level].radius - 0.5 * levels[target].radius; };
-  const auto keep = [&](int level, double reach2, std::int32_t node) {
-    const double d2 = metric.distance2(at, levels[level].position[node]);
-    if (d2 <= reach2) near[level].push_back({node, d2});
-  };
-  const auto look_around = [&](int level, std::int32_t node) {
-    const double reach = reach_of(level) * kInflate;
-    near[level].clear();
-    if (level == top()) {
-      for (std::int32_t root = 0; root < levels[level].size(); ++root)
-        if (levels[level].is_alive(root)) keep(level, reach * reach, root);
-      return;
-    }
-    keep(level, reach * reach, node);
-    for (const std::int32_t neighbor : levels[level].edges.row(node)) keep(level, reach * reach, neighbor);
-  };
-
-  // Climb until the hint's surroundings are wide enough.
-  int start = hint.node == kNone ? top() : hint.level;
-  std::int32_t guide = hint.node;
-  for (; start < top(); ++start) {
-    const double room = levels[start].threshold - reach_of(start) * kInflate;
-    if (metric.distance2(at, levels[start].position[guide]) * (kInflate * kInflate) <= room * room) break;
-    guide = levels[start].parent[guide];
-  }
-  look_around(start, guide);
-  for (int level = start; level > target; --level) {
-    const double reach = reach_of(level - 1) * kInflate;
-    near[level - 1].clear();
-    for (const Near& kept : near[level])
-      for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
-           child = levels[level - 1].next_sibling[child])
-        keep(level - 1, reach * reach, child);
-  }
-
+  const double reach = 0.5 * levels[target].radius;
+  Hint guide = find_near(metric, at, target, reach, hint);
   for (int level = target; level <= top(); ++level) {
-    if (level > start) {
-      guide = levels[level - 1].parent[guide];
-      look_around(level, guide);
+    if (level > guide.level) {
+      guide = {level, levels[level - 1].parent[guide.node]};
+      look_around(metric, at, guide, levels[level].radius - reach);
     }
     const double limit2 = levels[level - 1].radius2;
     const Near* best = nullptr;
@@ -82,6 +99,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     if (other == node || metric.distance2(position, at.position[other]) > at.threshold2) return;
     at.edges.push(node, other);
     at.edges.push(other, node);
+    if (is_lone(level, other)) unfold(level, other);
   };
   if (level == top()) {
     for (std::int32_t root = 0; root < at.size(); ++root)
@@ -89,7 +107,9 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     return;
   }
   const Level& above = levels[level + 1];
+  const double reach = (at.threshold + at.radius) * kInflate;
   const auto join_children = [&](std::int32_t parent) {
+    if (metric.distance2(position, above.position[parent]) > reach * reach) return;
     for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
       join(child);
   };
@@ -113,6 +133,10 @@ std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t
     connect(metric, i, lifted);
     ++stats.promotions;
     above = lifted;
+    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(lifted).empty()) {
+      make_lone(i, lifted);
+      return kNone;
+    }
   }
   return above;
 }
@@ -131,6 +155,7 @@ void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node,
 template <class Metric>
 void Hierarchy::Impl::settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
   const std::int32_t above = lift(metric, 0, point, at, cover);
+  if (above == kNone) return;  // a lone point
   const std::int32_t slot = place_point(point, at, above);
   if (cover.level > 1) levels[1].down[above] = slot;
 }
@@ -148,11 +173,10 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
 }
 
 template <class Metric>
-void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, std::int32_t hint_slot) {
+void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint) {
   const Vec3 wrapped = box.wrap(at);
   raw[point] = at;
-  const std::int32_t cluster = hint_slot == kNone ? kNone : points.parent(hint_slot);
-  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, {1, cluster}));
+  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, hint));
   grow_top(metric);
 }
 
@@ -161,13 +185,16 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
   // Take the point out of every level first; the children it leaves behind are settled from the top down.
   std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
   std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
-  std::int32_t node = up(0, slot_of_id[point]);
-  if (node == kNone) {
+  const Hint lowest = lowest_node(point);
+  std::int32_t node = lowest.node;
+  if (is_lone_point(point)) {
+    forget_lone(lowest.level, node);
+  } else if (up(0, slot_of_id[point]) == kNone) {
     take_point(slot_of_id[point]);
     trim_top();
     return;
   }
-  for (int level = 1; node != kNone; ++level) {
+  for (int level = lowest.level; node != kNone; ++level) {
     Level& at = levels[level];
     for_each_child(level, node, [&](std::int32_t child) {
       const std::int32_t name = id(level - 1, child);
@@ -211,16 +238,23 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
 }
 
 void Hierarchy::Impl::trim_top() {
-  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots) pop_level();
+  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
+         levels[top() - 1].alive() + lone_above(top() - 1) <= params.max_roots) {
+    for (std::int32_t root = 0; root < levels.back().size(); ++root)
+      if (levels.back().is_alive(root) && is_lone(top(), root)) unfold(top(), root);
+    pop_level();
+  }
 }
 
-#define DCH_INSTANTIATE(Metric)                                                            \
-  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint); \
-  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);          \
-  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);   \
-  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                \
-  template void Hierarchy::Impl::grow_top(const Metric&);                                  \
-  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, std::int32_t);  \
+#define DCH_INSTANTIATE(Metric)                                                                      \
+  template Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric&, Vec3, int, double, Hint); \
+  template std::int32_t Hierarchy::Impl::lift(const Metric&, int, std::int32_t, Vec3, Cover);        \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);           \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                    \
+  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);             \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                          \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                            \
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);                    \
   template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)

@@ -60,6 +60,22 @@ void check_blocks(const Impl& h, Verdict& verdict) {
     verdict.require(seen[block] || points.cluster[block] == kNone, 0, "block ", block, " is in no chain");
 }
 
+/// Lone nodes: known to their points, without edges and children. That no other node is near is for
+/// check_pairs().
+template <class Impl>
+void check_lone_nodes(const Impl& h, Verdict& verdict) {
+  for (std::size_t k = 0; k < h.lone.size(); ++k) {
+    const auto [i, node] = h.lone[k];
+    const std::int32_t place = h.place_of_lone(static_cast<std::int32_t>(k));
+    if (!verdict.require(i > 1 && i <= h.top() && h.is_alive(i, node) && h.levels[i].down[node] == place &&
+                             h.slot_of_id[h.id(i, node)] == place,
+                         i, "lone node ", k, " is not that of its point"))
+      return;
+    verdict.require(h.levels[i].first_child[node] == kNone && h.levels[i].edges.row(node).empty(), i,
+                    "point ", h.id(i, node), " is not on its own");
+  }
+}
+
 /// Ids, positions and the links between a point's own nodes: S_0 holds every point, S_{i+1} is a subset of
 /// S_i.
 template <class Impl>
@@ -69,28 +85,34 @@ void check_nesting(const Impl& h, Verdict& verdict) {
     const std::int32_t slot = h.slot_of_id[id];
     if (slot == kNone) continue;
     ++count;
+    if (h.is_lone_point(static_cast<std::int32_t>(id))) continue;
     verdict.require(slot < h.points.size() && h.points.id[slot] == static_cast<std::int32_t>(id), 0,
                     "slot of point ", id, " holds another point");
   }
-  verdict.require(count == h.points.alive, 0, count, " points but ", h.points.alive, " nodes");
+  const std::int64_t places = h.points.alive + static_cast<std::int64_t>(h.lone.size());
+  verdict.require(count == places, 0, count, " points but ", places, " nodes");
+  check_lone_nodes(h, verdict);
   for (int i = 0; i <= h.top(); ++i) {
     std::int64_t lifted = 0;
     for (std::int32_t k = 0; k < h.size(i); ++k) {
       if (!h.is_alive(i, k)) continue;
-      if (i > 0) {
+      if (i > 0 && !h.is_lone(i, k)) {
         const std::int32_t down = h.levels[i].down[k];
         if (!verdict.require(down != kNone && h.id(i - 1, down) == h.id(i, k) && h.up(i - 1, down) == k, i,
                              "point ", h.id(i, k), " does not stand in the level below"))
           return;
-        verdict.require(h.position(i - 1, down) == h.position(i, k), i, "position of point ", h.id(i, k),
-                        " differs from the level below");
+        verdict.require(h.position(i - 1, down) == h.position(i, k) || (h.pending && i > 1), i,
+                        "position of point ", h.id(i, k), " differs from the level below");
       }
       if (i == h.top() || h.up(i, k) == kNone) continue;
       ++lifted;
       verdict.require(h.levels[i + 1].down[h.up(i, k)] == k && h.parent(i, k) == h.up(i, k), i, "point ",
                       h.id(i, k), " is not its own parent although it stands in the level above");
     }
-    if (i < h.top()) verdict.require(lifted == h.alive(i + 1), i + 1, "holds nodes without a node below");
+    if (i == h.top()) continue;
+    const auto lone =
+        std::count_if(h.lone.begin(), h.lone.end(), [&](const auto& n) { return n.level == i + 1; });
+    verdict.require(lifted + lone == h.alive(i + 1), i + 1, "holds nodes without a node below");
   }
 }
 
@@ -151,53 +173,78 @@ class Marks {
   std::vector<std::int32_t> row_of_;  ///< by node: the last owner that named it
 };
 
+/// A node of a level, or the point of a lone node of a level above, which stands there all the same.
+struct Member {
+  std::int32_t node;  ///< kNone if it is not in memory
+  std::int32_t id;
+  Vec3 at;
+};
+template <class Impl>
+std::vector<Member> members_of(const Impl& h, int i) {
+  std::vector<Member> members;
+  for (std::int32_t k = 0; k < h.size(i); ++k)
+    if (h.is_alive(i, k)) members.push_back({k, h.id(i, k), h.position(i, k)});
+  for (const auto& [level, node] : h.lone)
+    if (level > i) members.push_back({kNone, h.id(level, node), h.position(level, node)});
+  return members;
+}
+
 /// Separation (5.3.1(2)) and edges (5.3.1(3)), stored or enumerated, of one level against all pairs.
 template <class Impl, class Metric>
 void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
   const double threshold2 = h.levels[i].threshold2;
   const double separation2 = i == 0 ? -1 : h.levels[i - 1].radius2;  // level 0 may hold coincident points
+  for (std::int32_t k = 0; k < h.size(i) && i > 0; ++k)
+    verdict.require(h.is_alive(i, k) || h.levels[i].edges.row(k).empty(), i, "a dead node has edges");
   Marks joined(h.size(i));
   std::vector<std::int32_t> row;
-  for (std::int32_t a = 0; a < h.size(i) && !verdict.failed(); ++a) {
-    verdict.require(h.is_alive(i, a) || i == 0 || h.levels[i].edges.row(a).empty(), i,
-                    "a dead node has edges");
-    if (!h.is_alive(i, a)) continue;
+  const std::vector<Member> members = members_of(h, i);
+  for (std::size_t m = 0; m < members.size() && !verdict.failed(); ++m) {
+    const Member& a = members[m];
     row.clear();
-    h.neighbors(metric, i, a, row);
-    verdict.require(joined.set(a, row), i, "point ", h.id(i, a), " has a repeated edge");
-    for (std::int32_t b = 0; b < h.size(i); ++b) {
-      const bool edge = joined.has(a, b);
-      if (a == b || !h.is_alive(i, b)) {
-        verdict.require(!edge, i, "point ", h.id(i, a), " has an edge to itself or a dead node");
-        continue;
-      }
-      const double d2 = metric.distance2(h.position(i, a), h.position(i, b));
+    if (a.node != kNone) h.neighbors(metric, i, a.node, row);
+    verdict.require(joined.set(static_cast<std::int32_t>(m), row), i, "point ", a.id, " has a repeated edge");
+    for (const std::int32_t k : row)
+      verdict.require(k != a.node && h.is_alive(i, k), i, "point ", a.id,
+                      " has an edge to itself or a dead node");
+    for (const Member& b : members) {
+      if (&a == &b) continue;
+      const bool edge = b.node != kNone && joined.has(static_cast<std::int32_t>(m), b.node);
+      const double d2 = metric.distance2(a.at, b.at);
       if (d2 > separation2 && edge == (d2 <= threshold2)) continue;
-      verdict.require(d2 > separation2, i, "points ", h.id(i, a), " and ", h.id(i, b), " at distance ",
-                      std::sqrt(d2), " are not separated by more than ", h.levels[i == 0 ? 0 : i - 1].radius);
-      verdict.require(edge == (d2 <= threshold2), i, "edge between ", h.id(i, a), " and ", h.id(i, b),
-                      " at distance ", std::sqrt(d2), edge ? " should not exist" : " is missing",
-                      " (threshold ", h.levels[i].threshold, ")");
+      verdict.require(d2 > separation2, i, "points ", a.id, " and ", b.id, " at distance ", std::sqrt(d2),
+                      " are not separated by more than ", h.levels[i == 0 ? 0 : i - 1].radius);
+      verdict.require(edge == (d2 <= threshold2), i, "edge between ", a.id, " and ", b.id, " at distance ",
+                      std::sqrt(d2), edge ? " should not exist" : " is missing", " (threshold ",
+                      h.levels[i].threshold, ")");
     }
   }
 }
 
 /// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined
-/// parents.
+/// parents, and lone points have none so near.
 template <class Impl, class Metric>
 void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict) {
   Marks joined(h.size(1));
+  const auto require_far = [&](double d2, std::int32_t a, std::int32_t b) {
+    verdict.require(d2 > h.levels[0].threshold2, 0, "repair is pending, and points ", a, " and ", b,
+                    " at distance ", std::sqrt(d2), " have parents that no edge joins");
+  };
   for (std::int32_t k = 0; k < h.size(1) && !verdict.failed(); ++k) {
     if (!h.is_alive(1, k)) continue;
     joined.set(k, h.levels[1].edges.row(k));
     h.for_each_child(1, k, [&](std::int32_t a) {
-      for (std::int32_t b = 0; b < h.size(0); ++b) {
-        if (!h.is_alive(0, b) || h.parent(0, b) == k || joined.has(k, h.parent(0, b))) continue;
-        const double d2 = metric.distance2(h.position(0, a), h.position(0, b));
-        verdict.require(d2 > h.levels[0].threshold2, 0, "repair is pending, and points ", h.id(0, a), " and ",
-                        h.id(0, b), " at distance ", std::sqrt(d2), " have parents that no edge joins");
-      }
+      for (std::int32_t b = 0; b < h.size(0); ++b)
+        if (h.is_alive(0, b) && h.parent(0, b) != k && !joined.has(k, h.parent(0, b)))
+          require_far(metric.distance2(h.position(0, a), h.position(0, b)), h.id(0, a), h.id(0, b));
     });
+  }
+  for (const auto& [level, node] : h.lone) {
+    const std::int32_t a = h.id(level, node);
+    for (std::size_t b = 0; b < h.raw.size(); ++b)
+      if (static_cast<std::int32_t>(b) != a && h.slot_of_id[b] != kNone)
+        require_far(metric.distance2(h.box.wrap(h.raw[a]), h.box.wrap(h.raw[b])), a,
+                    static_cast<std::int32_t>(b));
   }
 }
 
@@ -205,7 +252,8 @@ void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict
 
 std::string Hierarchy::Impl::validate() const {
   Verdict verdict;
-  verdict.require(top() == 1 || levels[top() - 1].alive() > params.max_roots, top(), "is not needed");
+  verdict.require(top() == 1 || levels[top() - 1].alive() + lone_above(top() - 1) > params.max_roots, top(),
+                  "is not needed");
   verdict.require(levels.back().alive() <= params.max_roots, top(), "has ", levels.back().alive(),
                   " roots, more than ", params.max_roots);
   check_blocks(*this, verdict);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include <dch/error.hpp>
 #include <dch/span.hpp>
 
 namespace dch::detail {
@@ -14,19 +16,23 @@ class KeyTable {
  public:
   static constexpr std::int32_t kAbsent = -1;
 
-  /// Maps keys[i] to i. Returns the index of a key that stands earlier in the list already, or kAbsent if all
-  /// are distinct.
-  std::int32_t fill(Span<const std::uint64_t> keys) {
+  /// Maps keys[i] to i, for the particles of an update().
+  /// @throws InvalidParameter unless there is one key for each of n particles, and all are distinct.
+  void fill(std::size_t n, Span<const std::uint64_t> keys) {
+    if (keys.size() != n)
+      throw InvalidParameter("update() got " + std::to_string(keys.size()) + " keys for " +
+                             std::to_string(n) + " positions; give one for each, or none");
     std::size_t buckets = 16;
     while (buckets < 2 * keys.size()) buckets *= 2;
     mask_ = buckets - 1;
     entries_.assign(buckets, {0, kAbsent});
     for (std::size_t i = 0; i < keys.size(); ++i) {
       Entry& entry = entries_[slot_of(keys[i])];
-      if (entry.index != kAbsent) return static_cast<std::int32_t>(i);
+      if (entry.index != kAbsent)
+        throw InvalidParameter("update(): key " + std::to_string(keys[i]) + " of particle " +
+                               std::to_string(i) + " names an earlier particle too; keys must be distinct");
       entry = {keys[i], static_cast<std::int32_t>(i)};
     }
-    return kAbsent;
   }
   std::int32_t find(std::uint64_t key) const {
     return entries_.empty() ? kAbsent : entries_[slot_of(key)].index;

@@ -17,4 +17,9 @@ std::int64_t NeighborList::pairs() const {
   return count;
 }
 
+double ListParams::list_radius() const {
+  if (radii.empty()) return cutoffs.largest() + skin;
+  return 2 * *std::max_element(radii.begin(), radii.end()) + skin;
+}
+
 }  // namespace dch

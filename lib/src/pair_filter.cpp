@@ -23,24 +23,24 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
                        double wrap_error)
     : positions_(positions),
       box_(box),
-      types_(params.types),
+      params_(params),
+      wrap_error_(wrap_error),
       exclusions_(params.exclusions != nullptr && !params.exclusions->empty() ? params.exclusions : nullptr),
       first_ghost_(params.first_ghost),
-      type_count_(static_cast<std::size_t>(params.cutoffs.types())),
-      one_type_(type_count_ == 1),
+      by_(!params.radii.empty()         ? By::radii
+          : params.cutoffs.types() == 1 ? By::one_cutoff
+                                        : By::types),
       restricted_(exclusions_ != nullptr || first_ghost_ >= 0) {
-  for (int a = 0; a < params.cutoffs.types(); ++a) {
-    for (int b = 0; b < params.cutoffs.types(); ++b) {
-      const double cutoff = params.cutoffs(a, b);
-      if (cutoff == 0) {  // drops the pair, coincident ones too
-        bands_.push_back({-1, -1, -1});
-        continue;
+  if (by_ == By::radii) {
+    largest_ = band_within(params.list_radius()).out_above;
+  } else {
+    for (int a = 0; a < params.cutoffs.types(); ++a) {
+      for (int b = 0; b < params.cutoffs.types(); ++b) {
+        const double cutoff = params.cutoffs(a, b);
+        // A cutoff of 0 drops the pair, coincident ones too.
+        bands_.push_back(cutoff == 0 ? Band{-1, -1, -1} : band_within(cutoff + params.skin));
+        largest_ = std::max(largest_, bands_.back().out_above);
       }
-      const double reach = cutoff + params.skin;
-      const double inside = std::max(0.0, reach - wrap_error), outside = reach + wrap_error;
-      bands_.push_back(
-          {inside * inside * (1 - kRounding), outside * outside * (1 + kRounding), reach * reach});
-      largest_ = std::max(largest_, bands_.back().out_above);
     }
   }
 
@@ -67,8 +67,18 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
   }
 }
 
+PairFilter::Band PairFilter::band_within(double reach) const {
+  const double inside = std::max(0.0, reach - wrap_error_), outside = reach + wrap_error_;
+  return {inside * inside * (1 - kRounding), outside * outside * (1 + kRounding), reach * reach};
+}
+
+PairFilter::Band PairFilter::band_of(std::int32_t i, std::int32_t j) const {
+  if (by_ == By::radii) return band_within(params_.radii[i] + params_.radii[j] + params_.skin);
+  return bands_[params_.types[i] * params_.cutoffs.types() + params_.types[j]];
+}
+
 bool PairFilter::accept(std::int32_t i, std::int32_t j) const {
-  const Band& band = one_type_ ? bands_.front() : band_of(i, j);
+  const Band band = by_ == By::one_cutoff ? bands_.front() : band_of(i, j);
   return !(restricted_ && !is_wanted(i, j)) && is_within(i, j, band.cutoff2);
 }
 

@@ -18,8 +18,7 @@ namespace dch::detail {
 /// positions as given. So every engine writes the same list.
 class PairFilter {
  public:
-  /// @param positions as given to the engine, not wrapped; they, params.types and params.exclusions must
-  /// outlive this.
+  /// @param positions as given to the engine, not wrapped; they and what params points to must outlive this.
   /// @param wrap_error WrapError::bound for these positions [length].
   PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double wrap_error);
 
@@ -28,7 +27,7 @@ class PairFilter {
 
   /// @param distance2 of the nearest wrapped images of i and j [length^2].
   bool accept(std::int32_t i, std::int32_t j, double distance2) const {
-    const Band& band = one_type_ ? bands_.front() : band_of(i, j);
+    const Band band = by_ == By::one_cutoff ? bands_.front() : band_of(i, j);
     if (distance2 > band.out_above) return false;
     if (restricted_ && !is_wanted(i, j)) return false;
     return distance2 <= band.in_below || is_within(i, j, band.cutoff2);
@@ -37,10 +36,14 @@ class PairFilter {
   /// The same for a pair whose distance is not known.
   bool accept(std::int32_t i, std::int32_t j) const;
 
-  bool has_one_cutoff() const { return one_type_; }
-  /// Whether more than the distance by one cutoff decides about some pair of i.
+  /// What the cutoff of a pair depends on.
+  enum class By { one_cutoff, radii, types };
+  By by() const { return by_; }
+  const ListParams& params() const { return params_; }
+  /// Whether exclusions or ghosts may keep some pair of i out of the list.
   bool restricts(std::int32_t i) const {
-    return !one_type_ || exclusions_ != nullptr || (first_ghost_ >= 0 && i >= first_ghost_);
+    return (exclusions_ != nullptr && !exclusions_->partners(i).empty()) ||
+           (first_ghost_ >= 0 && i >= first_ghost_);
   }
   /// Whether exclusions and ghosts let the pair be in the list.
   bool is_wanted(std::int32_t i, std::int32_t j) const;
@@ -52,20 +55,19 @@ class PairFilter {
     double out_above;
     double cutoff2;
   };
-  const Band& band_of(std::int32_t i, std::int32_t j) const {
-    return bands_[static_cast<std::size_t>(types_[i]) * type_count_ + static_cast<std::size_t>(types_[j])];
-  }
+  Band band_of(std::int32_t i, std::int32_t j) const;
+  Band band_within(double reach) const;
   bool is_within(std::int32_t i, std::int32_t j, double cutoff2) const;
 
   Span<const Vec3> positions_;
   const Box& box_;
-  Span<const std::int32_t> types_;
+  ListParams params_;
+  double wrap_error_;
   const Exclusions* exclusions_;
   std::int32_t first_ghost_;
-  std::size_t type_count_;
-  bool one_type_;
-  bool restricted_;  ///< by exclusions or ghosts
-  std::vector<Band> bands_;
+  By by_;
+  bool restricted_;          ///< by exclusions or ghosts
+  std::vector<Band> bands_;  ///< by pair of types
   double largest_ = -1;
 
   std::array<Vec3, 3> cell_{};  ///< as given

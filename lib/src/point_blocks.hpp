@@ -26,6 +26,14 @@ struct PointBlocks {
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
   std::int32_t parent(std::int32_t slot) const { return cluster[slot / kBlock]; }
 
+  /// Makes room for that many blocks in all.
+  void reserve(std::int32_t blocks) {
+    const auto room = static_cast<std::size_t>(blocks);
+    for (auto* array : {&cluster, &next, &count}) array->reserve(room);
+    position.reserve(room * kBlock);
+    id.reserve(room * kBlock);
+  }
+
   /// A block with no points yet, for a cluster whose chain has continued with `rest`.
   std::int32_t add_block(std::int32_t owner, std::int32_t rest) {
     std::int32_t block;

@@ -23,6 +23,23 @@ std::string position_text(std::size_t i, Vec3 p) {
 
 bool in_range(double x) { return std::abs(x) <= kMaxCoordinate; }  // false for NaN
 
+void check_radii(const ListParams& params, std::size_t n) {
+  if (params.radii.size() != n) {
+    throw InvalidParameter(std::to_string(params.radii.size()) + " radii given for " + std::to_string(n) +
+                           " particles; give one each");
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double radius = params.radii[i];
+    if (!(std::isfinite(radius) && radius >= 0)) {
+      throw InvalidParameter("particle " + std::to_string(i) + " has the radius " + describe(radius) +
+                             "; a radius must be finite and not negative");
+    }
+    largest = std::max(largest, radius);
+  }
+  if (largest == 0) throw InvalidParameter("every radius is 0; at least one must be > 0");
+}
+
 void check_types(const ListParams& params, std::size_t n) {
   const int types = params.cutoffs.types();
   if (params.types.empty() && (types == 1 || n == 0)) return;
@@ -80,6 +97,58 @@ double WrapError::reach_within(double error) const {
   return amplification_ > 0 ? error / amplification_ - cell_size_ : std::numeric_limits<double>::infinity();
 }
 
+double WrapError::reach_between(Vec3 low, Vec3 high) const {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (shifted_[static_cast<std::size_t>(axis)])
+      sum += std::max(std::abs(low[axis] - origin_[axis]), std::abs(high[axis] - origin_[axis]));
+  }
+  return sum;
+}
+
+namespace {
+
+/// The box around positions, and whether all of them are finite.
+struct Surroundings {
+  explicit Surroundings(Span<const Vec3> positions) : low(positions[0]), high(positions[0]) {
+    double differences = 0;  // of a number with itself: 0, but not for infinity and NaN
+    for (const Vec3 p : positions) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      differences += (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
+    }
+    are_finite = differences == 0;
+  }
+  double largest_coordinate() const { return std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z}); }
+  Vec3 low, high;
+  bool are_finite;
+};
+
+/// Throws for the first position that has something wrong with it, else returns the largest reach.
+double check_one_by_one(Span<const Vec3> positions, const WrapError& error, double farthest,
+                        double tolerance) {
+  double largest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 p = positions[i];
+    if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
+      throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
+                            "; check the coordinates of this frame");
+    }
+    const double reach = error.reach(p);
+    if (reach > farthest) {
+      throw InvalidPosition(
+          position_text(i, p) +
+          " is so far outside the periodic box that rounding leaves its place there uncertain by " +
+          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
+          " is allowed, wrap the coordinates first");
+    }
+    largest = std::max(largest, reach);
+  }
+  return largest;
+}
+
+}  // namespace
+
 double check_positions(Span<const Vec3> positions, const Box& box) {
   if (positions.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw InvalidParameter(std::to_string(positions.size()) +
@@ -89,24 +158,12 @@ double check_positions(Span<const Vec3> positions, const Box& box) {
   const WrapError error(box);
   const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
   const double farthest = error.reach_within(tolerance);
-  double largest = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec3 p = positions[i];
-    if (!(in_range(p.x) && in_range(p.y) && in_range(p.z))) {
-      throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
-                            "; check the coordinates of this frame");
-    }
-    const double reach = error.reach(p);
-    largest = std::max(largest, reach);
-    if (reach > farthest) {
-      throw InvalidPosition(
-          position_text(i, p) +
-          " is so far outside the periodic box that rounding leaves its place there uncertain by " +
-          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
-          " is allowed, wrap the coordinates first");
-    }
-  }
-  return largest;
+  if (positions.empty()) return 0;
+  const Surroundings around(positions);
+  const double largest = error.reach_between(around.low, around.high);
+  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest)
+    return largest;
+  return check_one_by_one(positions, error, farthest, tolerance);
 }
 
 void check_radius(double radius, const Box& box) {
@@ -125,12 +182,13 @@ void check_skin(double skin) {
 
 void check_list_params(const ListParams& params, std::size_t n, double radius) {
   check_skin(params.skin);
+  if (!params.radii.empty()) check_radii(params, n);
   if (params.list_radius() > radius) {
     throw InvalidParameter("cutoff + skin = " + describe(params.list_radius()) +
                            " exceeds the search radius " + describe(radius) +
                            " that the engine was made for; make it with a larger one");
   }
-  check_types(params, n);
+  if (params.radii.empty()) check_types(params, n);
   if (params.exclusions != nullptr && !params.exclusions->empty() && params.exclusions->size() != n) {
     throw InvalidParameter("exclusions made for " + std::to_string(params.exclusions->size()) +
                            " particles do not fit " + std::to_string(n) + " particles");

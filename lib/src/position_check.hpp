@@ -23,6 +23,8 @@ class WrapError {
   double reach(Vec3 p) const;
   /// Largest reach() with which bound() stays within `error` [length].
   double reach_within(double error) const;
+  /// No point of the box between two corners has a larger reach() [length].
+  double reach_between(Vec3 low, Vec3 high) const;
 
  private:
   Vec3 origin_;
@@ -35,7 +37,8 @@ class WrapError {
 /// @throws InvalidPosition naming index and value if a coordinate is not finite or beyond kMaxCoordinate, or
 /// so far
 ///   outside a periodic box that rounding leaves its place in the box uncertain by half the box.
-/// @return the largest WrapError::reach of the positions, 0 if there are none [length].
+/// @return a bound on WrapError::reach of the positions: that of the box around them; 0 if there are none
+///   [length].
 double check_positions(Span<const Vec3> positions, const Box& box);
 
 /// @throws CutoffTooLarge if the radius (cutoff + skin) exceeds box.max_cutoff().

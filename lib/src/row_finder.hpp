@@ -8,69 +8,98 @@
 #include <dch/neighbor_list.hpp>
 
 #include "cluster_points.hpp"
-#include "hierarchy_level.hpp"
+#include "list_limits.hpp"
+#include "list_source.hpp"
+#include "near_ranges.hpp"
 #include "pair_filter.hpp"
-#include "point_blocks.hpp"
 
 namespace dch::detail {
 
-/// Finds the rows of one cluster after the other: its points with each other and with those of the clusters
-/// that an edge of level 1 joins to it. Holds what that takes, so each thread has one of its own.
+/// Finds the rows of one cluster after the other: its points with each other, with those of the clusters
+/// that an edge of level 1 joins to it, and with those of other hierarchies. Holds what that takes, so each
+/// thread has one of its own.
 class RowFinder {
  public:
+  struct Request {
+    const PairFilter* filter;
+    ListLimits limits;
+  };
   /// What the rows are found in, the same for all clusters.
   template <class Metric>
   struct Scene {
     const Metric& metric;
     const Box& box;
-    const Level& centers;
-    const PointBlocks& blocks;
-    Span<const std::int32_t> slot_of_id;
-    const ClusterPoints& points;
-    const PairFilter& filter;
-    double reach;    ///< square root of filter.largest_distance2()
-    bool one_image;  ///< whether only the nearest image of a cluster can matter to another one
+    std::vector<NearSource> near;   ///< the hierarchy of the rows first
+    std::vector<Request> requests;  ///< one a list, the one with the largest radius first
 
-    /// Squared distance of the nearest wrapped images of two particles.
-    double wrapped_distance2(std::int32_t i, std::int32_t j) const {
-      return metric.distance2(blocks.position[slot_of_id[i]], blocks.position[slot_of_id[j]]);
-    }
+    const ListSource& rows() const { return *near.front().source; }
   };
 
   /// To be called before the first rows of a list.
   void use(InstructionSet set) { kernels_ = &list_kernels(set); }
 
-  /// Appends the rows of cluster k.
+  /// Appends the rows of cluster k to a list for each request.
   template <class Metric>
-  void append_rows(const Scene<Metric>& scene, std::int32_t k, NeighborList& out);
+  void append_rows(const Scene<Metric>& scene, std::int32_t k, NeighborList* lists);
   std::size_t memory_bytes() const;
 
  private:
   using Cluster = ClusterPoints::Cluster;
   struct CandidateStore {
-    std::vector<std::int16_t> x, y, z;
+    std::vector<std::int16_t> x, y, z, tag;
     std::vector<std::int32_t> id;
     Candidates at(std::int32_t k);
     void make_room(std::size_t count);
+    std::size_t memory_bytes() const;
   };
 
+  /// A block of the cluster and the candidates near it.
+  struct BlockTest {
+    CandidateStore candidates;
+    std::int32_t chunks = 0;
+    std::int32_t left = 0;            ///< entries of unsettled
+    std::vector<std::uint32_t> mask;  ///< row by chunk
+    std::vector<Unsettled> unsettled;
+  };
+  /// A pair that the kernels could not decide.
+  struct OpenPair {
+    std::int32_t i, j;
+    std::int32_t slot_i, slot_j;  ///< kNone where there are several hierarchies
+    std::uint32_t* mask;
+    std::uint32_t bit;
+  };
+  static constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
+
   template <class Metric>
-  void add_ranges(const Scene<Metric>& scene, std::int32_t k);
-  void add_range(const ClusterPoints& points, const Cluster& other, Vec3 between);
-  void make_room();
-  std::int32_t collect(const ClusterPoints& points, const Cluster& cluster);
+  std::int32_t collect(const Scene<Metric>& scene, std::int32_t k);
+  std::int32_t collect_from(const NearSource& near, const Cluster& cluster, std::int32_t already);
+  std::int32_t filter(const ListLimits& limits, const BlockSpan& span, std::int16_t size,
+                      const Candidates& from, const std::uint32_t* valid, std::int32_t count,
+                      const Candidates& to) const;
   template <class Metric>
-  void append_block(const Scene<Metric>& scene, std::int32_t block, bool meets_itself, std::int32_t begin,
-                    std::int32_t end, NeighborList& out);
-  static std::int32_t restrict_row(std::int32_t particle, std::int32_t* row, std::int32_t count,
-                                   const PairFilter& filter);
+  void append_cluster(const Scene<Metric>& scene, const Request& request, const Cluster& cluster,
+                      const Candidates& around_cluster, std::int32_t count, NeighborList& out);
+  void make_room_for_tests(std::int32_t count);
+  template <class Metric>
+  void test_block(const Scene<Metric>& scene, const Request& request, std::int32_t block, std::int32_t begin,
+                  std::int32_t end, BlockTest& test);
+  template <class Metric>
+  void note_open_pairs(const Scene<Metric>& scene, const Request& request, std::int32_t block,
+                       bool meets_itself, BlockTest& test);
+  template <class Metric>
+  void settle(const Scene<Metric>& scene, const Request& request);
+  void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+                    bool meets_itself, BlockTest& test, NeighborList& out);
+  static std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
+                                   std::int32_t count);
 
   const ListKernels* kernels_ = nullptr;
   std::vector<BlockRange> ranges_;
   std::vector<std::int32_t> block_, range_;
-  CandidateStore around_cluster_, around_group_, around_block_;
-  std::vector<std::uint32_t> valid_, mask_;
-  std::vector<Unsettled> unsettled_;
+  CandidateStore around_cluster_, around_request_, around_group_;
+  std::vector<std::uint32_t> valid_;
+  BlockTest tests_[kGroup];
+  std::vector<OpenPair> open_;
 };
 
 }  // namespace dch::detail

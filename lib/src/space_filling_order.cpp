@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "metric.hpp"
+
 namespace dch::detail {
 namespace {
 
@@ -27,19 +29,46 @@ std::uint64_t spread(std::uint64_t v) {
   return v;
 }
 
+struct Keyed {
+  std::uint64_t key;
+  std::int32_t index;
+};
+
+/// Sorts by key, stably: by one digit after the other, from the least, leaving out those that all keys share.
+void sort_by_key(std::vector<Keyed>& keyed) {
+  constexpr int kDigit = 11;
+  constexpr std::size_t kValues = std::size_t{1} << kDigit;
+  std::uint64_t differing = 0;
+  for (const Keyed& k : keyed) differing |= k.key ^ keyed[0].key;
+  std::vector<Keyed> sorted(keyed.size());
+  std::vector<std::uint32_t> first(kValues);
+  for (int shift = 0; shift < 64; shift += kDigit) {
+    if ((differing >> shift & (kValues - 1)) == 0) continue;
+    const auto digit = [shift](const Keyed& k) { return k.key >> shift & (kValues - 1); };
+    std::fill(first.begin(), first.end(), 0);
+    for (const Keyed& k : keyed) ++first[digit(k)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : first) sum += std::exchange(count, sum);
+    for (const Keyed& k : keyed) sorted[first[digit(k)]++] = k;
+    keyed.swap(sorted);
+  }
+}
+
 }  // namespace
 
 std::vector<std::int32_t> space_filling_order(Span<const Vec3> positions, const Box& box, double width) {
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec3 p = box.wrap(positions[i]);
-    keyed[i] = {spread(cell_number(p.x, width)) | spread(cell_number(p.y, width)) << 1 |
-                    spread(cell_number(p.z, width)) << 2,
-                static_cast<std::int32_t>(i)};
-  }
-  std::sort(keyed.begin(), keyed.end());
+  std::vector<Keyed> keyed(positions.size());
+  with_metric(box, [&](const auto& metric) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vec3 p = metric.wrap(positions[i]);
+      keyed[i] = {spread(cell_number(p.x, width)) | spread(cell_number(p.y, width)) << 1 |
+                      spread(cell_number(p.z, width)) << 2,
+                  static_cast<std::int32_t>(i)};
+    }
+  });
+  sort_by_key(keyed);
   std::vector<std::int32_t> order(keyed.size());
-  std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& entry) { return entry.second; });
+  std::transform(keyed.begin(), keyed.end(), order.begin(), [](const Keyed& entry) { return entry.index; });
   return order;
 }
 

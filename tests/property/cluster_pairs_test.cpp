@@ -182,23 +182,26 @@ TEST_P(ClusterPairsScenes, RefreshGivesWhatANewSearchGives) {
     }
 }
 
-// Lists that were put off, points that came and went: the structure in all its states.
+// Repairs that were put off, points on their own that come near others: the structure in all its states.
 TEST_P(ClusterPairsScenes, FollowTheStructureUnderMotion) {
   const Box box = GetParam().box;
-  scenes::Random random(8);
-  std::vector<Vec3> points = scenes::uniform_in(box, 1500, 9);
-  HierarchyParams params;
-  params.radius = 0.6;
-  Hierarchy hierarchy(params);
-  hierarchy.build(points, box);
-  ClusterPairs pairs;
-  for (int step = 0; step < 12; ++step) {
-    for (Vec3& p : points) p = p + random.in_cube(step < 8 ? 0.01 : 0.1);
-    hierarchy.update(points, box);
-    hierarchy.cluster_pairs(request_for(0.6), pairs);
-    ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(0.6)), "") << "step " << step;
+  for (const double radius : {0.6, 0.2}) {
+    scenes::Random random(8);
+    std::vector<Vec3> points = scenes::uniform_in(box, 1200, 9);
+    HierarchyParams params;
+    params.radius = radius;
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    ClusterPairs pairs;
+    for (int step = 0; step < 12; ++step) {
+      for (Vec3& p : points) p = p + random.in_cube((step < 8 ? 0.02 : 0.2) * radius);
+      hierarchy.update(points, box);
+      hierarchy.cluster_pairs(request_for(radius), pairs);
+      ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(radius)), "")
+          << "step " << step << ", radius " << radius;
+    }
+    EXPECT_GT(hierarchy.stats().refreshes, 0);
   }
-  EXPECT_GT(hierarchy.stats().refreshes, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, ClusterPairsScenes, ::testing::ValuesIn(scenes::all_boxes(5.0)),

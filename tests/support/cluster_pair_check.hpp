@@ -56,8 +56,8 @@ inline std::string cluster_pair_fault(const ClusterPairs& pairs, const std::vect
   std::vector<int> times(positions.size(), 0);
   for (const std::int32_t i : pairs.particle)
     if (i >= 0) ++times[static_cast<std::size_t>(i)];
-  if (std::any_of(times.begin(), times.end(), [](int t) { return t != 1; }))
-    return "a particle does not stand in exactly one slot";
+  if (std::any_of(times.begin(), times.end(), [](int t) { return t > 1; }))
+    return "a particle stands in two slots";
 
   std::map<std::pair<std::int32_t, std::int32_t>, int> found;  // within the radius for sure, then at it
   std::string fault;

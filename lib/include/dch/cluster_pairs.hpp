@@ -39,7 +39,8 @@ struct alignas(16) ClusterShift<float> {
 ///
 /// Every pair of particles that the ListParams ask for stands in one entry, once (twice if two of its images
 /// are exactly half a period away, both at the list radius). Entries hold other pairs too, farther apart than
-/// the list radius: a force kernel tests its cutoff. Hierarchy::cluster_pairs() makes them.
+/// the list radius: a force kernel tests its cutoff. Particles with no other one near may stand in no slot.
+/// Hierarchy::cluster_pairs() makes them.
 ///
 /// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
 /// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the

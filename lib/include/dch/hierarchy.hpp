@@ -15,6 +15,10 @@
 
 namespace dch {
 
+namespace detail {
+class SizedSearch;
+}
+
 /// How the edge thresholds rho_i of the conflict graph grow with the level.
 enum class EdgeRule {
   /// rho_{i+1} = rho_i + 2 R_i, the smallest thresholds for which Lemma 5.3.1(5) holds: far fewer edges.
@@ -46,8 +50,15 @@ struct HierarchyParams {
   /// Levels are added until this many nodes or fewer are left at the top; those are the roots of a forest and
   /// all pairs of them are looked at. 1 gives the hierarchy of the thesis, with a single root.
   int max_roots = 16;
+  /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in
+  /// levels i and above only, and in no cluster of level 1; so that gas in a huge box costs as much as in a
+  /// small one.
+  bool fold_lone_points = true;
   /// Threads to make lists with; null for that of the caller alone. Not owned; results do not depend on it.
   Executor* executor = nullptr;
+  /// For make_dch_search: whether the cutoffs of particles may differ much, by radii or types. Then there is
+  /// a hierarchy for each class of sizes, made when a list is asked for; `radius` is the largest list radius.
+  bool size_classes = false;
 };
 
 /// One level of a hierarchy, for tests, statistics and plots.
@@ -140,10 +151,14 @@ class Hierarchy {
   /// The list of all pairs params asks for; row k is the point with id k, rows of free ids are empty.
   /// @throws InvalidParameter if params.list_radius() exceeds radius, or types or exclusions do not fit.
   void list(const ListParams& params, NeighborList& out);
+  /// Several lists, out[k] being that of requests[k]: at little more than the cost of the one with the
+  /// largest radius, if the cutoffs of all depend on the same types or radii, or on neither.
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out);
 
-  /// The same pairs for SIMD force kernels, clusters being cut from the nodes of level 1. params.kind and
-  /// params.order have no meaning here. O(n) at bounded density; the same result on any number of threads and
-  /// any instruction set.
+  /// The same pairs for SIMD force kernels, clusters being cut from the nodes of level 1. Whatever their
+  /// types or radii, all pairs within the largest list radius may be there, except those with a cutoff of 0;
+  /// params.kind and params.order have no meaning here. O(n) at bounded density; the same result on any
+  /// number of threads and any instruction set.
   /// @throws InvalidParameter as list(), and if the radius is outside 1e-9..1e9, where single precision might
   /// overflow.
   void cluster_pairs(const ListParams& params, ClusterPairs& out);
@@ -157,6 +172,7 @@ class Hierarchy {
 
  private:
   friend struct HierarchyTestAccess;  // tests plant faults for validate() to find
+  friend class detail::SizedSearch;   // makes lists from several hierarchies
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

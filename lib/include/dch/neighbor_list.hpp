@@ -28,6 +28,8 @@ struct NeighborList {
   std::vector<std::int64_t> first{0};
   std::vector<std::int32_t> j{};         ///< may be longer than first.back() if the order is by structure
   std::vector<std::int32_t> particle{};  ///< whose row it is; empty if row k is particle k
+  double margin =
+      0;  ///< no pair is farther apart than its cutoff + skin + margin [length]; 0 for exact lists
 
   /// Number of rows (particles).
   std::size_t size() const { return first.size() - 1; }
@@ -74,14 +76,21 @@ struct ListParams {
                     ///< moved more than r_s/2
   ListKind kind = ListKind::half;
   RowOrder order = RowOrder::by_index;
+  /// Radii r_i >= 0 of the particles [length], at least one of them > 0; if given, the cutoff of a pair is
+  /// r_i + r_j, and `cutoffs` and `types` are not looked at.
+  Span<const double> radii{};
   Span<const std::int32_t> types{};  ///< one per particle in [0, cutoffs.types()); may be empty for one type
   const Exclusions* exclusions = nullptr;  ///< pairs left out; not owned, may be null
   /// Particles from this index on are ghosts: pairs of two ghosts are left out, and the rows of ghosts are
   /// empty in full lists and in those ordered by structure. Negative: there are none.
   std::int32_t first_ghost = -1;
 
-  /// Largest cutoff plus skin: r_list.
-  double list_radius() const { return cutoffs.largest() + skin; }
+  /// Whether pairs a little farther apart than their cutoff + skin may be listed too, none being left out:
+  /// cheaper, for callers that test the distance anyway. NeighborList::margin says how much farther.
+  bool superset = false;
+
+  /// Largest cutoff plus skin: r_list. O(n) where there are radii.
+  double list_radius() const;
 };
 
 }  // namespace dch

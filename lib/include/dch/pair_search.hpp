@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <dch/box.hpp>
 #include <dch/neighbor_list.hpp>
@@ -57,6 +58,15 @@ class PairSearch {
   NeighborList list(const ListParams& params) {
     NeighborList out;
     list(params, out);
+    return out;
+  }
+
+  /// Several lists at the positions of the last update, one for each request; out[k] is what
+  /// list(requests[k]) gives. Engines that can share work between them do.
+  virtual void lists(Span<const ListParams> requests, std::vector<NeighborList>& out);
+  std::vector<NeighborList> lists(const std::vector<ListParams>& requests) {
+    std::vector<NeighborList> out;
+    lists(requests, out);
     return out;
   }
 

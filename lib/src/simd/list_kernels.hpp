@@ -44,6 +44,15 @@ struct BlockRange {
 struct Candidates {
   std::int16_t *x, *y, *z;
   std::int32_t* id;
+  std::int16_t* tag = nullptr;  ///< what its cutoffs depend on: radius or type; for the kernels that say so
+};
+
+/// Types that the kernels can tell apart.
+inline constexpr int kKernelTypes = 16;
+
+/// Limits of one type with each of the types.
+struct alignas(32) TypeLimits {
+  std::int16_t limit[kKernelTypes];
 };
 
 /// Entries of a row-by-chunk mask that a test could not settle.
@@ -63,7 +72,8 @@ struct ListKernels {
   /// Copies the points of `count` blocks side by side, shifted by their ranges, with all lanes of each.
   void (*gather)(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
                  const BlockRange* ranges, const BlockPoints* points,
-                 const std::int32_t* ids,  ///< kBlock a block
+                 const std::int32_t* ids,   ///< kBlock a block
+                 const std::int16_t* tags,  ///< the same, or null where there are none
                  const Candidates& to);
 
   /// Copies, in order, those of `count` candidates whose bit is set in `valid` (all, if that is null) and
@@ -78,6 +88,24 @@ struct ListKernels {
   std::int32_t (*test)(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
                        std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
                        Unsettled* unsettled);
+
+  /// filter() with the limit square(tag + size) + band, and tags copied too.
+  std::int32_t (*filter_by_size)(const BlockSpan& box, std::int16_t size, std::int16_t band,
+                                 const Candidates& from, const std::uint32_t* valid, std::int32_t count,
+                                 const Candidates& to);
+  /// filter() with the limit limits[tag], and tags copied too.
+  std::int32_t (*filter_by_type)(const BlockSpan& box, const TypeLimits& limits, const Candidates& from,
+                                 const std::uint32_t* valid, std::int32_t count, const Candidates& to);
+
+  /// test() with in = square(tag + size of the row) - band and out = square(tag + size of the row) + band.
+  std::int32_t (*test_by_size)(const BlockPoints& points, const std::int16_t* sizes,
+                               const Candidates& candidates, std::int32_t count, std::int16_t band,
+                               std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled);
+  /// test() with in = in[type of the row][tag], out likewise.
+  std::int32_t (*test_by_type)(const BlockPoints& points, const std::int16_t* types,
+                               const Candidates& candidates, std::int32_t count, const TypeLimits* in,
+                               const TypeLimits* out, std::uint32_t* mask, std::int32_t stride,
+                               Unsettled* unsettled);
 
   /// Copies the ids whose bit is set, in order. Returns how many; up to 16 entries beyond them are
   /// overwritten.

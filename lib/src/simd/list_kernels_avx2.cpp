@@ -38,6 +38,23 @@ struct Avx2 : X86Boxes {
         _mm_packs_epi16(_mm256_castsi256_si128(greater), _mm256_extracti128_si256(greater, 1));
     return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
   }
+  /// The low and the high bytes of the limits, in both halves.
+  struct Table {
+    V low, high;
+  };
+  static Table table(const std::int16_t* limits) {
+    const BytePair bytes = bytes_of(limits);
+    return {_mm256_broadcastsi128_si256(bytes.low), _mm256_broadcastsi128_si256(bytes.high)};
+  }
+  static V look_up(const Table& table, V k) {
+    const V low = _mm256_shuffle_epi8(table.low, k), high = _mm256_shuffle_epi8(table.high, k);
+    return _mm256_or_si256(_mm256_and_si256(low, set1(0xFF)), _mm256_slli_epi16(high, 8));
+  }
+  static void move_to_front(std::uint32_t lanes, V tags, std::int16_t* to) {
+    store(to, packed16(_mm256_castsi256_si128(tags), kPack16.bytes[lanes & 255]));
+    store(to + __builtin_popcount(lanes & 255),
+          packed16(_mm256_extracti128_si256(tags, 1), kPack16.bytes[lanes >> 8]));
+  }
   static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
                                     std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
     const unsigned char* low = kPack16.bytes[lanes & 255];

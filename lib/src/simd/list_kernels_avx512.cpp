@@ -19,6 +19,14 @@ struct Avx512 : X86Boxes {
   static V above(V a, V b) { return _mm512_subs_epu16(a, b); }
   static V square(V d) { return _mm512_mulhrs_epi16(d, d); }
   static std::uint32_t bits_greater(V a, V b) { return _mm512_cmpgt_epi16_mask(a, b); }
+  using Table = V;
+  static Table table(const std::int16_t* limits) {
+    return _mm512_castsi256_si512(_mm256_load_si256(reinterpret_cast<const __m256i*>(limits)));
+  }
+  static V look_up(Table table, V k) { return _mm512_permutexvar_epi16(k, table); }
+  static void move_to_front(std::uint32_t lanes, V tags, std::int16_t* to) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi16(lanes, tags));
+  }
   static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
                                     std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
     _mm512_storeu_si512(x, _mm512_maskz_compress_epi16(lanes, px));

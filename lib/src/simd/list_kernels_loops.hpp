@@ -35,7 +35,7 @@ std::int32_t collect(const BlockBox& box, std::int16_t limit, const BlockBox* bo
 template <class Simd>
 void gather(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
             const BlockRange* ranges, const BlockPoints* points, const std::int32_t* ids,
-            const Candidates& to) {
+            const std::int16_t* tags, const Candidates& to) {
   for (std::int32_t n = 0; n < count; ++n) {
     const BlockPoints& from = points[block[n]];
     const std::int16_t* shift = ranges[range[n]].point_shift;
@@ -43,17 +43,59 @@ void gather(const std::int32_t* block, const std::int32_t* range, std::int32_t c
     Simd::copy_shifted(from.y, shift[1], to.y + n * kBlock);
     Simd::copy_shifted(from.z, shift[2], to.z + n * kBlock);
     Simd::copy_ids(ids + static_cast<std::int64_t>(block[n]) * kBlock, to.id + n * kBlock);
+    if (tags) Simd::copy_shifted(tags + static_cast<std::int64_t>(block[n]) * kBlock, 0, to.tag + n * kBlock);
   }
 }
 
+// --- limits of a row's pairs: `out(k)` and `in(k)` for the candidates from k on
+
 template <class Simd>
-std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& from,
-                    const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
+struct OneLimit {
+  using V = typename Simd::V;
+  static constexpr bool kTags = false;
+  V limit_in, limit_out;
+  void use_row(int) {}
+  V in(std::int32_t) const { return limit_in; }
+  V out(std::int32_t) const { return limit_out; }
+};
+
+template <class Simd>
+struct LimitBySize {
+  using V = typename Simd::V;
+  static constexpr bool kTags = true;
+  const std::int16_t* sizes;  ///< of the rows
+  const std::int16_t* tags;
+  V band;
+  V size{};
+  void use_row(int row) { size = Simd::set1(sizes[row]); }
+  V middle(std::int32_t k) const { return Simd::square(Simd::adds(Simd::load(tags + k), size)); }
+  V in(std::int32_t k) const { return Simd::sub(middle(k), band); }
+  V out(std::int32_t k) const { return Simd::adds(middle(k), band); }
+};
+
+template <class Simd>
+struct LimitByType {
+  using V = typename Simd::V;
+  static constexpr bool kTags = true;
+  const std::int16_t* types;  ///< of the rows
+  const std::int16_t* tags;
+  const TypeLimits *limits_in, *limits_out;
+  typename Simd::Table row_in{}, row_out{};
+  void use_row(int row) {
+    row_in = Simd::table(limits_in[types[row]].limit);
+    row_out = Simd::table(limits_out[types[row]].limit);
+  }
+  V in(std::int32_t k) const { return Simd::look_up(row_in, Simd::load(tags + k)); }
+  V out(std::int32_t k) const { return Simd::look_up(row_out, Simd::load(tags + k)); }
+};
+
+template <class Simd, class Limit>
+std::int32_t filter_with(const BlockSpan& box, const Limit& limit, const Candidates& from,
+                         const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
   using V = typename Simd::V;
   const V cx = Simd::set1(box.center[0]), cy = Simd::set1(box.center[1]), cz = Simd::set1(box.center[2]);
   const V hx = Simd::set1(box.half_width[0]), hy = Simd::set1(box.half_width[1]),
           hz = Simd::set1(box.half_width[2]);
-  const V most = Simd::set1(limit);
   std::int32_t kept = 0;
   for (std::int32_t k = 0; k < count; k += Simd::kLanes) {
     const V px = Simd::load(from.x + k), py = Simd::load(from.y + k), pz = Simd::load(from.z + k);
@@ -61,9 +103,10 @@ std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& 
     const V gy = Simd::above(Simd::abs(Simd::sub(py, cy)), hy);
     const V gz = Simd::above(Simd::abs(Simd::sub(pz, cz)), hz);
     const V t = Simd::adds(Simd::adds(Simd::square(gx), Simd::square(gy)), Simd::square(gz));
-    std::uint32_t lanes = Simd::bits_greater(most, t) & Simd::kAll;
+    std::uint32_t lanes = Simd::bits_greater(limit.out(k), t) & Simd::kAll;
     if (valid) lanes &= valid[k / kChunk] >> (k % kChunk);
     if (count - k < Simd::kLanes) lanes &= ~(~0u << (count - k));
+    if constexpr (Limit::kTags) Simd::move_to_front(lanes, Simd::load(from.tag + k), to.tag + kept);
     kept += Simd::move_to_front(lanes, px, py, pz, from.id + k, to.x + kept, to.y + kept, to.z + kept,
                                 to.id + kept);
   }
@@ -71,17 +114,41 @@ std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& 
 }
 
 template <class Simd>
-std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
-                  std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
-                  Unsettled* unsettled) {
+std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& from,
+                    const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
+  const OneLimit<Simd> one{Simd::set1(limit), Simd::set1(limit)};
+  return filter_with<Simd>(box, one, from, valid, count, to);
+}
+
+template <class Simd>
+std::int32_t filter_by_size(const BlockSpan& box, std::int16_t size, std::int16_t band,
+                            const Candidates& from, const std::uint32_t* valid, std::int32_t count,
+                            const Candidates& to) {
+  LimitBySize<Simd> limit{&size, from.tag, Simd::set1(band)};
+  limit.use_row(0);
+  return filter_with<Simd>(box, limit, from, valid, count, to);
+}
+
+template <class Simd>
+std::int32_t filter_by_type(const BlockSpan& box, const TypeLimits& limits, const Candidates& from,
+                            const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
+  constexpr std::int16_t kFirst = 0;
+  LimitByType<Simd> limit{&kFirst, from.tag, &limits, &limits};
+  limit.use_row(0);
+  return filter_with<Simd>(box, limit, from, valid, count, to);
+}
+
+template <class Simd, class Limit>
+std::int32_t test_with(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
+                       Limit limit, std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
   using V = typename Simd::V;
   constexpr int kParts = kChunk / Simd::kLanes;
-  const V limit_in = Simd::set1(in), limit_out = Simd::set1(out);
   const std::int32_t chunks = (count + kChunk - 1) / kChunk;
   const std::uint32_t last = ~0u >> ((kChunk - count % kChunk) % kChunk);
   std::int32_t left = 0;
   for (int row = 0; row < kBlock; ++row) {
     const V px = Simd::set1(points.x[row]), py = Simd::set1(points.y[row]), pz = Simd::set1(points.z[row]);
+    limit.use_row(row);
     for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
       std::uint32_t inside = 0, maybe = 0;
       for (int part = 0; part < kParts; ++part) {
@@ -90,8 +157,8 @@ std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::
         const V dy = Simd::sub(Simd::load(candidates.y + k), py);
         const V dz = Simd::sub(Simd::load(candidates.z + k), pz);
         const V t = Simd::adds(Simd::adds(Simd::square(dx), Simd::square(dy)), Simd::square(dz));
-        inside |= Simd::bits_greater(limit_in, t) << (part * Simd::kLanes % kChunk);
-        maybe |= Simd::bits_greater(limit_out, t) << (part * Simd::kLanes % kChunk);
+        inside |= Simd::bits_greater(limit.in(k), t) << (part * Simd::kLanes % kChunk);
+        maybe |= Simd::bits_greater(limit.out(k), t) << (part * Simd::kLanes % kChunk);
       }
       const std::uint32_t lanes = chunk + 1 == chunks ? last : ~0u;
       mask[row * stride + chunk] = inside & lanes;
@@ -100,6 +167,30 @@ std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::
     }
   }
   return left;
+}
+
+template <class Simd>
+std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
+                  std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
+                  Unsettled* unsettled) {
+  const OneLimit<Simd> limit{Simd::set1(in), Simd::set1(out)};
+  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
+}
+
+template <class Simd>
+std::int32_t test_by_size(const BlockPoints& points, const std::int16_t* sizes, const Candidates& candidates,
+                          std::int32_t count, std::int16_t band, std::uint32_t* mask, std::int32_t stride,
+                          Unsettled* unsettled) {
+  const LimitBySize<Simd> limit{sizes, candidates.tag, Simd::set1(band)};
+  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
+}
+
+template <class Simd>
+std::int32_t test_by_type(const BlockPoints& points, const std::int16_t* types, const Candidates& candidates,
+                          std::int32_t count, const TypeLimits* in, const TypeLimits* out,
+                          std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
+  const LimitByType<Simd> limit{types, candidates.tag, in, out};
+  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
 }
 
 template <class Simd>
@@ -114,7 +205,9 @@ std::int32_t compress(const std::uint32_t* mask, std::int32_t chunks, const std:
 // NOLINTEND(bugprone-easily-swappable-parameters)
 
 template <class Simd>
-constexpr ListKernels kernels_of{collect<Simd>, gather<Simd>, filter<Simd>, test<Simd>, compress<Simd>};
+constexpr ListKernels kernels_of{collect<Simd>,      gather<Simd>,         filter<Simd>,
+                                 test<Simd>,         filter_by_size<Simd>, filter_by_type<Simd>,
+                                 test_by_size<Simd>, test_by_type<Simd>,   compress<Simd>};
 
 }  // namespace
 }  // namespace dch::detail

@@ -42,6 +42,10 @@ struct Portable {
   static void copy_ids(const std::int32_t* from, std::int32_t* to) {
     for (int lane = 0; lane < kBlock; ++lane) to[lane] = from[lane];
   }
+  using Table = const std::int16_t*;
+  static Table table(const std::int16_t* limits) { return limits; }
+  static V look_up(Table table, V k) { return table[k & (kKernelTypes - 1)]; }  // lanes beyond hold anything
+  static void move_to_front(std::uint32_t, V tag, std::int16_t* to) { *to = tag; }
   static std::int32_t move_to_front(std::uint32_t lane, V px, V py, V pz, const std::int32_t* from,
                                     std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
     *x = px;

@@ -37,6 +37,15 @@ struct Sse42 : X86Boxes {
     const __m128i greater = _mm_cmpgt_epi16(a, b);
     return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(greater, _mm_setzero_si128())));
   }
+  using Table = BytePair;
+  static Table table(const std::int16_t* limits) { return bytes_of(limits); }
+  static V look_up(const Table& table, V k) {
+    const V low = _mm_shuffle_epi8(table.low, k), high = _mm_shuffle_epi8(table.high, k);
+    return _mm_or_si128(_mm_and_si128(low, set1(0xFF)), _mm_slli_epi16(high, 8));
+  }
+  static void move_to_front(std::uint32_t lanes, V tags, std::int16_t* to) {
+    store(to, packed16(tags, kPack16.bytes[lanes]));
+  }
   static std::int32_t move_to_front(std::uint32_t lanes, V px, V py, V pz, const std::int32_t* from,
                                     std::int16_t* x, std::int16_t* y, std::int16_t* z, std::int32_t* to) {
     store(x, packed16(px, kPack16.bytes[lanes]));

@@ -31,6 +31,17 @@ struct X86Boxes {
   static void store(std::int16_t* to, __m128i lanes) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), lanes);
   }
+  /// The low and the high bytes of 16 numbers.
+  struct BytePair {
+    __m128i low, high;
+  };
+  static BytePair bytes_of(const std::int16_t* numbers) {
+    const __m128i first = _mm_load_si128(reinterpret_cast<const __m128i*>(numbers)),
+                  second = _mm_load_si128(reinterpret_cast<const __m128i*>(numbers + 8));
+    const __m128i byte = _mm_set1_epi16(0xFF);
+    return {_mm_packus_epi16(_mm_and_si128(first, byte), _mm_and_si128(second, byte)),
+            _mm_packus_epi16(_mm_srli_epi16(first, 8), _mm_srli_epi16(second, 8))};
+  }
   static __m128i load_box(const BlockBox& box) {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(box.v));
   }

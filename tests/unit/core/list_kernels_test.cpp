@@ -33,20 +33,56 @@ class ListKernelsTest : public ::testing::TestWithParam<InstructionSet> {
 /// Random candidates with room for what kernels read and write beyond.
 struct CandidateArrays {
   CandidateArrays(std::size_t count, int most, scenes::Random& random)
-      : x(count + kChunk), y(count + kChunk), z(count + kChunk), id(count + kChunk) {
+      : x(count + kChunk), y(count + kChunk), z(count + kChunk), tag(count + kChunk), id(count + kChunk) {
     for (auto* axis : {&x, &y, &z})
       for (std::int16_t& at : *axis) at = coordinate(random, most);
+    for (std::int16_t& at : tag) at = coordinate(random, 32767);  // lanes beyond hold anything
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::int32_t>(random.below(1000000));
   }
-  Candidates view() { return {x.data(), y.data(), z.data(), id.data()}; }
-  std::vector<std::int16_t> x, y, z;
+  Candidates view() { return {x.data(), y.data(), z.data(), id.data(), tag.data()}; }
+  std::vector<std::int16_t> x, y, z, tag;
   std::vector<std::int32_t> id;
+};
+
+enum class Limit { one, by_size, by_type };
+constexpr Limit kLimits[] = {Limit::one, Limit::by_size, Limit::by_type};
+
+/// Limits of any of the three kinds, random, and as their definitions have them.
+struct RandomLimits {
+  RandomLimits(Limit which, CandidateArrays& candidates, std::size_t count, int most, scenes::Random& random)
+      : kind(which) {
+    one_in = static_cast<std::int16_t>(random.below(static_cast<std::size_t>(most)));
+    one_out = static_cast<std::int16_t>(std::min<std::size_t>(32767, one_in + random.below(400)));
+    band = static_cast<std::int16_t>(random.below(500));
+    for (int a = 0; a < kKernelTypes; ++a)
+      for (int b = 0; b < kKernelTypes; ++b) {
+        type_in[a].limit[b] = static_cast<std::int16_t>(random.below(static_cast<std::size_t>(most)));
+        type_out[a].limit[b] =
+            static_cast<std::int16_t>(std::min<std::size_t>(32767, type_in[a].limit[b] + random.below(400)));
+      }
+    const std::size_t tags = kind == Limit::by_type ? kKernelTypes : 12000;
+    for (std::size_t k = 0; k < count; ++k) candidates.tag[k] = static_cast<std::int16_t>(random.below(tags));
+    for (std::int16_t& tag : row) tag = static_cast<std::int16_t>(random.below(tags));
+  }
+  int in(int r, int tag) const {
+    if (kind == Limit::one) return one_in;
+    return kind == Limit::by_type ? type_in[row[r]].limit[tag] : square(row[r] + tag) - band;
+  }
+  int out(int r, int tag) const {
+    if (kind == Limit::one) return one_out;
+    return kind == Limit::by_type ? type_out[row[r]].limit[tag] : saturated(square(row[r] + tag) + band);
+  }
+
+  Limit kind;
+  std::int16_t one_in, one_out, band;
+  std::int16_t row[kBlock];  ///< sizes or types of the rows
+  TypeLimits type_in[kKernelTypes], type_out[kKernelTypes];
 };
 
 TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
   scenes::Random random(1);
   for (int trial = 0; trial < 300; ++trial) {
-    const int most = trial % 3 == 0 ? 16383 : 4000;  // differences up to twice that
+    const int most = trial % 4 == 0 ? 16383 : 4000;  // differences up to twice that
     const std::size_t count = random.below(170);
     const auto chunks = static_cast<std::int32_t>((count + kChunk - 1) / kChunk), stride = chunks + trial % 2;
     BlockPoints points;
@@ -56,12 +92,25 @@ TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
       points.z[lane] = coordinate(random, most);
     }
     CandidateArrays candidates(count, most, random);
+    const RandomLimits limits(kLimits[trial % 3], candidates, count, trial % 2 ? 3000 : 32767, random);
     std::vector<std::uint32_t> mask(static_cast<std::size_t>(kBlock * stride));
     std::vector<Unsettled> unsettled(static_cast<std::size_t>(kBlock * chunks));
-    const auto in = static_cast<std::int16_t>(random.below(trial % 2 ? 3000 : 32767));
-    const auto out = static_cast<std::int16_t>(std::min<std::size_t>(32767, in + random.below(400)));
-    const std::int32_t left = kernels().test(points, candidates.view(), static_cast<std::int32_t>(count), in,
-                                             out, mask.data(), stride, unsettled.data());
+    const auto size = static_cast<std::int32_t>(count);
+    std::int32_t left = 0;
+    switch (limits.kind) {
+      case Limit::one:
+        left = kernels().test(points, candidates.view(), size, limits.one_in, limits.one_out, mask.data(),
+                              stride, unsettled.data());
+        break;
+      case Limit::by_size:
+        left = kernels().test_by_size(points, limits.row, candidates.view(), size, limits.band, mask.data(),
+                                      stride, unsettled.data());
+        break;
+      case Limit::by_type:
+        left = kernels().test_by_type(points, limits.row, candidates.view(), size, limits.type_in,
+                                      limits.type_out, mask.data(), stride, unsettled.data());
+        break;
+    }
     std::int32_t expected_left = 0;
     for (int row = 0; row < kBlock; ++row)
       for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
@@ -70,8 +119,9 @@ TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
           const int t = saturated(saturated(square(wrapped(candidates.x[k] - points.x[row])) +
                                             square(wrapped(candidates.y[k] - points.y[row]))) +
                                   square(wrapped(candidates.z[k] - points.z[row])));
-          if (t < in) inside |= 1u << (k % kChunk);
-          if (t >= in && t < out) open |= 1u << (k % kChunk);
+          const bool is_inside = t < limits.in(row, candidates.tag[k]);
+          if (is_inside) inside |= 1u << (k % kChunk);
+          if (!is_inside && t < limits.out(row, candidates.tag[k])) open |= 1u << (k % kChunk);
         }
         ASSERT_EQ(mask[static_cast<std::size_t>(row * stride + chunk)], inside) << row << ", " << chunk;
         if (open == 0) continue;
@@ -88,7 +138,7 @@ TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
 TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
   scenes::Random random(4);
   for (int trial = 0; trial < 300; ++trial) {
-    const int most = trial % 3 == 0 ? 16383 : 4000;
+    const int most = trial % 4 == 0 ? 16383 : 4000;
     const std::size_t count = random.below(170);
     CandidateArrays from(count, most, random), to(count + kChunk, most, random);
     std::vector<std::uint32_t> valid(count / kChunk + 1);
@@ -99,7 +149,7 @@ TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
       box.center[axis] = coordinate(random, most);
       box.half_width[axis] = static_cast<std::int16_t>(random.below(3000));
     }
-    const auto limit = static_cast<std::int16_t>(random.below(8000));
+    const RandomLimits limits(kLimits[trial % 3], from, count, 8000, random);
     CandidateArrays expected = from;
     std::size_t kept = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -108,22 +158,37 @@ TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
       for (int axis = 0; axis < 3; ++axis)
         t = saturated(
             t + square(std::max(0, std::abs(wrapped(at[axis] - box.center[axis])) - box.half_width[axis])));
-      if (t >= limit || (chosen && (valid[k / kChunk] >> (k % kChunk) & 1) == 0)) continue;
+      if (t >= limits.out(0, from.tag[k]) || (chosen && (valid[k / kChunk] >> (k % kChunk) & 1) == 0))
+        continue;
       expected.x[kept] = from.x[k];
       expected.y[kept] = from.y[k];
       expected.z[kept] = from.z[k];
+      expected.tag[kept] = from.tag[k];
       expected.id[kept++] = from.id[k];
     }
     const bool in_place = trial % 5 == 0;
     const Candidates target = in_place ? from.view() : to.view();
     const auto size = static_cast<std::int32_t>(count);
-    ASSERT_EQ(kernels().filter(box, limit, from.view(), chosen, size, target),
-              static_cast<std::int32_t>(kept));
+    std::int32_t found = 0;
+    switch (limits.kind) {
+      case Limit::one:
+        found = kernels().filter(box, limits.one_out, from.view(), chosen, size, target);
+        break;
+      case Limit::by_size:
+        found = kernels().filter_by_size(box, limits.row[0], limits.band, from.view(), chosen, size, target);
+        break;
+      case Limit::by_type:
+        found =
+            kernels().filter_by_type(box, limits.type_out[limits.row[0]], from.view(), chosen, size, target);
+        break;
+    }
+    ASSERT_EQ(found, static_cast<std::int32_t>(kept));
     for (std::size_t k = 0; k < kept; ++k) {
       ASSERT_EQ(target.x[k], expected.x[k]);
       ASSERT_EQ(target.y[k], expected.y[k]);
       ASSERT_EQ(target.z[k], expected.z[k]);
       ASSERT_EQ(target.id[k], expected.id[k]);
+      ASSERT_TRUE(limits.kind == Limit::one || target.tag[k] == expected.tag[k]);
     }
   }
 }
@@ -135,7 +200,11 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
   for (BlockPoints& block : points)
     for (auto* axis : {block.x, block.y, block.z})
       for (int lane = 0; lane < kBlock; ++lane) axis[lane] = coordinate(random, 32767);
-  for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = static_cast<std::int32_t>(3 * k);
+  std::vector<std::int16_t> tags(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    ids[k] = static_cast<std::int32_t>(3 * k);
+    tags[k] = coordinate(random, 32767);
+  }
   std::vector<BlockRange> ranges(4);
   for (BlockRange& range : ranges)
     for (int axis = 0; axis < 3; ++axis) range.point_shift[axis] = coordinate(random, 32767);
@@ -145,7 +214,8 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
     range[n] = static_cast<std::int32_t>(random.below(ranges.size()));
   }
   CandidateArrays to(block.size() * kBlock, 1, random);
-  kernels().gather(block.data(), range.data(), 9, ranges.data(), points.data(), ids.data(), to.view());
+  kernels().gather(block.data(), range.data(), 9, ranges.data(), points.data(), ids.data(), tags.data(),
+                   to.view());
   for (std::size_t n = 0; n < block.size(); ++n)
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
       const BlockPoints& from = points[block[n]];
@@ -154,6 +224,7 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
       ASSERT_EQ(to.y[n * kBlock + lane], wrapped(from.y[lane] + shift[1]));
       ASSERT_EQ(to.z[n * kBlock + lane], wrapped(from.z[lane] + shift[2]));
       ASSERT_EQ(to.id[n * kBlock + lane], ids[static_cast<std::size_t>(block[n]) * kBlock + lane]);
+      ASSERT_EQ(to.tag[n * kBlock + lane], tags[static_cast<std::size_t>(block[n]) * kBlock + lane]);
     }
 }
 

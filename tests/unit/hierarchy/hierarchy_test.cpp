@@ -353,7 +353,7 @@ class AutomaticPolicyTest : public ::testing::Test {
 
 TEST_F(AutomaticPolicyTest, RepairsWhenFewLostTheirParents) {
   pretend_costs(2e-6, 0.5e-6, 3e-6);
-  points_[7].x += 5;
+  points_[7].x += 20;
   hierarchy_.update(points_, Box::none());
   EXPECT_EQ(hierarchy_.stats().repairs, 1);
   EXPECT_EQ(hierarchy_.stats().builds, 1);

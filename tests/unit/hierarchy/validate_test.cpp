@@ -74,8 +74,9 @@ TEST_F(ValidateTest, ReportsCentersThatAreTooClose) {
 
 TEST_F(ValidateTest, ReportsABrokenListOfChildren) {
   const std::int32_t k = plain_node(1);
+  const std::int32_t parent = inside().levels[1].parent[k];
   inside().detach(1, k);
-  inside().levels[1].parent[k] = inside().levels[1].parent[k == 0 ? 1 : 0];
+  inside().levels[1].parent[k] = parent;
   expect_report("children");
 }
 

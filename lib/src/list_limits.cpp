@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "list_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dch::detail {
+namespace {
+
+constexpr double kSquareScale = 0x1p15;  ///< squares are shifted right by 15 bits
+
+std::int16_t clamped(double v) { return static_cast<std::int16_t>(std::clamp(v, 0.0, 32767.0)); }
+
+// Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
+// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance
+// d <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
+// roundings of 1/2 added. The pair distance may differ by `error` more.
+class Rounding {
+ public:
+  Rounding(double point_unit, double error)
+      : unit_(point_unit), off_(std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit) {}
+
+  double limit(double reach) const { return reach / unit_ * (reach / unit_) / kSquareScale; }
+  double band(double reach) const {
+    return (2 * off_ * reach / unit_ + off_ * off_) / kSquareScale + 1.5 + 1e-6;
+  }
+  std::int16_t in(double reach) const { return clamped(std::floor(limit(reach) - band(reach)) + 1); }
+  std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
+  /// How far beyond `reach` a pair with a square below limit(reach) + `above` may be [length].
+  double margin(double reach, double above) const {
+    return std::sqrt((limit(reach) + above + band(reach)) * kSquareScale) * unit_ - reach;
+  }
+
+ private:
+  double unit_, off_;
+};
+
+}  // namespace
+
+ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error) : by(filter.by()) {
+  const Rounding rounding(point_unit, error);
+  const ListParams& params = filter.params();
+  const double largest = std::sqrt(filter.largest_distance2());
+  const auto widen = [&](double reach, double above) {
+    margin = std::max(margin, rounding.margin(reach, above));
+  };
+  switch (by) {
+    case PairFilter::By::one_cutoff:
+      in = rounding.in(largest);
+      out = rounding.out(largest);
+      widen(largest, rounding.band(largest) + 1);
+      return;
+    case PairFilter::By::radii: {
+      // The kernels round two radii and the skin, hence their sum by up to 3/2, and its square once more.
+      const double off = (3 * largest / point_unit + 2.25) / kSquareScale + 0.5;
+      const double whole = std::floor(rounding.band(largest) + off) + 1;
+      band = clamped(whole);
+      skin = clamped(std::round(params.skin / point_unit));
+      const double least = *std::min_element(params.radii.begin(), params.radii.end());
+      widen(2 * least + params.skin, whole + off);
+      return;
+    }
+    case PairFilter::By::types:
+      break;
+  }
+  const int types = params.cutoffs.types();
+  per_pair = types > kKernelTypes;
+  if (per_pair) {
+    out = rounding.out(largest);
+    return;  // decided pair by pair, whatever the margin
+  }
+  type_in.resize(static_cast<std::size_t>(types));
+  type_out.resize(static_cast<std::size_t>(types));
+  farthest = {};
+  std::fill_n(farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
+  for (int a = 0; a < types; ++a) {
+    for (int b = 0; b < types; ++b) {
+      if (params.cutoffs(a, b) == 0) continue;
+      const double reach = params.cutoffs(a, b) + params.skin;
+      type_in[a].limit[b] = rounding.in(reach);
+      type_out[a].limit[b] = rounding.out(reach);
+      farthest.limit[b] = std::max(farthest.limit[b], type_out[a].limit[b]);
+      widen(reach, rounding.band(reach) + 1);
+    }
+  }
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "block_measure_loops.hpp"
+
+namespace dch::detail {
+
+bool measure_block_portable(const BrickCell& cell, const double* positions, const std::int32_t* index,
+                            std::int32_t count, const double* center, double covered2, double* wrapped,
+                            float* offset, BlockExtremes& out) {
+  return measure_block_loops(cell, positions, index, count, center, covered2, wrapped, offset, out);
+}
+
+MeasureBlock measure_block(InstructionSet set) {
+#ifdef DCH_X86_KERNELS
+  if (set == InstructionSet::avx512) return measure_block_avx512;
+  if (set == InstructionSet::avx2) return measure_block_avx2;
+#endif
+  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  return measure_block_portable;
+}
+
+}  // namespace dch::detail

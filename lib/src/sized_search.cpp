@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "sized_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include <dch/error.hpp>
+
+#include "hierarchy_impl.hpp"
+#include "key_table.hpp"
+#include "position_check.hpp"
+
+namespace dch::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A hierarchy serves lists whose radius is this share of its own or more.
+constexpr double kLeastShare = 0.8;
+
+/// List radius of a class with itself or, if it has no pairs with itself, the largest with another one.
+double own_reach(const SizeClasses& classes, std::size_t g) {
+  double reach = classes.reach_of(g, g);
+  for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
+    reach = std::max(reach, classes.reach_of(g, b));
+  return reach;
+}
+
+void add(const SearchStats& more, SearchStats& sum) {
+  sum.builds += more.builds;
+  sum.refreshes += more.refreshes;
+  sum.repairs += more.repairs;
+  sum.promotions += more.promotions;
+  sum.demotions += more.demotions;
+  sum.reparented += more.reparented;
+  sum.inserted += more.inserted;
+  sum.removed += more.removed;
+}
+
+}  // namespace
+
+SizedSearch::SizedSearch(const HierarchyParams& params) : params_(params) {
+  Hierarchy checked(params);  // throws for parameters out of range
+}
+
+void SizedSearch::clear() {
+  for (const Group& group : groups_) retire(*group.search);
+  groups_.clear();
+  positions_.clear();
+  keys_.clear();
+  stale_ = false;
+}
+
+void SizedSearch::retire(const DchSearch& search) { add(search.stats(), retired_); }
+
+void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  const auto start = Clock::now();
+  try {
+    largest_reach_ = check_positions(positions, box);
+    check_radius(params_.radius, box);
+    if (!keys.empty()) key_table_.fill(positions.size(), keys);
+    if (keys.empty() != keys_.empty() || (keys.empty() && positions.size() != positions_.size())) clear();
+  } catch (...) {
+    clear();
+    throw;
+  }
+  positions_.assign(positions.begin(), positions.end());
+  keys_.assign(keys.begin(), keys.end());
+  box_ = box;
+  stale_ = true;
+  ++updates_;
+  maintain_seconds_ += seconds_since(start);
+}
+
+void SizedSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  for (NeighborList& list : out) each.push_back(&list);
+  make_lists(requests, each);
+}
+
+void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
+  if (requests.empty()) return;
+  for (const ListParams& request : requests) check_list_params(request, positions_.size(), params_.radius);
+  const auto start = Clock::now();
+  // One class where two images of a particle may tie at the cutoff, up to rounding.
+  constexpr double kTie = 1e-6;
+  const double farthest = box_.any_periodic()
+                              ? box_.max_cutoff() * (1 - kTie) - 4 * WrapError(box_).bound(largest_reach_)
+                              : std::numeric_limits<double>::infinity();
+  const SizeClasses classes(requests, positions_.size(), farthest);
+  bring_up_to_date(classes);
+  maintain_seconds_ += seconds_since(start);
+
+  const auto listing = Clock::now();
+  double error = 0;
+  std::vector<ListSource> sources;
+  for (Group& group : groups_) {
+    Hierarchy::Impl& hierarchy = *group.search->hierarchy().impl_;
+    error = std::max(error, hierarchy.prepare_for_lists());
+    sources.push_back(hierarchy.list_source(group.particle));
+  }
+  error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
+  ListScene scene{box_, std::move(sources), classes.reach, error, params_.executor};
+  for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
+  list_finder_.find(scene, positions_, requests, out);
+  list_seconds_ += seconds_since(listing);
+}
+
+/// Each group gets the particles of its class, in their order.
+void SizedSearch::assign_groups(const SizeClasses& classes) {
+  while (groups_.size() > classes.count) {
+    retire(*groups_.back().search);
+    groups_.pop_back();
+  }
+  groups_.resize(classes.count);
+  std::vector<std::vector<std::int32_t>> members(classes.count);
+  for (std::size_t i = 0; i < classes.of.size(); ++i)
+    members[classes.of[i]].push_back(static_cast<std::int32_t>(i));
+  for (std::size_t g = 0; g < classes.count; ++g) {
+    Group& group = groups_[g];
+    group.is_new = group.particle != members[g];
+    group.particle = std::move(members[g]);
+    group.positions.resize(group.particle.size());
+    group.keys.resize(keys_.empty() ? 0 : group.particle.size());
+    for (std::size_t k = 0; k < group.particle.size(); ++k) {
+      group.positions[k] = positions_[group.particle[k]];
+      if (!keys_.empty()) group.keys[k] = keys_[group.particle[k]];
+    }
+  }
+}
+
+void SizedSearch::bring_up_to_date(const SizeClasses& classes) {
+  assign_groups(classes);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Group& group = groups_[g];
+    const double wanted = own_reach(classes, g);
+    const bool is_named = !group.keys.empty();
+    const double radius = group.search ? group.search->hierarchy().params().radius : 0;
+    const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
+    if (!group.search || !fits || (group.is_new && !is_named)) {
+      if (group.search) retire(*group.search);
+      HierarchyParams own = params_;
+      own.radius = wanted;
+      own.fold_lone_points = false;  // they may have neighbors in other classes
+      group.search = std::make_unique<DchSearch>(own);
+    } else if (!stale_ && !group.is_new) {
+      continue;
+    }
+    group.search->update(group.positions, box_, group.keys);
+  }
+  stale_ = false;
+}
+
+const SearchStats& SizedSearch::stats() const {
+  stats_ = retired_;
+  stats_.memory_bytes = positions_.capacity() * sizeof(Vec3) + keys_.capacity() * sizeof(std::uint64_t) +
+                        list_finder_.memory_bytes();
+  for (const Group& group : groups_) {
+    const SearchStats& own = group.search->stats();
+    add(own, stats_);
+    stats_.levels = std::max(stats_.levels, own.levels);
+    stats_.memory_bytes += own.memory_bytes + group.particle.capacity() * sizeof(std::int32_t) +
+                           group.positions.capacity() * sizeof(Vec3) +
+                           group.keys.capacity() * sizeof(std::uint64_t);
+  }
+  stats_.updates = updates_;
+  stats_.maintain_seconds = maintain_seconds_;
+  stats_.list_seconds = list_seconds_;
+  return stats_;
+}
+
+}  // namespace dch::detail

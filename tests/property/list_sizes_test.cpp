@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+//
+// Particles of different sizes: cutoffs by radii and by types, on one hierarchy and on one for each class of
+// sizes, in every kind of box and scene, on every instruction set. Several lists at once; supersets.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <memory>
+
+#include <dch/all_pairs.hpp>
+#include <dch/executor.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/instruction_set.hpp>
+
+#include "list_compare.hpp"
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+constexpr double kSide = 9, kLargestRadius = 1.2, kSkin = 0.3;
+constexpr double kReach = 2 * kLargestRadius + kSkin;  // below half the smallest height of all boxes
+
+/// Radii of particles, or types and a matrix; both own what ListParams views.
+struct SizeModel {
+  std::string name;
+  std::vector<double> radii;
+  std::vector<std::int32_t> types;
+  TypeCutoffs cutoffs{1.0};
+
+  ListParams params() const {
+    ListParams list;
+    list.skin = kSkin;
+    list.radii = radii;
+    list.types = types;
+    list.cutoffs = cutoffs;
+    return list;
+  }
+  double reach(std::size_t i, std::size_t j) const {
+    return kSkin + (radii.empty() ? cutoffs(types[i], types[j]) : radii[i] + radii[j]);
+  }
+};
+
+std::vector<SizeModel> size_models(std::size_t n) {
+  scenes::Random random(7);
+  const auto by_radii = [&](const std::string& name, const auto& radius) {
+    SizeModel model{name, {}, {}, TypeCutoffs(1.0)};
+    for (std::size_t i = 0; i < n; ++i) model.radii.push_back(kLargestRadius * radius(i));
+    return model;
+  };
+  const auto by_types = [&](const std::string& name, int types, std::vector<double> matrix) {
+    SizeModel model{name, {}, {}, TypeCutoffs(types, std::move(matrix))};
+    for (std::size_t i = 0; i < n; ++i)
+      model.types.push_back(static_cast<std::int32_t>(i % 7 == 0 ? 0 : random.below(std::size_t(types))));
+    return model;
+  };
+  std::vector<double> many(20 * 20);
+  for (int a = 0; a < 20; ++a)
+    for (int b = 0; b < 20; ++b) many[static_cast<std::size_t>(20 * a + b)] = 0.05 * (a + b) + 0.1;
+  return {
+      by_radii("equal radii", [](std::size_t) { return 1.0; }),
+      by_radii("radii 1:10", [](std::size_t i) { return i % 29 == 0 ? 1.0 : 0.1; }),
+      by_radii("radii 1:50", [](std::size_t i) { return i % 97 == 0 ? 1.0 : 0.02; }),
+      by_radii("radii 1:20, continuous", [&](std::size_t) { return std::pow(20, random.uniform() - 1); }),
+      by_radii("radii 1:100, and none",
+               [&](std::size_t i) { return i % 5 == 1 ? 0.0 : std::pow(100, random.uniform() - 1); }),
+      by_types("types 1:3", 2, {2.4, 1.6, 1.6, 0.8}),
+      by_types("types 1:20", 2, {2.4, 1.3, 1.3, 0.12}),
+      by_types("types without pairs", 3, {2.4, 0.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0.5, 0.1}),
+      by_types("20 types", 20, many),
+  };
+}
+
+std::vector<InstructionSet> supported_sets() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set :
+       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
+    if (is_supported(set)) sets.push_back(set);
+  return sets;
+}
+
+std::unique_ptr<PairSearch> search_with(bool size_classes, Executor* executor = nullptr) {
+  HierarchyParams params;
+  params.radius = kReach;
+  params.size_classes = size_classes;
+  params.executor = executor;
+  return make_dch_search(params);
+}
+
+class ListSizes : public ::testing::TestWithParam<scenes::NamedBox> {};
+
+TEST_P(ListSizes, ListsEqualTheOracle) {
+  const Box box = GetParam().box;
+  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 300, 0.6)) {
+    for (const SizeModel& model : size_models(scene.points.size())) {
+      for (const ListKind kind : {ListKind::half, ListKind::full}) {
+        ListParams params = model.params();
+        params.kind = kind;
+        const NeighborList expected = all_pairs(scene.points, box, params);
+        const auto cell = make_cell_search(kReach);
+        cell->update(scene.points, box);
+        ASSERT_EQ(first_difference(cell->list(params), expected), "")
+            << "cell, " << scene.name << ", " << model.name;
+        for (const bool size_classes : {false, true}) {
+          const auto search = search_with(size_classes);
+          search->update(scene.points, box);
+          for (const InstructionSet set : supported_sets()) {
+            set_instruction_set(set);
+            ASSERT_EQ(first_difference(search->list(params), expected), "")
+                << scene.name << ", " << model.name << ", " << name(set) << (size_classes ? ", classes" : "");
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(ListSizes, ExclusionsAndGhosts) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::clustered(box, 400, 5);
+  std::vector<IndexPair> bonds;
+  for (std::int32_t i = 0; i + 1 < 400; ++i) bonds.push_back({i, i + 1});
+  const Exclusions exclusions = Exclusions::from_bonds(points.size(), bonds, 3);
+  for (const SizeModel& model : size_models(points.size())) {
+    ListParams excluded = model.params(), ghosts = model.params();
+    excluded.exclusions = &exclusions;
+    ghosts.first_ghost = 150;
+    for (const ListParams& params : {excluded, ghosts}) {
+      const NeighborList expected = all_pairs(points, box, params);
+      for (const bool size_classes : {false, true}) {
+        const auto search = search_with(size_classes);
+        search->update(points, box);
+        ASSERT_EQ(first_difference(search->list(params), expected), "") << model.name << size_classes;
+        ListParams as_found = params;
+        as_found.order = RowOrder::by_structure;
+        const NeighborList found = search->list(as_found);
+        ASSERT_EQ(first_difference(sorted_by_index(found, points.size()), expected), "") << model.name;
+      }
+    }
+  }
+}
+
+// Particles move, come, go and change their sizes; named by keys or by their index.
+TEST_P(ListSizes, UnderMotion) {
+  const Box box = GetParam().box;
+  scenes::Random random(11);
+  for (const bool named : {false, true}) {
+    const auto search = search_with(true);
+    std::vector<Vec3> points = scenes::uniform_in(box, 500, 6);
+    std::vector<std::uint64_t> keys(points.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = 10 * i;
+    for (int step = 0; step < 25; ++step) {
+      const double largest = step % 10 == 9 ? 3.0 : 0.05;
+      for (Vec3& p : points) p = p + random.in_cube(largest);
+      if (named) {
+        const std::size_t lost = random.below(points.size());
+        points.erase(points.begin() + static_cast<std::ptrdiff_t>(lost));
+        keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(lost));
+        for (int k = 0; k < 2; ++k) {
+          points.push_back(box.wrap(points[random.below(points.size())] + random.in_cube(1)));
+          keys.push_back(1000000 + static_cast<std::uint64_t>(2 * step + k));
+        }
+      }
+      const std::vector<SizeModel> models = size_models(points.size());
+      const SizeModel& model = models[static_cast<std::size_t>(step / 4) % models.size()];
+      search->update(points, box, named ? Span<const std::uint64_t>(keys) : Span<const std::uint64_t>());
+      ASSERT_EQ(first_difference(search->list(model.params()), all_pairs(points, box, model.params())), "")
+          << "step " << step << ", " << model.name << (named ? ", named" : "");
+    }
+    EXPECT_GT(search->stats().refreshes + search->stats().repairs, 0)
+        << "structures survive from step to step";
+  }
+}
+
+TEST_P(ListSizes, SeveralListsAtOnce) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 800, 8);
+  for (const SizeModel& model : size_models(points.size())) {
+    std::vector<ListParams> requests(4, model.params());
+    requests[1].skin = 0;
+    requests[2].skin = 0.1;
+    requests[2].kind = ListKind::full;
+    requests[3].skin = 0.02;
+    requests[3].order = RowOrder::by_structure;
+    std::vector<ListParams> mixed = requests;  // cutoffs that depend on different things
+    mixed[1] = ListParams();
+    mixed[1].cutoffs = TypeCutoffs(0.5);
+    for (const std::vector<ListParams>& asked : {requests, mixed})
+      for (const bool size_classes : {false, true}) {
+        const auto search = search_with(size_classes);
+        search->update(points, box);
+        const std::vector<NeighborList> lists = search->lists(asked);
+        ASSERT_EQ(lists.size(), asked.size());
+        for (std::size_t k = 0; k < asked.size(); ++k) {
+          const NeighborList expected = all_pairs(points, box, asked[k]);
+          const NeighborList& list = lists[k];
+          ASSERT_EQ(first_difference(k == 3 ? sorted_by_index(list, points.size()) : list, expected), "")
+              << model.name << ", list " << k << (size_classes ? ", classes" : "");
+        }
+      }
+  }
+}
+
+TEST_P(ListSizes, SupersetsLackNoPairAndKeepToTheirMargin) {
+  const Box box = GetParam().box;
+  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 400, 0.6)) {
+    for (const SizeModel& model : size_models(scene.points.size())) {
+      for (const bool size_classes : {false, true}) {
+        const auto search = search_with(size_classes);
+        search->update(scene.points, box);
+        ListParams params = model.params();
+        params.superset = true;
+        const NeighborList list = search->list(params);
+        ASSERT_GE(list.margin, 0);
+        ASSERT_LT(list.margin, 0.5);
+        const NeighborList least = all_pairs(scene.points, box, params);
+        for (std::size_t i = 0; i < scene.points.size(); ++i) {
+          const auto row = list.row(i), needed = least.row(i);
+          ASSERT_TRUE(std::includes(row.begin(), row.end(), needed.begin(), needed.end()))
+              << scene.name << ", " << model.name << ", row " << i;
+          for (const std::int32_t j : row) {
+            const double distance = std::sqrt(norm2(box.nearest_image(scene.points[j] - scene.points[i])));
+            ASSERT_LE(distance, model.reach(i, static_cast<std::size_t>(j)) + list.margin)
+                << scene.name << ", " << model.name << ", pair " << i << ", " << j;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(ListSizes, ListsDoNotDependOnTheNumberOfThreads) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 2000, 9);
+  for (const SizeModel& model : size_models(points.size())) {
+    ListParams params = model.params();
+    params.order = RowOrder::by_structure;
+    NeighborList expected;
+    for (const int threads : {1, 3}) {
+      const auto pool = make_thread_pool(threads);
+      const auto search = search_with(true, pool.get());
+      search->update(points, box);
+      const NeighborList list = search->list(params);
+      if (threads == 1) expected = list;
+      ASSERT_EQ(list.particle, expected.particle) << model.name;
+      ASSERT_EQ(first_difference(list, expected), "") << model.name;
+    }
+  }
+}
+
+// Reaches up to half the box, where images tie.
+TEST_P(ListSizes, InTheSmallestBox) {
+  const Box box = GetParam().box;
+  if (!box.any_periodic()) return;
+  const double factor = box.max_cutoff() / kReach;
+  for (const double share : {1.0, 1 - 1e-9, 0.9, 0.6}) {
+    const std::vector<Vec3> points = scenes::uniform_in(box, 300, 10);
+    for (SizeModel model : size_models(points.size())) {
+      if (model.radii.empty()) continue;
+      for (double& radius : model.radii) radius *= factor * share;
+      ListParams params = model.params();
+      params.skin *= factor * share * (1 - 1e-12);
+      HierarchyParams hierarchy;
+      hierarchy.radius = box.max_cutoff();
+      hierarchy.size_classes = true;
+      const auto search = make_dch_search(hierarchy);
+      search->update(points, box);
+      ASSERT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
+          << model.name << ", share " << share;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, ListSizes, ::testing::ValuesIn(scenes::all_boxes(kSide)),
+                         [](const auto& p) { return p.param.name; });
+
+}  // namespace
+}  // namespace dch

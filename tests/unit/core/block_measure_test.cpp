@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "simd/block_measure.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include <dch/box.hpp>
+
+#include "metric.hpp"
+#include "random.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr InstructionSet kSets[] = {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2,
+                                    InstructionSet::avx512};
+
+struct Measured {
+  bool done = false;
+  Vec3 wrapped[kBlock];
+  float offset[3 * kBlock] = {};
+  BlockExtremes extremes{};
+};
+
+Measured measure(InstructionSet set, const OrthorhombicMetric& metric, const std::vector<Vec3>& positions,
+                 const std::vector<std::int32_t>& index, Vec3 center, double covered2) {
+  Measured m;
+  const double from[3] = {center.x, center.y, center.z};
+  m.done = measure_block(set)(metric.brick(), &positions[0].x, index.data(),
+                              static_cast<std::int32_t>(index.size()), from, covered2, &m.wrapped[0].x,
+                              m.offset, m.extremes);
+  return m;
+}
+
+// What the metric says point by point, bit by bit, on every instruction set and for every number of points.
+TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
+  const Box box = Box::orthorhombic({7, 8, 9}, {true, false, true}, {-3, 1, 2});
+  const OrthorhombicMetric metric(box);
+  scenes::Random random(4);
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    std::vector<Vec3> positions;
+    for (int k = 0; k < 20; ++k) positions.push_back(Vec3{0.5, 5, 6.5} + random.in_cube(6.5));
+    std::vector<std::int32_t> index(1 + random.below(kBlock));
+    for (std::int32_t& k : index) k = static_cast<std::int32_t>(random.below(positions.size()));
+    const Vec3 center = box.wrap(random.in_cube(9));
+    const double covered2 = 9;
+    for (const InstructionSet set : kSets) {
+      if (!is_supported(set)) continue;
+      const Measured m = measure(set, metric, positions, index, center, covered2);
+      ASSERT_TRUE(m.done);
+      double extent2 = 0;
+      int uncovered = 0;
+      for (std::size_t lane = 0; lane < index.size(); ++lane) {
+        const Vec3 wrapped = box.wrap(positions[index[lane]]), at = metric.displacement(center, wrapped);
+        EXPECT_EQ(m.wrapped[lane], wrapped);
+        extent2 = std::max(extent2, norm2(at));
+        uncovered += norm2(at) > covered2;
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_EQ(m.offset[3 * lane + axis], static_cast<float>(at[axis]));
+          EXPECT_LE(m.extremes.low[axis], at[axis]);
+          EXPECT_GE(m.extremes.high[axis], at[axis]);
+        }
+      }
+      EXPECT_EQ(m.extremes.extent2, extent2);
+      EXPECT_EQ(m.extremes.uncovered, uncovered);
+    }
+  }
+}
+
+TEST(BlockMeasureTest, PointsMoreThanACellAwayAreLeftToTheBox) {
+  const Box box = Box::orthorhombic({7, 8, 9});
+  const OrthorhombicMetric metric(box);
+  for (const InstructionSet set : kSets) {
+    if (!is_supported(set)) continue;
+    EXPECT_TRUE(measure(set, metric, {{-6.9, 15.9, 0}, {1, 1, 1}}, {0, 1}, {1, 1, 1}, 1).done);
+    EXPECT_FALSE(measure(set, metric, {{1, 1, 1}, {-7.1, 1, 1}}, {0, 1}, {1, 1, 1}, 1).done);
+    EXPECT_FALSE(measure(set, metric, {{1, 16.1, 1}}, {0}, {1, 1, 1}, 1).done);
+  }
+}
+
+}  // namespace
+}  // namespace dch::detail
