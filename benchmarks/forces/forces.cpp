@@ -101,8 +101,9 @@ Melt& melt_of(std::int64_t cells) {
   return melts.try_emplace(cells, static_cast<int>(cells)).first->second;
 }
 
-/// Forces pair by pair in plain double, from a neighbor list.
-std::vector<dch::Vec3> plain_forces(const Melt& melt) {
+/// Forces pair by pair from a neighbor list, in long double: plain double rounds more than what is checked.
+std::vector<dch::Vec3> exact_forces(const Melt& melt) {
+  using Exact = long double;
   dch::ListParams within = request();
   within.skin = 0;
   const auto search = dch::make_cell_search(kCutoff);
@@ -111,12 +112,18 @@ std::vector<dch::Vec3> plain_forces(const Melt& melt) {
   std::vector<dch::Vec3> force(melt.positions.size());
   for (std::size_t i = 0; i < list.size(); ++i)
     for (const std::int32_t j : list.row(i)) {
-      const dch::Vec3 d =
-          melt.box.nearest_image(melt.positions[static_cast<std::size_t>(j)] - melt.positions[i]);
-      const double s = 1 / norm2(d), s3 = s * s * s;
-      const dch::Vec3 f = 24 * s3 * s * (2 * s3 - 1) * d;
-      force[static_cast<std::size_t>(j)] = force[static_cast<std::size_t>(j)] + f;
-      force[i] = force[i] - f;
+      Exact d[3], r2 = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Exact side = melt.box.vector(axis)[axis];
+        d[axis] = Exact{melt.positions[static_cast<std::size_t>(j)][axis]} - Exact{melt.positions[i][axis]};
+        d[axis] -= side * std::round(d[axis] / side);
+        r2 += d[axis] * d[axis];
+      }
+      const Exact s = 1 / r2, s3 = s * s * s, f = 24 * s3 * s * (2 * s3 - 1);
+      for (int axis = 0; axis < 3; ++axis) {
+        force[static_cast<std::size_t>(j)][axis] += static_cast<double>(f * d[axis]);
+        force[i][axis] -= static_cast<double>(f * d[axis]);
+      }
     }
   return force;
 }
@@ -126,7 +133,7 @@ double checked_error(const Melt& melt, dch::ForcePrecision precision) {
   dch::LennardJones potential({1, 1, kCutoff});
   std::vector<dch::Vec3> force(melt.positions.size());
   potential.add_forces(melt.pairs, precision, force);
-  const std::vector<dch::Vec3> expected = plain_forces(melt);
+  const std::vector<dch::Vec3> expected = exact_forces(melt);
   double error2 = 0, size2 = 0;
   for (std::size_t i = 0; i < force.size(); ++i) {
     error2 += norm2(force[i] - expected[i]);

@@ -125,6 +125,9 @@ LennardJones::LennardJones(int types, const std::vector<LennardJonesPair>& matri
       largest_cutoff_ = std::max(largest_cutoff_, pair.cutoff);
     }
   }
+  constexpr std::size_t kLeast = detail::kFewTypes * detail::kFewTypes;
+  for (auto& table : full_) table.resize(std::max(table.size(), kLeast));
+  for (auto& table : mixed_) table.resize(std::max(table.size(), kLeast));
 }
 
 void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, std::size_t forces) const {

@@ -55,7 +55,8 @@ struct Avx2Float {
             twice(_mm_add_ps(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55))),
             twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
   }
-  static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
     const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
@@ -120,7 +121,8 @@ struct Avx2Double {
             add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
             add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
   }
-  static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     return _mm256_i32gather_pd(table, _mm_add_epi32(columns, _mm_set1_epi32(row[part])), 8);
   }

@@ -63,11 +63,14 @@ struct Avx512Float {
     const Cluster j = load_cluster(at);
     return {add(j.x, set1(by[0])), add(j.y, set1(by[1])), add(j.z, set1(by[2]))};
   }
-  static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int) {
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
+                  int) {
     const __m512i rows = _mm512_permutexvar_epi32(
         slots(), _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
     const __m512i columns = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
-    return _mm512_i32gather_ps(_mm512_add_epi32(rows, columns), table, 4);
+    const __m512i at = _mm512_add_epi32(rows, columns);
+    if (types <= kFewTypes) return _mm512_permutexvar_ps(at, _mm512_loadu_ps(table));
+    return _mm512_i32gather_ps(at, table, 4);
   }
   /// The sums over the four 128-bit parts of x, y and z, as a cluster.
   static V fold(V x, V y, V z) {
@@ -129,11 +132,16 @@ struct Avx512Double {
                               const ClusterOfFour<double>&) {
     return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
   }
-  static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
+                  const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
     const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
-    return _mm512_i32gather_pd(_mm256_set_m128i(second, first), table, 8);
+    const __m256i at = _mm256_set_m128i(second, first);
+    if (types <= kFewTypes)
+      return _mm512_permutex2var_pd(_mm512_loadu_pd(table), _mm512_cvtepi32_epi64(at),
+                                    _mm512_loadu_pd(table + 8));
+    return _mm512_i32gather_pd(at, table, 8);
   }
   static __m256d over_i(const V* parts) {
     const V both = add(parts[0], parts[1]);

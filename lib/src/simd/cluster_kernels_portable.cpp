@@ -70,7 +70,8 @@ struct Portable {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
-  static V lookup(const Real* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const Real* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
     return each([&](int k) { return table[row[part] + column[k]]; });
   }
   static void add_parts(const V* parts, Real* four) {

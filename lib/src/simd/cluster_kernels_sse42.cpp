@@ -50,7 +50,8 @@ struct SseFloat {
             add(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55)),
             add(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA))};
   }
-  static V lookup(const float* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
     const float* const from = table + row[part];
     return _mm_setr_ps(from[column[0]], from[column[1]], from[column[2]], from[column[3]]);
   }
@@ -116,7 +117,8 @@ struct SseDouble {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
-  static V lookup(const double* table, const std::int32_t* row, const std::int32_t* column, int part) {
+  static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
     const double* const from = table + row[part];
     return {_mm_setr_pd(from[column[0]], from[column[1]]), _mm_setr_pd(from[column[2]], from[column[3]])};
   }

@@ -42,7 +42,7 @@ struct PairCoefficients<S, false> {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
   void choose_j(std::int32_t cluster) { of_j = type + 4 * cluster; }
-  V operator()(int k, int part) const { return S::lookup(table[k], row, of_j, part); }
+  V operator()(int k, int part) const { return S::lookup(table[k], types, row, of_j, part); }
 
   const std::int32_t* type;
   std::int32_t types;

@@ -7,7 +7,11 @@
 
 namespace dch::detail {
 
-/// Coefficients of the pairs of types, each array types x types, row-major: with s = 1/r^2,
+/// Tables of this many types fit into registers, which is faster than memory.
+inline constexpr std::int32_t kFewTypes = 4;
+
+/// Coefficients of the pairs of types, each array types x types, row-major, with room for kFewTypes at least:
+/// with s = 1/r^2,
 ///   force / r = s^4 (force12 s^3 - force6),   energy = s^3 (energy12 s^3 - energy6) - energy_shift
 /// where r^2 < cutoff2.
 template <class Real>
