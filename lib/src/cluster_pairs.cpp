@@ -72,7 +72,9 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
           throw InvalidPosition("position " + std::to_string(i) + " = " +
                                 detail::describe(positions[static_cast<std::size_t>(i)]) +
                                 " is not finite; check the coordinates of this step");
-        d = d + images.vector(images.integers(now.nearest_image(moved) - moved));
+        // The origin, which has few digits, is first moved to the particle's image: that does not round.
+        d = positions[static_cast<std::size_t>(i)] -
+            (center - images.vector(images.integers(now.nearest_image(moved) - moved)));
       }
       put(d, slot, cluster);
     }
