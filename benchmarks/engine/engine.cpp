@@ -126,7 +126,7 @@ void simd_grid(benchmark::State& state) {
   Liquid liquid(state.range(0));
   dch::bench::SimdGrid grid(kListRadius, 0.1 * static_cast<double>(state.range(1)), cells);
   dch::NeighborList list;
-  grid.list(liquid.positions, liquid.box, list);
+  grid.list(liquid.positions, liquid.box, {}, list);
   const auto cells_of_ours = dch::make_cell_search(kListRadius);
   cells_of_ours->update(liquid.positions, liquid.box);
   if (list.pairs() != cells_of_ours->list(list_params()).pairs()) {
@@ -137,7 +137,7 @@ void simd_grid(benchmark::State& state) {
     state.PauseTiming();
     liquid.step();
     state.ResumeTiming();
-    grid.list(liquid.positions, liquid.box, list);
+    grid.list(liquid.positions, liquid.box, {}, list);
     benchmark::DoNotOptimize(list.j.data());
   }
 }

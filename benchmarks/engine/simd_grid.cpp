@@ -6,6 +6,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "block_span.hpp"
+#include "grid_kernels.hpp"
+
 namespace dch::bench {
 
 using detail::BlockPoints;
@@ -22,29 +25,6 @@ std::int16_t rounded(double v) {
   std::int64_t bits;
   std::memcpy(&bits, &shifted, sizeof bits);
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
-}
-
-std::int16_t sum(std::int16_t a, std::int16_t b) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a) + static_cast<std::uint16_t>(b));
-}
-
-/// Box around points whose coordinates wrap: relative to the first of them.
-BlockSpan span_of(const detail::Candidates& points, std::int32_t count) {
-  BlockSpan span{};
-  const std::int16_t* const axes[3] = {points.x, points.y, points.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto first = static_cast<std::uint16_t>(axes[axis][0]);
-    int low = 0, high = 0;
-    for (std::int32_t k = 1; k < count; ++k) {
-      const int d = static_cast<std::int16_t>(static_cast<std::uint16_t>(axes[axis][k]) - first);
-      low = std::min(low, d);
-      high = std::max(high, d);
-    }
-    const int middle = (low + high) >> 1;
-    span.center[axis] = static_cast<std::int16_t>(first + static_cast<std::uint16_t>(middle));
-    span.half_width[axis] = static_cast<std::int16_t>(std::max(high - middle, middle - low));
-  }
-  return span;
 }
 
 }  // namespace
@@ -131,27 +111,14 @@ void SimdGrid::sort_points(Span<const Vec3> positions) {
 
 /// Cell of each point, and where the points of each cell begin.
 void SimdGrid::number_cells() {
-  const std::size_t n = key_.size();
-  cell_of_.resize(n);
+  cell_of_.resize(key_.size());
   std::size_t cells;
   if (kind_ == Cells::dense) {
     cells = static_cast<std::size_t>(counts_[0]) * static_cast<std::size_t>(counts_[1]) *
             static_cast<std::size_t>(counts_[2]);
-    for (std::size_t i = 0; i < n; ++i) cell_of_[i] = static_cast<std::int32_t>(key_[i]);
+    for (std::size_t i = 0; i < key_.size(); ++i) cell_of_[i] = static_cast<std::int32_t>(key_[i]);
   } else {
-    std::size_t size = 64;
-    while (size < 2 * n) size *= 2;
-    table_.assign(size, {-1, 0});
-    occupied_.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      std::size_t slot = (static_cast<std::uint64_t>(key_[i]) * 0x9E3779B97F4A7C15u >> 20) & (size - 1);
-      while (table_[slot].key != key_[i] && table_[slot].key >= 0) slot = (slot + 1) & (size - 1);
-      if (table_[slot].key < 0) {
-        table_[slot] = {key_[i], static_cast<std::int32_t>(occupied_.size())};
-        occupied_.push_back(key_[i]);
-      }
-      cell_of_[i] = table_[slot].cell;
-    }
+    find_occupied();
     cells = occupied_.size();
   }
   first_.assign(cells + 1, 0);
@@ -159,18 +126,51 @@ void SimdGrid::number_cells() {
   for (std::size_t cell = 0; cell < cells; ++cell) first_[cell + 1] += first_[cell];
 }
 
-SimdGrid::Run SimdGrid::points_of(std::int64_t key) const {
-  auto cell = static_cast<std::size_t>(key);
-  if (kind_ == Cells::hash) {
-    std::size_t slot = (static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
-    while (table_[slot].key != key && table_[slot].key >= 0) slot = (slot + 1) & (table_.size() - 1);
-    if (table_[slot].key < 0) return {};
-    cell = static_cast<std::size_t>(table_[slot].cell);
-  }
-  return {first_[cell], first_[cell + 1]};
+/// Slot of a key in the table, or the free one where it belongs.
+std::size_t SimdGrid::slot_of(std::int64_t key) const {
+  std::size_t slot = (static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
+  while (table_[slot].key != key && table_[slot].key >= 0) slot = (slot + 1) & (table_.size() - 1);
+  return slot;
 }
 
-void SimdGrid::list(Span<const Vec3> positions, const Box& box, NeighborList& out) {
+/// Numbers the occupied cells by their keys, so that the points of neighbors along x lie side by side.
+void SimdGrid::find_occupied() {
+  std::size_t size = 64;
+  while (size < 2 * key_.size()) size *= 2;
+  table_.assign(size, {-1, 0});
+  occupied_.clear();
+  for (std::size_t i = 0; i < key_.size(); ++i) {
+    const std::size_t slot = slot_of(key_[i]);
+    if (table_[slot].key < 0) {
+      table_[slot] = {key_[i], 0};
+      occupied_.push_back(key_[i]);
+    }
+    cell_of_[i] = static_cast<std::int32_t>(slot);
+  }
+  std::sort(occupied_.begin(), occupied_.end());
+  for (std::size_t cell = 0; cell < occupied_.size(); ++cell)
+    table_[slot_of(occupied_[cell])].cell = static_cast<std::int32_t>(cell);
+  for (std::int32_t& cell : cell_of_) cell = table_[static_cast<std::size_t>(cell)].cell;
+}
+
+/// The points of the cells with keys first .. last, which lie in one row.
+SimdGrid::Run SimdGrid::points_of(std::int64_t first, std::int64_t last) const {
+  if (kind_ == Cells::dense)
+    return {first_[static_cast<std::size_t>(first)], first_[static_cast<std::size_t>(last) + 1]};
+  for (std::int64_t key = first; key <= last; ++key) {
+    const Slot& slot = table_[slot_of(key)];
+    if (slot.key < 0) continue;
+    const auto begin = static_cast<std::size_t>(slot.cell);
+    std::size_t end = begin + 1;
+    while (end < occupied_.size() && occupied_[end] <= last) ++end;
+    return {first_[begin], first_[end]};
+  }
+  return {};
+}
+
+void SimdGrid::list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions,
+                    NeighborList& out) {
+  exclusions_ = exclusions.empty() ? nullptr : &exclusions;
   kernels_ = &detail::list_kernels(instruction_set());
   lay_out(positions, box);
   make_stencil();
@@ -191,16 +191,22 @@ void SimdGrid::list(Span<const Vec3> positions, const Box& box, NeighborList& ou
   }
 }
 
+std::size_t SimdGrid::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  std::size_t bytes = bytes_of(key_) + bytes_of(cell_of_) + bytes_of(first_) + bytes_of(occupied_) +
+                      bytes_of(table_) + bytes_of(next_) + bytes_of(mask_) + bytes_of(unsettled_) +
+                      bytes_of(stencil_);
+  for (const Candidates* points : {&sorted_, &around_, &near_})
+    bytes += 3 * bytes_of(points->x) + bytes_of(points->id);
+  return bytes;
+}
+
 void SimdGrid::append(Run run, const std::array<std::int16_t, 3>& shift) {
   const std::int32_t length = run.end - run.begin;
+  if (length == 0) return;
   around_.make_room(static_cast<std::size_t>(count_ + length + kChunk));
-  std::int16_t *x = around_.x.data() + count_, *y = around_.y.data() + count_, *z = around_.z.data() + count_;
-  const std::int16_t *fx = sorted_.x.data() + run.begin, *fy = sorted_.y.data() + run.begin,
-                     *fz = sorted_.z.data() + run.begin;
-  for (std::int32_t k = 0; k < length; ++k) x[k] = sum(fx[k], shift[0]);
-  for (std::int32_t k = 0; k < length; ++k) y[k] = sum(fy[k], shift[1]);
-  for (std::int32_t k = 0; k < length; ++k) z[k] = sum(fz[k], shift[2]);
-  std::copy_n(sorted_.id.data() + run.begin, length, around_.id.data() + count_);
+  copy_shifted(sorted_.at(static_cast<std::size_t>(run.begin)), shift, length,
+               around_.at(static_cast<std::size_t>(count_)));
   count_ += length;
 }
 
@@ -224,12 +230,8 @@ void SimdGrid::append_row(const Cell& at, std::int32_t dy, std::int32_t dz, std:
     if (period == 0 || periodic_[0]) {
       shift[0] = rounded(period * length_.x / unit_);
       row[0] = x - period * counts_[0];
-      if (kind_ == Cells::dense) {  // neighbors along x lie side by side
-        const auto cell = static_cast<std::size_t>(key_of(row));
-        append({first_[cell], first_[cell + static_cast<std::size_t>(stop - x)]}, shift);
-      } else {
-        for (std::int32_t k = x; k < stop; ++k, ++row[0]) append(points_of(key_of(row)), shift);
-      }
+      const std::int64_t key = key_of(row);
+      append(points_of(key, key + stop - x - 1), shift);
     }
     x = stop;
   }
@@ -288,8 +290,12 @@ void SimdGrid::rows_of_block(Run block, std::int32_t before, Span<const Vec3> po
   for (std::int32_t row = 0; row < rows; ++row) {
     std::uint32_t* const mask = mask_.data() + row * chunks;
     mask[0] &= ~0u << (row + 1);
-    written += static_cast<std::size_t>(kernels_->compress(mask, chunks, near.id, out.j.data() + written));
-    out.particle.push_back(sorted_.id[first + static_cast<std::size_t>(row)]);
+    std::int32_t* const to = out.j.data() + written;
+    const std::int32_t particle = sorted_.id[first + static_cast<std::size_t>(row)];
+    std::int32_t length = kernels_->compress(mask, chunks, near.id, to);
+    if (exclusions_) length = without(exclusions_->partners(particle), to, length);
+    written += static_cast<std::size_t>(length);
+    out.particle.push_back(particle);
     out.first.push_back(static_cast<std::int64_t>(written));
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/exclusions.hpp>
 #include <dch/neighbor_list.hpp>
 #include <dch/span.hpp>
 
@@ -18,7 +19,7 @@ namespace dch::bench {
 /// integers, the half stencil around a cell is copied side by side, thinned to what is near the cell's own
 /// points, then to what is near eight of them, and tested. Built from scratch for every list.
 ///
-/// Orthorhombic and open boxes, one cutoff, no exclusions; periodic boxes at least three list radii wide.
+/// Orthorhombic and open boxes, one cutoff; periodic boxes at least three list radii wide.
 class SimdGrid {
  public:
   enum class Cells {
@@ -29,8 +30,11 @@ class SimdGrid {
   SimdGrid(double radius, double cell_width, Cells cells)
       : radius_(radius), width_(cell_width), kind_(cells) {}
 
-  /// Half list by structure of all pairs within the radius.
-  void list(Span<const Vec3> positions, const Box& box, NeighborList& out);
+  /// Half list by structure of all pairs within the radius that are not excluded.
+  /// @throws std::invalid_argument if the periodic box is too narrow for cells of this width.
+  void list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions, NeighborList& out);
+  /// Held now.
+  std::size_t memory_bytes() const;
 
  private:
   using Cell = std::array<std::int32_t, 3>;
@@ -48,7 +52,9 @@ class SimdGrid {
   void make_stencil();
   void sort_points(Span<const Vec3> positions);
   void number_cells();
-  Run points_of(std::int64_t key) const;
+  void find_occupied();
+  std::size_t slot_of(std::int64_t key) const;
+  Run points_of(std::int64_t first, std::int64_t last) const;
   void rows_of_cell(Run own, const Cell& at, Span<const Vec3> positions, const Box& box, NeighborList& out);
   void append_row(const Cell& at, std::int32_t dy, std::int32_t dz, std::int32_t first, std::int32_t last);
   void append(Run run, const std::array<std::int16_t, 3>& shift);
@@ -88,6 +94,7 @@ class SimdGrid {
   std::vector<std::uint32_t> mask_;
   std::vector<detail::Unsettled> unsettled_;
   const detail::ListKernels* kernels_ = nullptr;
+  const Exclusions* exclusions_ = nullptr;  ///< of the list being made; null if there are none
 };
 
 }  // namespace dch::bench

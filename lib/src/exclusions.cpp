@@ -104,12 +104,6 @@ Exclusions Exclusions::from_bonds(std::size_t n, Span<const IndexPair> bonds, in
   return from_pairs(n, pairs);
 }
 
-Span<const std::int32_t> Exclusions::partners(std::int32_t i) const {
-  const auto row = static_cast<std::size_t>(i);
-  if (i < 0 || row >= size()) return {};
-  return {partner_.data() + first_[row], static_cast<std::size_t>(first_[row + 1] - first_[row])};
-}
-
 bool Exclusions::excluded(std::int32_t i, std::int32_t j) const {
   const auto row = partners(i);
   return std::binary_search(row.begin(), row.end(), j);

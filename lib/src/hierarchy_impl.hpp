@@ -27,7 +27,7 @@ inline constexpr double kInflate = 1 + 1e-12;
 
 /// How far points may move, in units of R_0, before the edges of level 1 have to be made anew, where repair
 /// is put off. More: fewer repairs, more edges for lists to dismiss.
-inline constexpr double kMotionSlack = 0.2;
+inline constexpr double kMotionSlack = 0.4;
 
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 inline constexpr double kMinRadius = 1e-100;

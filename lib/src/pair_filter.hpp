@@ -40,6 +40,10 @@ class PairFilter {
   enum class By { one_cutoff, radii, types };
   By by() const { return by_; }
   const ListParams& params() const { return params_; }
+  bool is_ghost(std::int32_t i) const { return first_ghost_ >= 0 && i >= first_ghost_; }
+  Span<const std::int32_t> excluded_with(std::int32_t i) const {
+    return exclusions_ != nullptr ? exclusions_->partners(i) : Span<const std::int32_t>();
+  }
   /// Whether exclusions or ghosts may keep some pair of i out of the list.
   bool restricts(std::int32_t i) const {
     return (exclusions_ != nullptr && !exclusions_->partners(i).empty()) ||

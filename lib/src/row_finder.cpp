@@ -8,6 +8,9 @@
 namespace dch::detail {
 namespace {
 
+constexpr std::size_t kFewExclusions = 4;  ///< of a particle
+constexpr std::int32_t kShortRow = 16;
+
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
 }
@@ -147,6 +150,7 @@ void RowFinder::append_cluster(const Scene<Metric>& scene, const Request& reques
       if (cluster.owned) before += points.count[own];
     }
     settle(scene, request);
+    ask_for_exclusions(*request.filter, points, first, last);
     for (std::int32_t own = first; own < last; ++own)
       append_block(request, points, own, cluster.owned, tests_[own - first], out);
     own_before += before;
@@ -232,6 +236,15 @@ void RowFinder::settle(const Scene<Metric>& scene, const Request& request) {
   }
 }
 
+/// Whom the points of blocks [first, last) are excluded with is likely in no cache: asked for together.
+void RowFinder::ask_for_exclusions(const PairFilter& filter, const ClusterPoints& points, std::int32_t first,
+                                   std::int32_t last) {
+  if (filter.params().exclusions == nullptr) return;
+  for (std::int32_t block = first; block < last; ++block)
+    for (std::int32_t row = 0; row < points.count[block]; ++row)
+      __builtin_prefetch(filter.excluded_with(points.ids[block][row]).data());
+}
+
 /// The rows of one block's points.
 void RowFinder::append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                              bool meets_itself, BlockTest& test, NeighborList& out) {
@@ -256,14 +269,34 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
 /// Exclusions and ghosts, and cutoffs where the kernels did not know them. Returns how many are left.
 std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
                                      std::int32_t count) {
-  std::int32_t kept = 0;
-  for (std::int32_t k = 0; k < count; ++k) {
-    const std::int32_t other = row[k];
-    row[kept] = other;
-    kept += request.limits.per_pair ? request.filter->accept(particle, other)
-                                    : request.filter->is_wanted(particle, other);
+  const PairFilter& filter = *request.filter;
+  const auto keep_if = [&](const auto& is_kept) {
+    return static_cast<std::int32_t>(std::copy_if(row, row + count, row, is_kept) - row);
+  };
+  if (request.limits.per_pair) return keep_if([&](std::int32_t j) { return filter.accept(particle, j); });
+  const Span<const std::int32_t> excluded = filter.excluded_with(particle);
+  if (excluded.size() <= kFewExclusions && count <= kShortRow) {
+    std::int32_t others[kFewExclusions] = {kNone, kNone, kNone, kNone};
+    std::copy(excluded.begin(), excluded.end(), others);
+    std::int32_t kept = 0;
+    for (std::int32_t k = 0; k < count; ++k) {  // without branches: which are excluded is hard to foretell
+      const std::int32_t j = row[k];
+      row[kept] = j;
+      kept += static_cast<std::int32_t>(j != others[0]) & static_cast<std::int32_t>(j != others[1]) &
+              static_cast<std::int32_t>(j != others[2]) & static_cast<std::int32_t>(j != others[3]);
+    }
+    count = kept;
+  } else if (excluded.size() <= static_cast<std::size_t>(count)) {
+    for (const std::int32_t other : excluded) {
+      std::int32_t found = 0;
+      for (std::int32_t k = 0; k < count; ++k) found += row[k] == other;  // compilers make vectors of this
+      if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, other) - row);
+    }
+  } else {
+    count = keep_if([&](std::int32_t j) { return !std::binary_search(excluded.begin(), excluded.end(), j); });
   }
-  return kept;
+  if (filter.is_ghost(particle)) count = keep_if([&](std::int32_t j) { return !filter.is_ghost(j); });
+  return count;
 }
 
 std::size_t RowFinder::memory_bytes() const {

@@ -88,6 +88,8 @@ class RowFinder {
                        bool meets_itself, BlockTest& test);
   template <class Metric>
   void settle(const Scene<Metric>& scene, const Request& request);
+  static void ask_for_exclusions(const PairFilter& filter, const ClusterPoints& points, std::int32_t first,
+                                 std::int32_t last);
   void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                     bool meets_itself, BlockTest& test, NeighborList& out);
   static std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,

@@ -31,7 +31,11 @@ class Exclusions {
   /// Number of particles, 0 if there are no exclusions.
   std::size_t size() const { return first_.empty() ? 0 : first_.size() - 1; }
   /// Partners of particle i in ascending order.
-  Span<const std::int32_t> partners(std::int32_t i) const;
+  Span<const std::int32_t> partners(std::int32_t i) const {
+    const auto row = static_cast<std::size_t>(i);
+    if (i < 0 || row >= size()) return {};
+    return {partner_.data() + first_[row], static_cast<std::size_t>(first_[row + 1] - first_[row])};
+  }
   bool excluded(std::int32_t i, std::int32_t j) const;
   /// Number of excluded pairs.
   std::int64_t pairs() const { return static_cast<std::int64_t>(partner_.size()) / 2; }

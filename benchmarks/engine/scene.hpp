@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/exclusions.hpp>
+#include <dch/vec3.hpp>
+
+namespace dch::bench {
+
+/// Where particles are, one configuration after the other, and which lists are wanted of each. Lengths are in
+/// the scene's own unit (reduced units, or nm for water).
+class Scene {
+ public:
+  virtual ~Scene() = default;
+
+  /// Goes to the next configuration, about 10 steps of dynamics later; false if there is none.
+  virtual bool step() = 0;
+  /// Goes back to the first configuration.
+  virtual void restart() = 0;
+
+  std::string name;
+  std::string origin;  ///< what the configurations are, for people
+  std::vector<Vec3> positions;
+  Box box;
+  std::vector<double> list_radii;  ///< one list each, ascending; empty if particles have radii [length]
+  std::vector<double> radii;       ///< by particle: pairs within r_i + r_j + skin; or empty [length]
+  double skin = 0;                 ///< only with radii [length]
+  Exclusions exclusions;           ///< pairs left out
+};
+
+/// A scene that needs no file: each particle moves at random from one configuration to the next.
+class RandomScene : public Scene {
+ public:
+  /// @param seed of the motion; restart() starts it anew
+  explicit RandomScene(std::uint64_t seed) : seed_(seed), engine_(seed) {}
+  bool step() override;
+  void restart() override;
+
+  /// Takes the positions as the first configuration.
+  void start();
+
+  double step_length = 0;   ///< largest random displacement along an axis [length]
+  std::vector<Vec3> drift;  ///< by particle: displacement in every step; or empty [length]
+
+ private:
+  std::uint64_t seed_;
+  std::mt19937_64 engine_;
+  std::vector<Vec3> first_;
+};
+
+/// Uniform in [0, 1); the same on every platform, which std::uniform_real_distribution is not.
+inline double uniform(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1p-53; }
+
+// Artificial scenes. `scale` multiplies the number of particles, for quick checks of the program.
+
+/// A simple cubic lattice of the density of the Lennard-Jones melt (0.8442), thoroughly shaken.
+std::unique_ptr<RandomScene> make_shaken_lattice(double atoms, double list_radius);
+/// A droplet of liquid in the middle of a box 100 times as wide; `gas_atoms` fly through the rest.
+std::unique_ptr<RandomScene> make_droplet(double scale, double gas_atoms);
+/// Centers clustered hierarchically: the number of others within s of one grows as a power of s below 3
+/// (Soneira and Peebles, Astron. J. 83:845, 1978).
+std::unique_ptr<RandomScene> make_power_law_clusters(double scale);
+/// Few large spheres among many small ones; the volume fractions are the same whatever the ratio of sizes.
+std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio);
+/// Spheres whose number density falls as the fourth power of the radius, from the smallest to `ratio` times
+/// as large.
+std::unique_ptr<RandomScene> make_continuous_sizes(double scale, double ratio);
+
+/// Names of all scenes, in the order of the table.
+const std::vector<std::string>& scene_names();
+
+/// Where make_scene() looks for files and how large it makes what it makes itself.
+struct SceneOptions {
+  std::string trajectories;     ///< folder that make_trajectories filled
+  double scale = 1;             ///< of the number of particles in artificial scenes
+  std::size_t most_frames = 0;  ///< configurations to read of a file
+};
+
+/// A scene by its name. A melt or chain melt without its trajectory becomes a shaken lattice, and says so in
+/// `origin`.
+/// @throws Error for an unknown name, or a file that cannot be read.
+std::unique_ptr<Scene> make_scene(const std::string& name, const SceneOptions& options);
+
+}  // namespace dch::bench

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <unordered_map>
+
+#include "scene.hpp"
+
+namespace dch::bench {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+/// Of the smallest spheres, whose diameter is the unit of length.
+constexpr double kSmallest = 0.5;
+/// Contacts stay listed while each sphere moves a quarter of this unit.
+constexpr double kSkin = 0.5;
+constexpr double kStep = 0.05;
+
+double sphere_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+
+/// Spheres placed one after the other at random in a periodic cube, the larger ones first, none overlapping.
+class Packing {
+ public:
+  explicit Packing(double side)
+      : side_(side),
+        cells_(std::max(1, static_cast<int>(side / (4 * kSmallest)))),
+        width_(side / cells_),
+        box_(Box::orthorhombic({side, side, side})),
+        engine_(kSeed) {}
+
+  /// A place at random for a sphere no larger than those before.
+  Vec3 place(double radius) {
+    for (;;) {
+      const Vec3 p{side_ * uniform(engine_), side_ * uniform(engine_), side_ * uniform(engine_)};
+      if (overlaps(p, radius)) continue;
+      add(p, radius);
+      return p;
+    }
+  }
+  /// Whether a sphere, no larger than any before, overlaps one of them.
+  bool overlaps(Vec3 p, double radius) const {
+    const auto found = spheres_in_.find(key(cell(p.x), cell(p.y), cell(p.z)));
+    if (found == spheres_in_.end()) return false;
+    return std::any_of(found->second.begin(), found->second.end(), [&](std::int32_t k) {
+      const Sphere& other = spheres_[static_cast<std::size_t>(k)];
+      const double contact = radius + other.radius;
+      return box_.distance2(p, other.center) < contact * contact;
+    });
+  }
+  /// Notes a sphere in all cells where the center of one that overlaps it may lie.
+  void add(Vec3 p, double radius) {
+    const double reach = 2 * radius;
+    const auto last = [&](double x) { return std::min(cell(x + reach), cell(x - reach) + cells_ - 1); };
+    for (int x = cell(p.x - reach); x <= last(p.x); ++x)
+      for (int y = cell(p.y - reach); y <= last(p.y); ++y)
+        for (int z = cell(p.z - reach); z <= last(p.z); ++z)
+          spheres_in_[key(x, y, z)].push_back(static_cast<std::int32_t>(spheres_.size()));
+    spheres_.push_back({p, radius});
+  }
+  const Box& box() const { return box_; }
+
+ private:
+  struct Sphere {
+    Vec3 center;
+    double radius;
+  };
+  int cell(double x) const { return static_cast<int>(std::floor(x / width_)); }
+  std::int64_t key(int x, int y, int z) const {
+    const auto wrapped = [this](int c) { return std::int64_t{((c % cells_) + cells_) % cells_}; };
+    return (wrapped(z) * cells_ + wrapped(y)) * cells_ + wrapped(x);
+  }
+
+  double side_;
+  int cells_;
+  double width_;
+  Box box_;
+  std::mt19937_64 engine_;
+  std::vector<Sphere> spheres_;
+  std::unordered_map<std::int64_t, std::vector<std::int32_t>> spheres_in_;
+};
+
+}  // namespace
+
+std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio) {
+  constexpr double kLargeFraction = 0.25, kSmallFraction = 0.3;
+  auto scene = std::make_unique<RandomScene>(kSeed);
+  std::mt19937_64 engine(kSeed);
+  // The large ones on an fcc lattice, four in each of its cubes, so that few of them fit the box without
+  // overlap.
+  const double large = ratio * kSmallest;
+  const int cubes = std::max(1, static_cast<int>(std::lround(20 * std::cbrt(scale) / ratio)));
+  const double cube = std::cbrt(4 * sphere_volume(large) / kLargeFraction), side = cubes * cube;
+  const auto shaken = [&](double site, double spacing, double part) {
+    return spacing * (site + part * (2 * uniform(engine) - 1));
+  };
+  Packing packing(side);
+  for (int k = 0; k < 4 * cubes * cubes * cubes; ++k) {
+    const int site = k / 4, corner = k % 4;
+    const double x = shaken(site % cubes + (corner == 1 || corner == 2 ? 0.5 : 0), cube, 0.05),
+                 y = shaken(site / cubes % cubes + (corner == 1 || corner == 3 ? 0.5 : 0), cube, 0.05),
+                 z = shaken(site / (cubes * cubes) + (corner == 2 || corner == 3 ? 0.5 : 0), cube, 0.05);
+    packing.add({x, y, z}, large);
+    scene->positions.push_back({x, y, z});
+  }
+  // The small ones on a shaken lattice in what is left.
+  const double density = kSmallFraction / (1 - kLargeFraction) / sphere_volume(kSmallest);
+  const int sites = static_cast<int>(side * std::cbrt(density));
+  const double spacing = side / sites;
+  scene->radii.assign(scene->positions.size(), large);
+  for (int x = 0; x < sites; ++x)
+    for (int y = 0; y < sites; ++y)
+      for (int z = 0; z < sites; ++z) {
+        const double px = shaken(x, spacing, 0.2), py = shaken(y, spacing, 0.2), pz = shaken(z, spacing, 0.2);
+        if (packing.overlaps({px, py, pz}, kSmallest)) continue;
+        scene->positions.push_back({px, py, pz});
+        scene->radii.push_back(kSmallest);
+      }
+  scene->box = packing.box();
+  scene->skin = kSkin;
+  scene->step_length = kStep;
+  scene->origin = "large spheres of volume fraction 0.25 among small ones of 0.3, moved at random";
+  scene->start();
+  return scene;
+}
+
+std::unique_ptr<RandomScene> make_continuous_sizes(double scale, double ratio) {
+  constexpr double kFraction = 0.5;
+  auto scene = std::make_unique<RandomScene>(kSeed);
+  const int count = static_cast<int>(30000 * scale);
+  double volume = 0;
+  for (int k = 0; k < count; ++k) {
+    // The quantiles of a density that falls as the fourth power of the radius, the largest first.
+    const double above = (k + 0.5) / count;
+    const double radius = kSmallest / std::cbrt(1 - (1 - above) * (1 - 1 / (ratio * ratio * ratio)));
+    scene->radii.push_back(radius);
+    volume += sphere_volume(radius);
+  }
+  Packing packing(std::cbrt(volume / kFraction));
+  for (const double radius : scene->radii) scene->positions.push_back(packing.place(radius));
+  scene->box = packing.box();
+  scene->skin = kSkin;
+  scene->step_length = kStep;
+  scene->origin =
+      "spheres of volume fraction 0.5, densities of numbers falling as the fourth power of the radius, moved "
+      "at random";
+  scene->start();
+  return scene;
+}
+
+}  // namespace dch::bench

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+//
+// Neighbor lists of the hierarchy against those of grids made with the same kernels, scene by scene: see
+// benchmarks/README.md. All lists are compared before anything is timed; then all contenders take turns at
+// each configuration.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+#include <dch/error.hpp>
+
+#include "affinity.hpp"
+#include "contender.hpp"
+#include "pair_check.hpp"
+#include "stopwatch.hpp"
+#include "table_report.hpp"
+
+namespace dch::bench {
+namespace {
+
+constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
+
+struct Options {
+  std::vector<std::string> scenes = scene_names();
+  SceneOptions scene;
+  int lists = 100, repetitions = 5, threads = 1, processor = 0;
+  std::string json, only;
+};
+
+/// A list that does not hold the pairs it should.
+class WrongList : public Error {
+ public:
+  using Error::Error;
+};
+
+using Contenders = std::vector<std::unique_ptr<Contender>>;
+
+/// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
+int configurations(const Scene& scene, const Options& options) {
+  constexpr double kParticles = 32000;
+  constexpr int kFewest = 20;  // so that there are repairs among them
+  const double fitting = options.lists * kParticles / static_cast<double>(scene.positions.size());
+  return std::clamp(static_cast<int>(fitting), std::min(options.lists, kFewest), options.lists);
+}
+
+/// Every contender's lists at every configuration: equal to each other, at the first and the last to what is
+/// expected. Returns the number of pairs at the last.
+std::int64_t check(Scene& scene, Contenders& contenders, int lists) {
+  std::vector<NeighborList> made(std::max<std::size_t>(1, scene.list_radii.size()));
+  std::int64_t pairs = 0;
+  scene.restart();
+  for (const auto& contender : contenders) contender->reset();
+  bool more = true;
+  for (int k = 0; more; ++k) {
+    std::vector<PairSum> wanted;
+    for (const auto& contender : contenders) {
+      contender->make_lists(scene, made);
+      std::vector<PairSum> found;
+      for (std::size_t list = 0; list < made.size(); ++list)
+        found.push_back(contender->makes_supersets() ? sum_within(made[list], scene, list)
+                                                     : sum_of(made[list]));
+      if (wanted.empty()) wanted = found;
+      if (wanted != found)
+        throw WrongList(fmt::format("{}: the list of '{}' at configuration {} has {} pairs, that of '{}' {}",
+                                    scene.name, contender->name(), k, found.back().pairs,
+                                    contenders.front()->name(), wanted.back().pairs));
+    }
+    const bool first = k == 0, last = k == lists;
+    if (first || last)
+      for (std::size_t list = 0; list < made.size(); ++list)
+        if (!(expected_pairs(scene, list) == wanted[list]))
+          throw WrongList(fmt::format("{}: the lists at configuration {} have {} pairs, expected {}",
+                                      scene.name, k, wanted[list].pairs, expected_pairs(scene, list).pairs));
+    pairs = 0;
+    for (const PairSum& sum : wanted) pairs += sum.pairs;
+    more = !last && scene.step();
+  }
+  return pairs;
+}
+
+/// One repetition: all contenders take turns, each configuration in another order, so that none always finds
+/// the positions in the cache. Returns the number of configurations after the first.
+int time_once(Scene& scene, Contenders& contenders, int lists, Clock clock,
+              std::vector<Measurement>& measurements) {
+  const std::size_t count = contenders.size();
+  const double per_particle = 1e9 / static_cast<double>(scene.positions.size());
+  std::vector<std::vector<NeighborList>> made(
+      count, std::vector<NeighborList>(std::max<std::size_t>(1, scene.list_radii.size())));
+  std::vector<double> seconds(count, 0);
+  scene.restart();
+  for (std::size_t c = 0; c < count; ++c) {
+    contenders[c]->reset();
+    const double first = per_particle * seconds_of([&] { contenders[c]->make_lists(scene, made[c]); }, clock);
+    measurements[c].first_ns = std::min(measurements[c].first_ns, first);
+  }
+  int done = 0;
+  for (; done < lists && scene.step(); ++done)
+    for (std::size_t turn = 0; turn < count; ++turn) {
+      const std::size_t c = (turn + static_cast<std::size_t>(done)) % count;
+      seconds[c] += seconds_of([&] { contenders[c]->make_lists(scene, made[c]); }, clock);
+    }
+  for (std::size_t c = 0; c < count; ++c) measurements[c].ns.push_back(per_particle * seconds[c] / done);
+  return done;
+}
+
+SceneResult measure(const std::string& name, const Options& options, Executor* executor) {
+  SceneOptions scene_options = options.scene;
+  scene_options.most_frames = static_cast<std::size_t>(options.lists) + 1;
+  const std::unique_ptr<Scene> scene = make_scene(name, scene_options);
+  Contenders contenders = make_contenders(*scene, executor);
+  if (!options.only.empty())
+    std::erase_if(contenders, [&](const auto& contender) { return contender->name() != options.only; });
+  SceneResult result;
+  result.scene = name;
+  result.origin = scene->origin;
+  result.particles = scene->positions.size();
+  const int lists = configurations(*scene, options);
+  result.pairs =
+      static_cast<double>(check(*scene, contenders, lists)) / static_cast<double>(result.particles);
+  for (const auto& contender : contenders) {
+    Measurement m;
+    m.contender = contender->name();
+    m.first_ns = std::numeric_limits<double>::infinity();
+    result.measurements.push_back(std::move(m));
+  }
+  for (int k = 0; k < options.repetitions; ++k)
+    result.lists =
+        time_once(*scene, contenders, lists, executor ? Clock::wall : Clock::thread, result.measurements);
+  for (std::size_t c = 0; c < contenders.size(); ++c) {
+    Measurement& m = result.measurements[c];
+    m.bytes = static_cast<double>(contenders[c]->memory_bytes()) / static_cast<double>(result.particles);
+    m.keeps_structure = contenders[c]->stats() != nullptr;
+    if (m.keeps_structure) m.stats = *contenders[c]->stats();
+  }
+  return result;
+}
+
+int run(const Options& options) {
+  std::unique_ptr<Executor> executor;
+  if (options.threads > 1) {
+    executor = make_thread_pool(options.threads);
+  } else {
+    pin_to(options.processor);
+  }
+  std::vector<SceneResult> results;
+  for (const std::string& name : options.scenes) {
+    results.push_back(measure(name, options, executor.get()));
+    print_scene(results.back());
+    std::fflush(stdout);
+  }
+  print_summary(results);
+  if (!options.json.empty()) write_json(options.json, results);
+  return kOk;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Neighbor lists of the hierarchy and of grids, compared and timed");
+  Options options;
+  app.add_option("--scenes", options.scenes, "Scenes to measure; all if left out")->delimiter(',');
+  app.add_option("--trajectories", options.scene.trajectories, "Folder filled by make_trajectories");
+  app.add_option("--lists", options.lists, "Most configurations of a repetition")->check(CLI::PositiveNumber);
+  app.add_option("--repetitions", options.repetitions, "Repetitions, of which medians are taken")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--threads", options.threads,
+                 "Measure the hierarchy on this many threads too; then no processor is pinned")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--processor", options.processor, "Processor to stay on")->check(CLI::NonNegativeNumber);
+  app.add_option("--scale", options.scene.scale,
+                 "Particles of artificial scenes, relative to the usual number")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--only", options.only, "Measure the contender of this name alone");
+  app.add_option("--json", options.json, "File for all measurements");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  return run(options);
+}
+
+}  // namespace
+}  // namespace dch::bench
+
+int main(int argc, char** argv) {
+  try {
+    return dch::bench::parse_and_run(argc, argv);
+  } catch (const dch::bench::WrongList& error) {
+    fmt::print(stderr, "dch_bench_table: {}\n", error.what());
+    return dch::bench::kWrongList;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "dch_bench_table: {}\n", error.what());
+    return dch::bench::kBadFile;
+  }
+}
