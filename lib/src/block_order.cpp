@@ -76,4 +76,12 @@ std::int32_t share_of_blocks(std::int32_t count, std::int32_t blocks, std::int32
 
 void order_by_halving(LocalPoint* points, std::int32_t count) { halve(points, count, blocks_for(count)); }
 
+void order_by_fours(LocalPoint* points, std::int32_t count) {
+  if (count <= 4) return;
+  const std::int32_t middle = (count + 3) / 4 / 2 * 4;
+  split_at(points, count, middle, longest_side(points, count));
+  order_by_fours(points, middle);
+  order_by_fours(points + middle, count - middle);
+}
+
 }  // namespace dch::detail

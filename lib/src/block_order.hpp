@@ -27,4 +27,7 @@ std::int32_t share_of_blocks(std::int32_t count, std::int32_t blocks, std::int32
 /// longest side of the box around them is halved again and again.
 void order_by_halving(LocalPoint* points, std::int32_t count);
 
+/// The same down to leaves of four points, all of them full but the last.
+void order_by_fours(LocalPoint* points, std::int32_t count);
+
 }  // namespace dch::detail

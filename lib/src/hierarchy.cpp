@@ -85,7 +85,8 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   bytes += lone.capacity() * sizeof(LoneNode);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes + points.memory_bytes() + cluster_points.memory_bytes() + list_finder.memory_bytes();
+  return bytes + points.memory_bytes() + cluster_points.memory_bytes() + list_finder.memory_bytes() +
+         pair_finder.memory_bytes();
 }
 
 // --- building

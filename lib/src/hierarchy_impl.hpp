@@ -9,6 +9,7 @@
 
 #include "block_order.hpp"
 #include "candidate_buffer.hpp"
+#include "cluster_pair_finder.hpp"
 #include "cluster_points.hpp"
 #include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
@@ -279,6 +280,9 @@ struct Hierarchy::Impl {
   double prepare_for_lists();
   detail::ListSource list_source(Span<const std::int32_t> particle_of_id);
 
+  // hierarchy_cluster_pairs.cpp
+  void cluster_pairs(const ListParams& request, ClusterPairs& out);
+
   // hierarchy_validate.cpp
   std::string validate() const;
 
@@ -297,6 +301,7 @@ struct Hierarchy::Impl {
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;
   detail::ListFinder list_finder;
+  detail::ClusterPairFinder pair_finder;
 };
 
 }  // namespace dch

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "near_ranges.hpp"
 
-#include <cmath>
-
 #include "metric.hpp"
+#include "near_images.hpp"
 
 namespace dch::detail {
 namespace {
@@ -39,22 +38,8 @@ void NearRanges<Metric>::add_images(const NearSource& near, std::int32_t other) 
   const bool is_itself = near.source == &rows_ && k_ == other;
   const Vec3 nearest = metric_.displacement(center_, near.source->centers().position[other]);
   const double limit = (near.reach + own_.extent + other_cluster.extent) * kInflateReach;
-  // Along an axis an image n periods from the nearest one is (coordinate + n) heights away.
-  int least[3] = {0, 0, 0}, most[3] = {0, 0, 0};
-  for (int axis = 0; axis < box_.rank(); ++axis) {
-    const Vec3 dual = box_.reduced_dual()[static_cast<std::size_t>(axis)];
-    const double coordinate = dot(nearest, dual), heights = limit * std::sqrt(norm2(dual));
-    least[axis] = static_cast<int>(std::ceil(-coordinate - heights - 1e-9));
-    most[axis] = static_cast<int>(std::floor(-coordinate + heights + 1e-9));
-  }
-  const auto& period = box_.reduced();
-  for (int a = least[0]; a <= most[0]; ++a)
-    for (int b = least[1]; b <= most[1]; ++b)
-      for (int c = least[2]; c <= most[2]; ++c) {
-        const bool is_later_half = a != 0 ? a > 0 : b != 0 ? b > 0 : c > 0;
-        if (is_itself && !is_later_half) continue;
-        add_if_near(near, other_cluster, nearest + a * period[0] + b * period[1] + c * period[2]);
-      }
+  for_each_near_image(box_, nearest, limit, is_itself,
+                      [&](Vec3 between) { add(*near.source->points, other_cluster, between); });
 }
 
 template <class Metric>

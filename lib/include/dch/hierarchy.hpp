@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/cluster_pairs.hpp>
 #include <dch/executor.hpp>
 #include <dch/neighbor_list.hpp>
 #include <dch/pair_search.hpp>
@@ -154,6 +155,14 @@ class Hierarchy {
   /// Several lists, out[k] being that of requests[k]: at little more than the cost of the one with the
   /// largest radius, if the cutoffs of all depend on the same types or radii, or on neither.
   void lists(Span<const ListParams> requests, std::vector<NeighborList>& out);
+
+  /// The same pairs for SIMD force kernels, clusters being cut from the nodes of level 1. Whatever their
+  /// types or radii, all pairs within the largest list radius may be there, except those with a cutoff of 0;
+  /// params.kind and params.order have no meaning here. O(n) at bounded density; the same result on any
+  /// number of threads and any instruction set.
+  /// @throws InvalidParameter as list(), and if the radius is outside 1e-9..1e9, where single precision might
+  /// overflow.
+  void cluster_pairs(const ListParams& params, ClusterPairs& out);
 
   /// Checks every invariant of Lemma 5.3.1 and of the data layout against all pairs: nesting, coverage,
   /// separation, parents, children, edges of every level. O(n^2) time, for tests and for --verify. Returns an

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+//
+// Cluster pairs and Lennard-Jones forces in the Lennard-Jones melt: density 0.8442, cutoff 2.5, skin 0.3. The
+// melt is made here, by running it with the forces that are measured until it has melted. `useful` counts
+// pairs within the cutoff. Arguments: atoms along each axis of the cubic start, and the instruction set.
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include <dch/hierarchy.hpp>
+#include <dch/instruction_set.hpp>
+#include <dch/lennard_jones.hpp>
+
+namespace {
+
+constexpr double kDensity = 0.8442, kCutoff = 2.5, kSkin = 0.3, kTimeStep = 0.005;
+constexpr int kStepsToMelt = 200, kStepsBetweenLists = 10;
+
+dch::ListParams request() {
+  dch::ListParams params;
+  params.cutoffs = dch::TypeCutoffs(kCutoff);
+  params.skin = kSkin;
+  return params;
+}
+
+/// Face-centered cubic at first, with velocities of temperature 1.44; then whatever Newton's laws make of it.
+class Melt {
+ public:
+  explicit Melt(int cells) : hierarchy_(hierarchy_params()), potential_({1, 1, kCutoff}) {
+    const double spacing = std::cbrt(4 / kDensity), side = spacing * cells;
+    box = dch::Box::orthorhombic({side, side, side});
+    const dch::Vec3 basis[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    for (int x = 0; x < cells; ++x)
+      for (int y = 0; y < cells; ++y)
+        for (int z = 0; z < cells; ++z)
+          for (const dch::Vec3 b : basis)
+            positions.push_back(spacing * (dch::Vec3{double(x), double(y), double(z)} + b));
+    std::mt19937_64 engine(1);
+    const auto uniform = [&] { return 2 * static_cast<double>(engine() >> 11) * 0x1p-53 - 1; };
+    const double largest = std::sqrt(3 * 1.44);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      velocity_.push_back(largest * dch::Vec3{uniform(), uniform(), uniform()});
+    force_.resize(positions.size());
+    hierarchy_.build(positions, box);
+    search();
+    for (int step = 0; step < kStepsToMelt; ++step) this->step();
+    search();
+  }
+
+  void search() {
+    hierarchy_.update(positions, box);
+    hierarchy_.cluster_pairs(request(), pairs);
+    useful = count_useful();
+    steps_since_search_ = 0;
+  }
+  /// Leapfrog.
+  void step() {
+    if (steps_since_search_++ == kStepsBetweenLists) search();
+    pairs.refresh(positions, box);
+    std::fill(force_.begin(), force_.end(), dch::Vec3{});
+    potential_.add_forces(pairs, dch::ForcePrecision::full, force_);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      velocity_[i] = velocity_[i] + kTimeStep * force_[i];
+      positions[i] = positions[i] + kTimeStep * velocity_[i];
+    }
+  }
+  double atoms() const { return static_cast<double>(positions.size()); }
+
+  std::vector<dch::Vec3> positions;
+  dch::Box box;
+  dch::ClusterPairs pairs;
+  std::int64_t useful = 0;  ///< pairs within the cutoff
+
+ private:
+  static dch::HierarchyParams hierarchy_params() {
+    dch::HierarchyParams params;
+    params.radius = kCutoff + kSkin;
+    return params;
+  }
+  std::int64_t count_useful() {
+    dch::ListParams within = request();
+    within.skin = 0;
+    within.order = dch::RowOrder::by_structure;
+    dch::NeighborList list;
+    hierarchy_.list(within, list);
+    return list.pairs();
+  }
+
+  dch::Hierarchy hierarchy_;
+  dch::LennardJones potential_;
+  std::vector<dch::Vec3> velocity_, force_;
+  int steps_since_search_ = 0;
+};
+
+Melt& melt_of(std::int64_t cells) {
+  static std::map<std::int64_t, Melt> melts;
+  return melts.try_emplace(cells, static_cast<int>(cells)).first->second;
+}
+
+/// Forces pair by pair from a neighbor list, in long double: plain double rounds more than what is checked.
+std::vector<dch::Vec3> exact_forces(const Melt& melt) {
+  using Exact = long double;
+  dch::ListParams within = request();
+  within.skin = 0;
+  const auto search = dch::make_cell_search(kCutoff);
+  search->update(melt.positions, melt.box);
+  const dch::NeighborList list = search->list(within);
+  std::vector<dch::Vec3> force(melt.positions.size());
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (const std::int32_t j : list.row(i)) {
+      Exact d[3], r2 = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Exact side = melt.box.vector(axis)[axis];
+        d[axis] = Exact{melt.positions[static_cast<std::size_t>(j)][axis]} - Exact{melt.positions[i][axis]};
+        d[axis] -= side * std::round(d[axis] / side);
+        r2 += d[axis] * d[axis];
+      }
+      const Exact s = 1 / r2, s3 = s * s * s, f = 24 * s3 * s * (2 * s3 - 1);
+      for (int axis = 0; axis < 3; ++axis) {
+        force[static_cast<std::size_t>(j)][axis] += static_cast<double>(f * d[axis]);
+        force[i][axis] -= static_cast<double>(f * d[axis]);
+      }
+    }
+  return force;
+}
+
+/// A benchmark of a wrong answer is void. Returns the root mean square error, relative.
+double checked_error(const Melt& melt, dch::ForcePrecision precision) {
+  dch::LennardJones potential({1, 1, kCutoff});
+  std::vector<dch::Vec3> force(melt.positions.size());
+  potential.add_forces(melt.pairs, precision, force);
+  const std::vector<dch::Vec3> expected = exact_forces(melt);
+  double error2 = 0, size2 = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    error2 += norm2(force[i] - expected[i]);
+    size2 += norm2(expected[i]);
+  }
+  const double error = std::sqrt(error2 / size2);
+  if (error < (precision == dch::ForcePrecision::mixed ? 2e-6 : 1e-14)) return error;
+  std::fprintf(stderr, "forces are off by %g of their root mean square; nothing was timed\n", error);
+  std::exit(1);
+}
+
+/// Uses the set of the benchmark's last argument; false if there is none such here.
+bool use_set(benchmark::State& state) {
+  const auto set = static_cast<dch::InstructionSet>(state.range(1));
+  state.SetLabel(dch::name(set));
+  if (!dch::is_supported(set)) {
+    state.SkipWithError("not supported by this processor");
+    return false;
+  }
+  dch::set_instruction_set(set);
+  return true;
+}
+
+void count_slots(benchmark::State& state, const Melt& melt) {
+  const auto useful = static_cast<double>(melt.useful);
+  state.counters["useful/atom"] = useful / melt.atoms();
+  state.counters["slots/useful"] = 16 * static_cast<double>(melt.pairs.entries.size()) / useful;
+}
+
+void report_per(benchmark::State& state, const char* name, double count) {
+  state.counters[name] = benchmark::Counter(
+      1e-9 * count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// The search alone, at positions of the time.
+void cluster_pairs(benchmark::State& state) {
+  if (!use_set(state)) return;
+  Melt& melt = melt_of(state.range(0));
+  dch::HierarchyParams params;
+  params.radius = kCutoff + kSkin;
+  dch::Hierarchy hierarchy(params);
+  hierarchy.build(melt.positions, melt.box);
+  dch::ClusterPairs pairs;
+  for (auto _ : state) {
+    hierarchy.cluster_pairs(request(), pairs);
+    benchmark::DoNotOptimize(pairs.entries.data());
+  }
+  report_per(state, "time/atom", melt.atoms());
+  count_slots(state, melt);
+}
+
+/// The atom-pair list of the same structure, to compare with.
+void neighbor_list(benchmark::State& state) {
+  if (!use_set(state)) return;
+  Melt& melt = melt_of(state.range(0));
+  dch::HierarchyParams params;
+  params.radius = kCutoff + kSkin;
+  dch::Hierarchy hierarchy(params);
+  hierarchy.build(melt.positions, melt.box);
+  dch::ListParams by_structure = request();
+  by_structure.order = dch::RowOrder::by_structure;
+  dch::NeighborList list;
+  for (auto _ : state) {
+    hierarchy.list(by_structure, list);
+    benchmark::DoNotOptimize(list.j.data());
+  }
+  report_per(state, "time/atom", melt.atoms());
+}
+
+void refresh(benchmark::State& state) {
+  if (!use_set(state)) return;
+  Melt& melt = melt_of(state.range(0));
+  for (auto _ : state) {
+    melt.pairs.refresh(melt.positions, melt.box);
+    benchmark::DoNotOptimize(melt.pairs.at.data());
+  }
+  report_per(state, "time/atom", melt.atoms());
+}
+
+template <dch::ForcePrecision precision, bool sums>
+void forces(benchmark::State& state) {
+  if (!use_set(state)) return;
+  Melt& melt = melt_of(state.range(0));
+  state.counters["error"] = checked_error(melt, precision);
+  dch::LennardJones potential({1, 1, kCutoff});
+  std::vector<dch::Vec3> force(melt.positions.size());
+  for (auto _ : state) {
+    if (sums) {
+      benchmark::DoNotOptimize(potential.add_forces_and_sum(melt.pairs, precision, force).energy);
+    } else {
+      potential.add_forces(melt.pairs, precision, force);
+    }
+    benchmark::DoNotOptimize(force.data());
+  }
+  report_per(state, "time/useful", static_cast<double>(melt.useful));
+  count_slots(state, melt);
+}
+
+/// The same forces from a table of types.
+template <dch::ForcePrecision precision, int types>
+void forces_of_types(benchmark::State& state) {
+  if (!use_set(state)) return;
+  Melt& melt = melt_of(state.range(0));
+  dch::LennardJones potential(types, std::vector<dch::LennardJonesPair>(types * types, {1, 1, kCutoff}));
+  std::vector<dch::Vec3> force(melt.positions.size());
+  for (auto _ : state) {
+    potential.add_forces(melt.pairs, precision, force);
+    benchmark::DoNotOptimize(force.data());
+  }
+  report_per(state, "time/useful", static_cast<double>(melt.useful));
+}
+
+const std::vector<std::int64_t> kSets{0, 1, 2, 3};
+
+BENCHMARK(cluster_pairs)->ArgsProduct({{20}, kSets})->Unit(benchmark::kMillisecond);
+BENCHMARK(cluster_pairs)->Args({40, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(neighbor_list)->Args({20, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(refresh)->Args({20, 3})->Unit(benchmark::kMillisecond);
+#define DCH_FORCES(precision)                                   \
+  BENCHMARK(forces<dch::ForcePrecision::precision, false>)      \
+      ->Name("forces_" #precision)                              \
+      ->ArgsProduct({{20}, kSets})                              \
+      ->Args({40, 3})                                           \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces<dch::ForcePrecision::precision, true>)       \
+      ->Name("forces_and_sums_" #precision)                     \
+      ->Args({20, 3})                                           \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 4>) \
+      ->Name("forces_of_4_types_" #precision)                   \
+      ->ArgsProduct({{20}, kSets})                              \
+      ->Unit(benchmark::kMillisecond);                          \
+  BENCHMARK(forces_of_types<dch::ForcePrecision::precision, 8>) \
+      ->Name("forces_of_8_types_" #precision)                   \
+      ->Args({20, 3})                                           \
+      ->Unit(benchmark::kMillisecond)
+DCH_FORCES(mixed);
+DCH_FORCES(full);
+#undef DCH_FORCES
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/span.hpp>
+#include <dch/vec3.hpp>
+
+namespace dch {
+
+/// Coordinates (or forces) of the four slots of a cluster, side by side as vector registers want them.
+template <class Real>
+struct ClusterOfFour;
+template <>
+struct alignas(32) ClusterOfFour<double> {
+  double x[4]{}, y[4]{}, z[4]{};
+};
+template <>
+struct alignas(64) ClusterOfFour<float> {
+  float x[4]{}, y[4]{}, z[4]{};
+  float center[4]{};  ///< what coordinates are relative to; the fourth is 0, and all are in forces
+};
+
+/// A vector from one origin to another.
+template <class Real>
+struct ClusterShift;
+template <>
+struct ClusterShift<double> {
+  ClusterOfFour<double> whole;  ///< the same for all four slots
+};
+template <>
+struct alignas(16) ClusterShift<float> {
+  float high[4]{}, low[4]{};  ///< the vector is their sum; the fourth numbers are 0
+};
+
+/// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
+///
+/// Every pair of particles that the ListParams ask for stands in one entry, once (twice if two of its images
+/// are exactly half a period away, both at the list radius). Entries hold other pairs too, farther apart than
+/// the list radius: a force kernel tests its cutoff. Particles with no other one near may stand in no slot.
+/// Hierarchy::cluster_pairs() makes them.
+///
+/// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
+/// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the
+/// entry names; it leads to the one image of the particle that is meant, and needs no box. In single
+/// precision, particles are relative to the center of their cluster. Centers relative to origins, and the
+/// high parts of shifts, are multiples of the power of two below list_radius / 10000, so that
+///     (at_float[J][b] + (((J.center + high) - I.center) + low)) - at_float[I][a]
+/// rounds in its last steps only, where numbers are as small as the displacement.
+struct ClusterPairs {
+  static constexpr int kSlots = 4;  ///< in a cluster
+
+  /// A cluster J beside the cluster I of its row.
+  struct Entry {
+    std::int32_t cluster;
+    std::uint16_t mask;   ///< bit 4 a + b: slot a of I and slot b of J are a pair; never 0
+    std::uint16_t shift;  ///< counted from the row's first one
+  };
+  /// Entries entries[first] .. entries[(next row's first) - 1] of cluster I. A cluster has one row or none;
+  /// more only where one row cannot name all its shifts.
+  struct Row {
+    std::int64_t first;
+    std::int32_t cluster;
+    std::int32_t first_shift;
+  };
+  /// A lattice vector, in integer multiples of the cell vectors as given, from one origin to another.
+  struct Shift {
+    std::int32_t from, to;
+    Vec3 image;
+  };
+
+  std::vector<Row> rows;  ///< and one more with the number of entries
+  std::vector<Entry> entries;
+
+  std::vector<std::int32_t> particle;   ///< by slot; -1 for padding
+  std::vector<std::int32_t> type;       ///< by slot, of ListParams::types; 0 without those and for padding
+  std::vector<std::int32_t> origin_of;  ///< by cluster
+  std::vector<Vec3> origin;             ///< [length]
+  std::vector<Shift> shift;
+
+  // What refresh() writes. Padding stands where the first particle of its cluster does.
+  std::vector<ClusterOfFour<double>> at;                ///< by cluster, relative to its origin [length]
+  std::vector<ClusterOfFour<float>> at_float;           ///< relative to their centers
+  std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
+  std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
+
+  std::size_t particles = 0;  ///< number of positions
+  int types = 1;              ///< of ListParams::cutoffs
+  double list_radius = 1;     ///< of the ListParams [length]
+  Box box;
+
+  std::int32_t clusters() const { return static_cast<std::int32_t>(origin_of.size()); }
+  /// Number of pairs of slots in all masks.
+  std::int64_t slot_pairs() const;
+
+  /// Takes new positions of the same particles, indexed as before, without a new search. They may be wrapped
+  /// into the cell or not, and the cell may have changed its shape (not its periodicity); each particle is
+  /// taken to have moved less than half the smallest height since the last time. The pairs stay complete as
+  /// long as VerletList's condition holds. O(n), a few nanoseconds a particle.
+  /// @throws InvalidParameter for another number of positions, InvalidBox for another periodicity,
+  ///   InvalidPosition for a coordinate that is not finite.
+  void refresh(Span<const Vec3> positions, const Box& now);
+
+  std::size_t memory_bytes() const;
+};
+
+}  // namespace dch

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#include "cluster_pair_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "binary_grid.hpp"
+#include "cell_images.hpp"
+#include "cluster_points.hpp"
+#include "metric.hpp"
+#include "near_images.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr int kSlots = ClusterPairs::kSlots;
+constexpr double kInflate = 1 + 1e-12;
+constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a < b
+constexpr std::int32_t kMostShifts = 0x10000;          ///< that the entries of a row can tell apart
+/// Parts of the work for each thread, so that none waits long for the last one.
+constexpr int kPartsPerThread = 4;
+constexpr double kFloatRounding = 0x1p-24;
+
+/// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
+std::uint32_t spread(std::uint32_t slots) {
+  return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
+}
+
+}  // namespace
+
+void ClusterPairFinder::Boxes::make_room(std::size_t count) {
+  for (auto& coordinates : side) coordinates.resize(std::max(coordinates.size(), count));
+}
+
+BoxArrays ClusterPairFinder::Boxes::from(std::int32_t k) const {
+  BoxArrays arrays{};
+  for (int s = 0; s < 6; ++s) arrays.side[s] = side[s].data() + k;
+  return arrays;
+}
+
+template <class Metric>
+void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
+  kernels_ = &cluster_kernels(instruction_set());
+  cut_into_clusters(scene, executor, out);
+  double largest_extent = 0;
+  for (const Node& node : nodes_) largest_extent = std::max(largest_extent, node.extent);
+  // Points, shifts between nodes, their sums and differences each round once in single precision; none is
+  // longer than `longest`.
+  const double longest = scene.reach + 4 * largest_extent;
+  const double reach = (scene.reach + 16 * kFloatRounding * longest) * (1 + 8 * kFloatRounding);
+  limit2_ = static_cast<float>(reach * reach * (1 + 2 * kFloatRounding));
+  images_ = CellImages(scene.box);
+  one_image_ =
+      !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
+  drops_types_ = false;
+  for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
+    for (int b = 0; b < scene.request.cutoffs.types(); ++b)
+      drops_types_ = drops_types_ || scene.request.cutoffs(a, b) == 0;
+
+  const int count = executor && executor->threads() > 1 ? kPartsPerThread * executor->threads() : 1;
+  parts_.resize(static_cast<std::size_t>(count));
+  const std::int32_t nodes = scene.nodes.size();
+  const auto search = [&](int p) {
+    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{nodes} * k / count); };
+    Part& part = parts_[static_cast<std::size_t>(p)];
+    part.rows.clear();
+    part.entries.clear();
+    part.shift.clear();
+    part.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
+    for (std::int32_t k = cut(p); k < cut(p + 1); ++k)
+      if (scene.nodes.is_alive(k)) find_around(scene, k, out, part);
+  };
+  if (count == 1) {
+    search(0);
+  } else {
+    executor->run(count, search);
+  }
+  join(out);
+}
+
+// --- clusters
+
+template <class Metric>
+void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
+  nodes_.assign(static_cast<std::size_t>(scene.nodes.size()), Node());
+  std::int32_t clusters = 0;
+  for (std::int32_t k = 0; k < scene.nodes.size(); ++k) {
+    Node& node = nodes_[static_cast<std::size_t>(k)];
+    node.first = clusters;
+    if (!scene.nodes.is_alive(k)) continue;
+    std::int32_t points = 0;
+    for (std::int32_t b = scene.nodes.first_child[k]; b != kNone; b = scene.points.next[b])
+      points += scene.points.count[b];
+    node.clusters = (points + kSlots - 1) / kSlots;
+    clusters += node.clusters;
+  }
+  const auto all = static_cast<std::size_t>(clusters);
+  out.particles = scene.positions.size();
+  out.types = scene.request.radii.empty() ? scene.request.cutoffs.types() : 1;
+  out.list_radius = scene.request.list_radius();
+  out.box = scene.box;
+  out.particle.resize(all * kSlots);
+  out.type.resize(all * kSlots);
+  out.origin_of.resize(all);
+  out.at.resize(all);
+  out.at_float.resize(all);
+  // Positions relative to origins with few digits, and differences of those, hardly ever round.
+  const BinaryGrid grid(out.list_radius);
+  out.origin = scene.nodes.position;
+  for (Vec3& origin : out.origin) origin = {grid(origin.x), grid(origin.y), grid(origin.z)};
+  boxes_.make_room(all + kBoxesAtOnce);
+  filled_.resize(all);
+  ghost_.resize(all);
+  slot_of_.assign(scene.request.exclusions ? scene.positions.size() : 0, kNone);
+  for_ranges(executor, scene.nodes.size(), [&](std::int32_t first, std::int32_t last) {
+    std::vector<LocalPoint> local;
+    for (std::int32_t k = first; k < last; ++k)
+      if (scene.nodes.is_alive(k)) cut_node(scene, k, local, out);
+  });
+}
+
+template <class Metric>
+void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
+                                 ClusterPairs& out) {
+  const Vec3 center = scene.nodes.position[static_cast<std::size_t>(k)];
+  local.clear();
+  double extent2 = 0;
+  scene.points.for_each(scene.nodes.first_child[k], [&](std::int32_t slot) {
+    const Vec3 at = scene.metric.displacement(center, scene.points.position[slot]);
+    extent2 = std::max(extent2, norm2(at));
+    local.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
+                     scene.points.id[slot]});
+  });
+  const auto count = static_cast<std::int32_t>(local.size());
+  order_by_fours(local.data(), count);
+  Node& node = nodes_[static_cast<std::size_t>(k)];
+  node.extent = std::sqrt(extent2);
+  for (std::int32_t n = 0; n < node.clusters; ++n) {
+    const std::int32_t c = node.first + n;
+    out.origin_of[static_cast<std::size_t>(c)] = k;
+    put_cluster(local.data() + n * kSlots, std::min(kSlots, count - n * kSlots), c, scene.request, out);
+    for (int s = 0; s < 6; ++s) {
+      const float side = boxes_.side[s][static_cast<std::size_t>(c)];
+      node.box[s] = n == 0 ? side : s < 3 ? std::min(node.box[s], side) : std::max(node.box[s], side);
+    }
+  }
+}
+
+void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count, std::int32_t c,
+                                    const ListParams& request, ClusterPairs& out) {
+  const auto cluster = static_cast<std::size_t>(c);
+  ClusterOfFour<double>& at = out.at[cluster];
+  ClusterOfFour<float>& rounded = out.at_float[cluster];
+  std::uint32_t ghosts = 0;
+  float box[6];
+  for (int axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
+  for (int slot = 0; slot < kSlots; ++slot) {
+    const LocalPoint& point = points[slot < count ? slot : 0];
+    for (int axis = 0; axis < 3; ++axis) {
+      box[axis] = std::min(box[axis], point.at[axis]);
+      box[axis + 3] = std::max(box[axis + 3], point.at[axis]);
+    }
+    rounded.x[slot] = point.at[0];
+    rounded.y[slot] = point.at[1];
+    rounded.z[slot] = point.at[2];
+    at.x[slot] = double{point.at[0]};  // near enough for refresh() to tell the image
+    at.y[slot] = double{point.at[1]};
+    at.z[slot] = double{point.at[2]};
+    const std::size_t k = cluster * kSlots + static_cast<std::size_t>(slot);
+    out.particle[k] = slot < count ? point.index : kNone;
+    out.type[k] = slot < count && out.types > 1 ? request.types[static_cast<std::size_t>(point.index)] : 0;
+    if (slot >= count) continue;
+    if (request.first_ghost >= 0 && point.index >= request.first_ghost) ghosts |= 1u << slot;
+    if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.index)] = static_cast<std::int32_t>(k);
+  }
+  boxes_.set(cluster, box);
+  filled_[cluster] = static_cast<std::uint8_t>((1u << count) - 1);
+  ghost_[cluster] = static_cast<std::uint8_t>(ghosts);
+}
+
+// --- pairs
+
+/// Each pair of nodes once: in the turn of the one that comes first. A node meets itself once, and in each of
+/// half of its images.
+template <class Metric>
+void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters,
+                                    Part& part) {
+  const std::vector<Vec3>& center = scene.nodes.position;
+  const auto limit_for = [&](std::int32_t other) {
+    return (scene.reach + extent(k) + extent(other)) * kInflate;
+  };
+  part.near.clear();
+  part.source.clear();
+  const auto first_shift = static_cast<std::int32_t>(part.shift.size());
+  collect(k, k, Vec3{}, Vec3{}, clusters, part);
+  const auto add = [&](std::int32_t other, Vec3 between) {
+    collect(k, other, between, images_.integers(between - (center[other] - center[k])), clusters, part);
+  };
+  const auto add_near_images = [&](std::int32_t other) {
+    const Vec3 nearest = scene.metric.displacement(center[k], center[other]);
+    if (!one_image_)
+      return for_each_near_image(scene.box, nearest, limit_for(other), other == k,
+                                 [&](Vec3 between) { add(other, between); });
+    if (other != k && norm2(nearest) <= limit_for(other) * limit_for(other)) add(other, nearest);
+  };
+  add_near_images(k);
+  for (const std::int32_t other : scene.nodes.edges.row(k))
+    if (other > k) add_near_images(other);
+  for (std::int32_t own = 0; own < nodes_[static_cast<std::size_t>(k)].clusters; ++own)
+    append_row(k, own, first_shift, scene.request, clusters, part);
+}
+
+/// Those clusters of another node (or of this one) that are near this node's box, moved to its frame.
+void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image,
+                                const ClusterPairs& clusters, Part& part) {
+  const Node& own = nodes_[static_cast<std::size_t>(k)];
+  const Node& node = nodes_[static_cast<std::size_t>(other)];
+  const float by[3] = {static_cast<float>(between.x), static_cast<float>(between.y),
+                       static_cast<float>(between.z)};
+  float box[6];
+  for (int s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
+  const std::int32_t found =
+      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_, part.chosen.data());
+  if (found == 0) return;
+  const auto shift = static_cast<std::int32_t>(part.shift.size());
+  part.shift.push_back({k, other, image});
+  part.boxes.make_room(part.near.size() + static_cast<std::size_t>(found) + kBoxesAtOnce);
+  for (std::int32_t n = 0; n < found; ++n) {
+    const std::int32_t c = node.first + part.chosen[static_cast<std::size_t>(n)];
+    const auto cluster = static_cast<std::size_t>(c);
+    ClusterOfFour<float> moved = clusters.at_float[cluster];
+    for (int slot = 0; slot < kSlots; ++slot) {
+      moved.x[slot] += by[0];
+      moved.y[slot] += by[1];
+      moved.z[slot] += by[2];
+    }
+    for (int s = 0; s < 6; ++s) part.boxes.side[s][part.near.size()] = boxes_.side[s][cluster] + by[s % 3];
+    part.near.push_back(moved);
+    part.source.push_back({c, shift});
+  }
+}
+
+/// The own clusters of the node are the first of those near it, so each meets itself and what comes after.
+void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift,
+                                   const ListParams& request, const ClusterPairs& clusters, Part& part) {
+  const std::int32_t c = nodes_[static_cast<std::size_t>(k)].first + own;
+  const auto count = static_cast<std::int32_t>(part.near.size()) - own;
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(count + kBoxesAtOnce)));
+  std::int32_t* const chosen = part.chosen.data();
+  float box[6];
+  for (int s = 0; s < 6; ++s) box[s] = part.boxes.side[s][static_cast<std::size_t>(own)];
+  std::int32_t found = kernels_->near_boxes(part.boxes.from(own), count, box, limit2_, chosen);
+  found = kernels_->near_clusters(part.near.data() + own, part.near[static_cast<std::size_t>(own)], limit2_,
+                                  chosen, found);
+  const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
+  if (excludes) mark_exclusions(*request.exclusions, c, clusters, part);
+  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
+  const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
+  const std::size_t before = part.entries.size();
+  part.entries.resize(before + static_cast<std::size_t>(found));
+  ClusterPairs::Entry* const first = part.entries.data();
+  ClusterPairs::Entry* to = first + before;
+  bool has_row = false;
+  for (std::int32_t n = 0; n < found; ++n) {
+    const auto [other, shift] = part.source[static_cast<std::size_t>(own + chosen[n])];
+    const auto b = static_cast<std::size_t>(other);
+    std::uint32_t mask = filled * filled_[b] & ~(ghosts * ghost_[b]);
+    if (chosen[n] == 0) mask &= kPairsWithinCluster;
+    if (excludes) mask &= ~std::uint32_t{part.excluded[b]};
+    if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
+    if (mask == 0) continue;
+    if (!has_row || shift - first_shift >= kMostShifts) {
+      if (has_row) first_shift = shift;
+      part.rows.push_back({to - first, c, first_shift});
+      has_row = true;
+    }
+    *to++ = {other, static_cast<std::uint16_t>(mask), static_cast<std::uint16_t>(shift - first_shift)};
+  }
+  part.entries.resize(static_cast<std::size_t>(to - part.entries.data()));
+  if (excludes) unmark_exclusions(*request.exclusions, c, clusters, part);
+}
+
+/// Calls f(cluster, bit) for each pair of a slot of cluster c with an excluded partner.
+template <class F>
+void ClusterPairFinder::for_each_excluded(const Exclusions& exclusions, std::int32_t c,
+                                          const ClusterPairs& clusters, const F& f) const {
+  for (int slot = 0; slot < kSlots; ++slot) {
+    const std::int32_t i = clusters.particle[static_cast<std::size_t>(c * kSlots + slot)];
+    if (i == kNone) continue;
+    for (const std::int32_t j : exclusions.partners(i)) {
+      const std::int32_t other = slot_of_[static_cast<std::size_t>(j)];
+      if (other != kNone) f(static_cast<std::size_t>(other / kSlots), 1u << (kSlots * slot + other % kSlots));
+    }
+  }
+}
+
+void ClusterPairFinder::mark_exclusions(const Exclusions& exclusions, std::int32_t c,
+                                        const ClusterPairs& clusters, Part& part) const {
+  for_each_excluded(exclusions, c, clusters, [&](std::size_t other, std::uint32_t bit) {
+    part.excluded[other] = static_cast<std::uint16_t>(part.excluded[other] | bit);
+  });
+}
+
+void ClusterPairFinder::unmark_exclusions(const Exclusions& exclusions, std::int32_t c,
+                                          const ClusterPairs& clusters, Part& part) const {
+  for_each_excluded(exclusions, c, clusters,
+                    [&](std::size_t other, std::uint32_t) { part.excluded[other] = 0; });
+}
+
+/// Bits of the pairs whose types have a cutoff.
+std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a,
+                                                       std::int32_t b, const ClusterPairs& clusters) {
+  std::uint32_t mask = 0;
+  for (int pair = 0; pair < kSlots * kSlots; ++pair) {
+    const std::int32_t type_a = clusters.type[static_cast<std::size_t>(a * kSlots + pair / kSlots)];
+    const std::int32_t type_b = clusters.type[static_cast<std::size_t>(b * kSlots + pair % kSlots)];
+    mask |= static_cast<std::uint32_t>(cutoffs(type_a, type_b) > 0) << pair;
+  }
+  return mask;
+}
+
+/// All parts behind each other.
+void ClusterPairFinder::join(ClusterPairs& out) {
+  std::size_t rows = 0, entries = 0, shifts = 0;
+  for (const Part& part : parts_) {
+    rows += part.rows.size();
+    entries += part.entries.size();
+    shifts += part.shift.size();
+  }
+  out.rows.clear();
+  out.entries.clear();
+  out.shift.clear();
+  out.rows.reserve(rows + 1);
+  out.entries.reserve(entries);
+  out.shift.reserve(shifts);
+  for (const Part& part : parts_) {
+    const auto first_entry = static_cast<std::int64_t>(out.entries.size());
+    const auto first_shift = static_cast<std::int32_t>(out.shift.size());
+    for (const ClusterPairs::Row& row : part.rows)
+      out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
+    out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());
+    out.shift.insert(out.shift.end(), part.shift.begin(), part.shift.end());
+  }
+  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
+  out.shift_vector.resize(out.shift.size());
+  out.shift_vector_float.resize(out.shift.size());
+}
+
+std::size_t ClusterPairFinder::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  const auto bytes_of_boxes = [&](const Boxes& boxes) {
+    std::size_t bytes = 0;
+    for (const auto& coordinates : boxes.side) bytes += bytes_of(coordinates);
+    return bytes;
+  };
+  std::size_t bytes =
+      bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
+  for (const Part& part : parts_)
+    bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) +
+             bytes_of_boxes(part.boxes) + bytes_of(part.near) + bytes_of(part.source) +
+             bytes_of(part.chosen) + bytes_of(part.excluded);
+  return bytes;
+}
+
+#define DCH_INSTANTIATE(Metric) \
+  template void ClusterPairFinder::find(const Scene<Metric>&, Executor*, ClusterPairs&);
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch::detail

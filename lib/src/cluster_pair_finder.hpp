@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/box.hpp>
+#include <dch/cluster_pairs.hpp>
+#include <dch/executor.hpp>
+#include <dch/neighbor_list.hpp>
+
+#include "block_order.hpp"
+#include "cell_images.hpp"
+#include "hierarchy_level.hpp"
+#include "point_blocks.hpp"
+#include "simd/cluster_kernels.hpp"
+
+namespace dch::detail {
+
+/// Makes ClusterPairs: cuts the points of each node of level 1 into clusters of four and finds those within
+/// reach of each other among the nodes that edges of level 1 join (Lemma 5.3.1(5)).
+///
+/// Coordinates are single precision relative to the node's center. The reach is widened by more than they can
+/// be off, so no pair within it is missed; a cluster pair a millionth beyond it may be kept. Only operations
+/// that round alike on every instruction set are used, so all give the same pairs, on any number of threads.
+class ClusterPairFinder {
+ public:
+  /// What the pairs are found in.
+  template <class Metric>
+  struct Scene {
+    const Metric& metric;
+    const Box& box;
+    const Level& nodes;
+    const PointBlocks& points;
+    Span<const Vec3> positions;  ///< as given, by id
+    const ListParams& request;
+    double reach;  ///< within which wrapped points may be a pair [length]
+  };
+
+  template <class Metric>
+  void find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
+  std::size_t memory_bytes() const;
+
+ private:
+  /// A node of level 1; its number is also that of its origin.
+  struct Node {
+    std::int32_t first = 0, clusters = 0;
+    double extent = 0;  ///< distance of the farthest point from the center [length]
+    float box[6]{};     ///< around its points, relative to the center
+  };
+  /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
+  struct Boxes {
+    std::vector<float> side[6];
+    void make_room(std::size_t count);
+    void set(std::size_t k, const float* box) {
+      for (int s = 0; s < 6; ++s) side[s][k] = box[s];
+    }
+    BoxArrays from(std::int32_t k) const;
+  };
+  /// Which cluster stands near a node, and by which of the part's shifts.
+  struct Source {
+    std::int32_t cluster, shift;
+  };
+  /// What one part of the work finds and needs.
+  struct Part {
+    std::vector<ClusterPairs::Row> rows;
+    std::vector<ClusterPairs::Entry> entries;
+    std::vector<ClusterPairs::Shift> shift;
+    Boxes boxes;  ///< of the clusters near a node, those of the node first
+    std::vector<ClusterOfFour<float>> near;
+    std::vector<Source> source;  ///< of `near`
+    std::vector<std::int32_t> chosen;
+    std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
+  };
+
+  template <class Metric>
+  void cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
+  template <class Metric>
+  void cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
+                ClusterPairs& out);
+  void put_cluster(const LocalPoint* points, std::int32_t count, std::int32_t c, const ListParams& request,
+                   ClusterPairs& out);
+  template <class Metric>
+  void find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters, Part& part);
+  void collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image, const ClusterPairs& clusters,
+               Part& part);
+  void append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift, const ListParams& request,
+                  const ClusterPairs& clusters, Part& part);
+  template <class F>
+  void for_each_excluded(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
+                         const F& f) const;
+  void mark_exclusions(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
+                       Part& part) const;
+  void unmark_exclusions(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
+                         Part& part) const;
+  static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
+                                             const ClusterPairs& clusters);
+  double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
+  void join(ClusterPairs& out);
+
+  const ClusterKernels* kernels_ = nullptr;
+  CellImages images_{Box()};
+  bool one_image_ = true;     ///< whether only the nearest image of a node can matter to another one
+  bool drops_types_ = false;  ///< whether some pair of types has no cutoff
+  float limit2_ = 0;          ///< squared reach with its margin
+  std::vector<Node> nodes_;
+  Boxes boxes_;                        ///< of all clusters, each relative to its node
+  std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
+  std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
+  std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
+  std::vector<Part> parts_;
+};
+
+}  // namespace dch::detail

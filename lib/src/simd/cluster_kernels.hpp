@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <dch/cluster_pairs.hpp>
+#include <dch/instruction_set.hpp>
+
+#include "lj_task.hpp"
+
+namespace dch::detail {
+
+/// Boxes side by side: lower corners x, y, z, then upper ones.
+struct BoxArrays {
+  const float* side[6];
+};
+
+/// Arrays of boxes are read up to this many entries beyond.
+inline constexpr int kBoxesAtOnce = 16;
+
+/// The loops over clusters of four, compiled for one instruction set. No function allocates.
+struct ClusterKernels {
+  /// Finds those of `count` boxes with a squared distance to a box of at most limit2. Writes their numbers,
+  /// ascending, and returns how many; room for `count` rounded up to kBoxesAtOnce is needed. All sets find
+  /// the same.
+  std::int32_t (*near_boxes)(const BoxArrays& boxes, std::int32_t count, const float* box, float limit2,
+                             std::int32_t* chosen);
+
+  /// Keeps those of `count` chosen clusters with a slot whose squared distance to a slot of `own` is at most
+  /// limit2. Returns how many. All sets keep the same.
+  std::int32_t (*near_clusters)(const ClusterOfFour<float>* clusters, const ClusterOfFour<float>& own,
+                                float limit2, std::int32_t* chosen, std::int32_t count);
+
+  LjFunctions<float> mixed;
+  LjFunctions<double> full;
+};
+
+/// The kernels of a set that is supported.
+const ClusterKernels& cluster_kernels(InstructionSet set);
+
+}  // namespace dch::detail

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+//
+// Cluster pairs hold every pair once, with the right image, in every kind of box, and still do after motion.
+#include <gtest/gtest.h>
+
+#include <dch/error.hpp>
+#include <dch/executor.hpp>
+#include <dch/hierarchy.hpp>
+
+#include "cluster_pair_check.hpp"
+#include "instruction_sets.hpp"
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+constexpr double kRadius = 1.0;
+
+class ClusterPairsScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
+
+ListParams request_for(double cutoff, double skin = 0) {
+  ListParams request;
+  request.cutoffs = TypeCutoffs(cutoff);
+  request.skin = skin;
+  return request;
+}
+
+Hierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius, double base_radius = 0,
+                       Executor* executor = nullptr) {
+  HierarchyParams params;
+  params.radius = radius;
+  params.base_radius = base_radius;
+  params.executor = executor;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  return hierarchy;
+}
+
+/// Entry by entry; images and masks included.
+bool same(const ClusterPairs& a, const ClusterPairs& b) {
+  const auto same_entry = [](const ClusterPairs::Entry& p, const ClusterPairs::Entry& q) {
+    return p.cluster == q.cluster && p.mask == q.mask && p.shift == q.shift;
+  };
+  const auto same_row = [](const ClusterPairs::Row& p, const ClusterPairs::Row& q) {
+    return p.first == q.first && p.cluster == q.cluster && p.first_shift == q.first_shift;
+  };
+  const auto same_shift = [](const ClusterPairs::Shift& p, const ClusterPairs::Shift& q) {
+    return p.from == q.from && p.to == q.to && p.image == q.image;
+  };
+  return a.particle == b.particle &&
+         std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(), same_entry) &&
+         std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(), same_row) &&
+         std::equal(a.shift.begin(), a.shift.end(), b.shift.begin(), b.shift.end(), same_shift);
+}
+
+TEST_P(ClusterPairsScenes, HoldEveryPairOnce) {
+  const Box box = GetParam().box;
+  for (const std::size_t n : {0u, 1u, 2u, 3u, 4u, 5u, 17u, 100u, 350u})
+    for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, n, kRadius / 2.1))
+      for (const double base_radius : {0.0, 0.2 * kRadius, kRadius}) {
+        Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius, base_radius);
+        ClusterPairs pairs;
+        hierarchy.cluster_pairs(request_for(0.8, 0.2), pairs);
+        ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request_for(0.8, 0.2)), "")
+            << scene.name << ", n = " << n << ", R_0 = " << base_radius;
+      }
+}
+
+TEST_P(ClusterPairsScenes, LeaveOutExclusionsGhostsAndTypesWithoutACutoff) {
+  const Box box = GetParam().box;
+  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 300, kRadius / 2.1)) {
+    std::vector<std::int32_t> types(scene.points.size());
+    for (std::size_t i = 0; i < types.size(); ++i) types[i] = static_cast<std::int32_t>(i % 3);
+    std::vector<IndexPair> bonds;
+    for (std::size_t i = 0; i + 1 < types.size(); ++i)
+      bonds.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1)});
+    const Exclusions exclusions = Exclusions::from_bonds(types.size(), bonds, 2);
+    ListParams excluded = request_for(1), typed = request_for(1), ghosts = request_for(1);
+    excluded.exclusions = &exclusions;
+    typed.cutoffs = TypeCutoffs(3, {0.5, 0.0, 1.0, 0.0, 0.0, 0.7, 1.0, 0.7, 0.9});
+    typed.types = types;
+    ghosts.first_ghost = static_cast<std::int32_t>(types.size() / 3);
+    ListParams all = typed;
+    all.exclusions = &exclusions;
+    all.first_ghost = ghosts.first_ghost;
+    Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
+    int kind = 0;
+    for (const ListParams& request : {excluded, typed, ghosts, all}) {
+      ClusterPairs pairs;
+      hierarchy.cluster_pairs(request, pairs);
+      ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request), "") << scene.name << ", " << kind++;
+      if (request.first_ghost >= 0)
+        for_each_slot_pair(pairs, [&](std::int32_t i, std::int32_t j, Vec3) {
+          ASSERT_TRUE(i < request.first_ghost || j < request.first_ghost);
+        });
+      if (request.exclusions)
+        for_each_slot_pair(pairs, [&](std::int32_t i, std::int32_t j, Vec3) {
+          ASSERT_FALSE(i != j && exclusions.excluded(i, j));
+        });
+    }
+  }
+}
+
+// Two images of a node matter to another one in these.
+TEST_P(ClusterPairsScenes, HoldEveryPairOnceInTheSmallestBox) {
+  const Box box = GetParam().box;
+  if (!box.any_periodic()) return;
+  for (const double share : {1.0, 0.999, 0.9, 0.7})
+    for (const double base_radius : {0.0, 0.3 * box.max_cutoff(), 3 * box.max_cutoff()})
+      for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 150, box.max_cutoff() / 2.1)) {
+        const ListParams request = request_for(share * box.max_cutoff());
+        Hierarchy hierarchy = hierarchy_of(scene.points, box, box.max_cutoff(), base_radius);
+        ClusterPairs pairs;
+        hierarchy.cluster_pairs(request, pairs);
+        ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request), "")
+            << scene.name << ", share " << share << ", R_0 = " << base_radius;
+      }
+}
+
+TEST_P(ClusterPairsScenes, AreTheSameOnEveryInstructionSetAndAnyNumberOfThreads) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 3000, 14);
+  const RestoreInstructionSet restore;
+  ClusterPairs expected;
+  for (const int threads : {1, 2, 3})
+    for (const InstructionSet set : supported_sets()) {
+      set_instruction_set(set);
+      const auto pool = make_thread_pool(threads);
+      Hierarchy hierarchy = hierarchy_of(points, box, 0.5, 0.6, pool.get());
+      ClusterPairs pairs;
+      for (int repeat = 0; repeat < 2; ++repeat) hierarchy.cluster_pairs(request_for(0.5), pairs);
+      if (expected.rows.empty()) {
+        expected = pairs;
+        ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(0.5)), "");
+      }
+      ASSERT_TRUE(same(pairs, expected)) << threads << " threads, " << name(set);
+    }
+}
+
+// Within the skin no pair comes in or goes, whether atoms leave the cell, are wrapped back or jump cells.
+TEST_P(ClusterPairsScenes, StayCompleteUnderMotionWithinTheSkin) {
+  const Box box = GetParam().box;
+  const double cutoff = 0.7, skin = 0.3;
+  scenes::Random random(77);
+  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 300, kRadius / 2.1)) {
+    if (scene.name == "one far point") continue;  // its motion is below rounding
+    Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
+    ClusterPairs pairs;
+    hierarchy.cluster_pairs(request_for(cutoff, skin), pairs);
+    std::vector<Vec3> moved = scene.points;
+    std::vector<Vec3> displacement(moved.size());
+    for (Vec3& d : displacement) d = random.in_ball(0.5 * skin);
+    for (const double part : {0.3, 1.0, 0.2}) {
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        moved[i] = scene.points[i] + part * displacement[i];
+        if (i % 3 == 0) moved[i] = box.wrap(moved[i]);
+        for (int axis = 0; i % 3 == 1 && axis < 3; ++axis)
+          if (box.periodic(axis))
+            moved[i] = moved[i] + (static_cast<double>(random.below(5)) - 2) * box.vector(axis);
+      }
+      pairs.refresh(moved, box);
+      ASSERT_EQ(cluster_pair_fault(pairs, moved, box, request_for(cutoff)), "") << scene.name << ", " << part;
+    }
+  }
+}
+
+TEST_P(ClusterPairsScenes, RefreshGivesWhatANewSearchGives) {
+  const Box box = GetParam().box;
+  std::vector<Vec3> points = scenes::uniform_in(box, 400, 5);
+  Hierarchy hierarchy = hierarchy_of(points, box, kRadius);
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request_for(kRadius), pairs);
+  const auto before = pairs.at;
+  pairs.refresh(points, box);
+  for (std::size_t c = 0; c < before.size(); ++c)
+    for (int slot = 0; slot < 4; ++slot) {
+      ASSERT_EQ(before[c].x[slot], pairs.at[c].x[slot]);
+      ASSERT_EQ(before[c].y[slot], pairs.at[c].y[slot]);
+      ASSERT_EQ(before[c].z[slot], pairs.at[c].z[slot]);
+      const double in_single = double{pairs.at_float[c].x[slot]} + double{pairs.at_float[c].center[0]};
+      ASSERT_NEAR(in_single, pairs.at[c].x[slot], 1e-7);
+    }
+}
+
+// Repairs that were put off, points on their own that come near others: the structure in all its states.
+TEST_P(ClusterPairsScenes, FollowTheStructureUnderMotion) {
+  const Box box = GetParam().box;
+  for (const double radius : {0.6, 0.2}) {
+    scenes::Random random(8);
+    std::vector<Vec3> points = scenes::uniform_in(box, 1200, 9);
+    HierarchyParams params;
+    params.radius = radius;
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    ClusterPairs pairs;
+    for (int step = 0; step < 12; ++step) {
+      for (Vec3& p : points) p = p + random.in_cube((step < 8 ? 0.02 : 0.2) * radius);
+      hierarchy.update(points, box);
+      hierarchy.cluster_pairs(request_for(radius), pairs);
+      ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(radius)), "")
+          << "step " << step << ", radius " << radius;
+    }
+    EXPECT_GT(hierarchy.stats().refreshes, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, ClusterPairsScenes, ::testing::ValuesIn(scenes::all_boxes(5.0)),
+                         [](const auto& p) { return p.param.name; });
+
+// A cell that shears and swells: shifts follow.
+TEST(ClusterPairsTest, RefreshTakesAnotherShapeOfTheCell) {
+  const Vec3 a{5, 0, 0}, b{1, 5, 0}, c{0.5, -1, 5};
+  const Box box = Box::triclinic(a, b, c);
+  const Box strained = Box::triclinic(1.01 * a, b + Vec3{0.05, 0.02, 0}, c + Vec3{0, 0.06, -0.03});
+  std::vector<Vec3> points = scenes::uniform_in(box, 500, 3), moved;
+  for (const Vec3 p : points)
+    moved.push_back(strained.wrap(scenes::from_fractional(strained, box.fractional(p))));
+  Hierarchy hierarchy = hierarchy_of(points, box, 1.2);
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request_for(1.2), pairs);
+  pairs.refresh(moved, strained);
+  EXPECT_EQ(cluster_pair_fault(pairs, moved, strained, request_for(0.9)), "");
+}
+
+TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
+  const Box box = Box::orthorhombic({5, 5, 5});
+  std::vector<Vec3> points = scenes::uniform_in(box, 50, 3);
+  Hierarchy hierarchy = hierarchy_of(points, box, 1);
+  ClusterPairs pairs;
+  EXPECT_THROW(hierarchy.cluster_pairs(request_for(1.1), pairs), InvalidParameter);
+  EXPECT_THROW(hierarchy.cluster_pairs(request_for(1e-10), pairs), InvalidParameter);
+  hierarchy.cluster_pairs(request_for(1), pairs);
+  points[7].y = std::nan("");
+  EXPECT_THROW(pairs.refresh(points, box), InvalidPosition);
+  points.pop_back();
+  EXPECT_THROW(pairs.refresh(points, box), InvalidParameter);
+  points.push_back({});
+  EXPECT_THROW(pairs.refresh(points, Box::orthorhombic({5, 5, 5}, {true, true, false})), InvalidBox);
+}
+
+}  // namespace
+}  // namespace dch

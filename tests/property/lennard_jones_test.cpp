@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+//
+// Lennard-Jones forces of cluster pairs equal those of all pairs in plain double.
+#include <gtest/gtest.h>
+#include <limits>
+
+#include <dch/error.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/lennard_jones.hpp>
+
+#include "instruction_sets.hpp"
+#include "lj_oracle.hpp"
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+constexpr double kCutoff = 2.4, kSkin = 0.3;
+
+/// A liquid: points no closer than about 0.9 sigma, so that forces are moderate.
+std::vector<Vec3> liquid(const Box& box, std::size_t n, double closest, std::uint64_t seed) {
+  scenes::Random random(seed);
+  std::vector<Vec3> points;
+  for (int trial = 0; trial < 200000 && points.size() < n; ++trial) {
+    const Vec3 p = scenes::from_fractional(box, {random.uniform(), random.uniform(), random.uniform()});
+    bool fits = true;
+    for (const Vec3 q : points) fits = fits && norm2(box.nearest_image(p - q)) > closest * closest;
+    if (fits) points.push_back(p);
+  }
+  return points;
+}
+
+ListParams request_for(double cutoff, double skin) {
+  ListParams request;
+  request.cutoffs = TypeCutoffs(cutoff);
+  request.skin = skin;
+  return request;
+}
+
+/// The nearest images of skewed cells cost the oracle itself some digits.
+double rounding_in(const Box& box) { return box.kind() == Box::Kind::triclinic ? 5e-14 : 1e-14; }
+
+void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs, LennardJones& potential,
+                  const std::string& what) {
+  const RestoreInstructionSet restore;
+  for (const InstructionSet set : supported_sets())
+    for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
+      set_instruction_set(set);
+      const bool full = precision == ForcePrecision::full;
+      // A liquid averages over many pairs; here a few close ones may make up all of the force.
+      const double limit = full ? rounding_in(pairs.box) : 1e-5;
+      const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
+      std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
+      const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces);
+      potential.add_forces(pairs, precision, once_more);
+      EXPECT_LT(force_error(forces, expected.force), limit) << where;
+      EXPECT_LT(force_error(once_more, expected.force), limit) << where;
+      double scale = std::abs(expected.sums.energy);
+      for (const double v : expected.sums.virial) scale += std::abs(v);
+      EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-5) * scale) << where;
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-5) * scale) << where << k;
+    }
+}
+
+class LennardJonesScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
+
+TEST_P(LennardJonesScenes, EqualsAllPairs) {
+  const Box box = GetParam().box;
+  for (const std::size_t n : {0u, 1u, 2u, 5u, 400u})
+    for (const bool shifted : {false, true}) {
+      const std::vector<Vec3> points = liquid(box, n, 0.85, 21 + n);
+      HierarchyParams params;
+      params.radius = kCutoff + kSkin;
+      Hierarchy hierarchy(params);
+      hierarchy.build(points, box);
+      ClusterPairs pairs;
+      hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
+      const LennardJonesPair pair{0.7, 0.95, kCutoff};
+      LennardJones potential(pair, shifted);
+      expect_equal(all_pairs_lennard_jones(points, box, {pair}, shifted), pairs, potential,
+                   "n = " + std::to_string(n));
+    }
+}
+
+TEST_P(LennardJonesScenes, EqualsAllPairsAfterMotion) {
+  const Box box = GetParam().box;
+  scenes::Random random(4);
+  const std::vector<Vec3> points = liquid(box, 500, 1.15, 6);
+  HierarchyParams params;
+  params.radius = kCutoff + kSkin;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
+  const LennardJonesPair pair{1, 1, kCutoff};
+  LennardJones potential(pair);
+  std::vector<Vec3> moved = points;
+  for (int step = 0; step < 3; ++step) {
+    for (Vec3& p : moved) p = box.wrap(p + random.in_ball(0.5 * kSkin / 3));
+    pairs.refresh(moved, box);
+    expect_equal(all_pairs_lennard_jones(moved, box, {pair}, false), pairs, potential,
+                 "step " + std::to_string(step));
+  }
+}
+
+TEST_P(LennardJonesScenes, EqualsAllPairsForManyTypesExclusionsAndGhosts) {
+  const Box box = GetParam().box;
+  for (const int types : {2, 4, 7}) {
+    const std::vector<Vec3> points = liquid(box, 500, 0.85, 9);
+    const auto side = static_cast<std::size_t>(types);
+    std::vector<LennardJonesPair> matrix(side * side);
+    std::vector<double> cutoffs(side * side);
+    for (std::size_t a = 0; a < side; ++a)
+      for (std::size_t b = 0; b < side; ++b) {
+        const auto sum = static_cast<double>(a + b);
+        matrix[a * side + b] = {1 + 0.1 * sum, 0.9 + 0.01 * sum, a + b == 2 ? 0 : kCutoff - 0.1 * sum};
+        cutoffs[a * side + b] = matrix[a * side + b].cutoff;
+      }
+    std::vector<std::int32_t> type(points.size());
+    std::vector<IndexPair> bonds;
+    for (std::size_t i = 0; i < type.size(); ++i) {
+      type[i] = static_cast<std::int32_t>(i % side);
+      if (i > 0) bonds.push_back({static_cast<std::int32_t>(i - 1), static_cast<std::int32_t>(i)});
+      for (std::size_t j = 0; j < i; ++j)
+        if (norm2(box.nearest_image(points[i] - points[j])) < 0.9 * 0.9)
+          bonds.push_back({static_cast<std::int32_t>(j), static_cast<std::int32_t>(i)});
+    }
+    const Exclusions exclusions = Exclusions::from_bonds(points.size(), bonds, 1);
+    ListParams request;
+    request.cutoffs = TypeCutoffs(types, cutoffs);
+    request.skin = kSkin;
+    request.types = type;
+    request.exclusions = &exclusions;
+    request.first_ghost = static_cast<std::int32_t>(points.size() / 2);
+    HierarchyParams params;
+    params.radius = kCutoff + kSkin;
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    ClusterPairs pairs;
+    hierarchy.cluster_pairs(request, pairs);
+    LennardJones potential(types, matrix, true);
+    expect_equal(all_pairs_lennard_jones(points, box, matrix, true, type, &exclusions, request.first_ghost),
+                 pairs, potential, std::to_string(types) + " types");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, LennardJonesScenes, ::testing::ValuesIn(scenes::all_boxes(9.0)),
+                         [](const auto& p) { return p.param.name; });
+
+// A liquid as dense as the Lennard-Jones melt in a box that is many cutoffs wide and far from its origin:
+// single precision must not feel the box.
+TEST(LennardJonesTest, MixedPrecisionDoesNotDependOnTheBox) {
+  const double side = 17;
+  for (const double origin : {0.0, 4000.0}) {
+    const Box box = Box::orthorhombic({side, side, 6}, {true, true, true}, {origin, origin, -origin});
+    const std::vector<Vec3> points = liquid(box, 1100, 0.88, 30);
+    HierarchyParams params;
+    params.radius = 2.8;
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    ClusterPairs pairs;
+    hierarchy.cluster_pairs(request_for(2.5, 0.3), pairs);
+    const LennardJonesPair pair{1, 1, 2.5};
+    LennardJones potential(pair);
+    std::vector<Vec3> forces(points.size());
+    potential.add_forces(pairs, ForcePrecision::mixed, forces);
+    EXPECT_LT(force_error(forces, all_pairs_lennard_jones(points, box, {pair}, false).force), 2e-6) << origin;
+  }
+}
+
+TEST(LennardJonesTest, AddsToTheForcesThatAreThere) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1.2, 0, 0}};
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request_for(2, 0), pairs);
+  LennardJones potential({1, 1, 2});
+  std::vector<Vec3> once(2), twice(2);
+  potential.add_forces(pairs, ForcePrecision::full, once);
+  for (int repeat = 0; repeat < 2; ++repeat) potential.add_forces(pairs, ForcePrecision::full, twice);
+  EXPECT_NE(once[0].x, 0);
+  EXPECT_EQ(twice[0].x, 2 * once[0].x);
+  EXPECT_EQ(once[1].x, -once[0].x);
+}
+
+TEST(LennardJonesTest, RefusesWhatDoesNotFit) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(LennardJones({nan, 1, 2}), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, -1, 2}), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1, infinite}), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1e60, 2}), InvalidParameter);
+  EXPECT_THROW(LennardJones(0, {}), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, {{1, 1, 2}, {1, 1, 2}, {1, 1, 2}}), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, {{1, 1, 2}, {1, 1, 2}, {1, 1.1, 2}, {1, 1, 2}}), InvalidParameter);
+
+  const std::vector<Vec3> points{{0, 0, 0}, {1.2, 0, 0}};
+  const std::vector<std::int32_t> types{0, 1};
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  ClusterPairs pairs;
+  ListParams request = request_for(2, 0);
+  request.cutoffs = TypeCutoffs(3, std::vector<double>(9, 2));
+  request.types = types;
+  hierarchy.cluster_pairs(request, pairs);
+  std::vector<Vec3> forces(2), too_few(1);
+  LennardJones potential({1, 1, 2}), too_far({1, 1, 2.1}), two_types(2, {4, {1, 1, 2}});
+  LennardJones tiny({1, 1e-6, 2});
+  EXPECT_THROW(potential.add_forces(pairs, ForcePrecision::full, too_few), InvalidParameter);
+  EXPECT_THROW(too_far.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
+  EXPECT_THROW(two_types.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
+  EXPECT_THROW(tiny.add_forces(pairs, ForcePrecision::mixed, forces), InvalidParameter);
+  EXPECT_NO_THROW(tiny.add_forces(pairs, ForcePrecision::full, forces));
+}
+
+}  // namespace
+}  // namespace dch

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include <dch/instruction_set.hpp>
+
+namespace dch {
+
+/// What this processor runs, the widest last.
+inline std::vector<InstructionSet> supported_sets() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set :
+       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
+    if (is_supported(set)) sets.push_back(set);
+  return sets;
+}
+
+/// Puts back the instruction set that was in use.
+class RestoreInstructionSet {
+ public:
+  RestoreInstructionSet() = default;
+  ~RestoreInstructionSet() { set_instruction_set(before_); }
+  RestoreInstructionSet(const RestoreInstructionSet&) = delete;
+  RestoreInstructionSet& operator=(const RestoreInstructionSet&) = delete;
+
+ private:
+  InstructionSet before_ = instruction_set();
+};
+
+}  // namespace dch
