@@ -159,12 +159,14 @@ void RowFinder::append_cluster(const Scene<Metric>& scene, const Request& reques
 
 void RowFinder::make_room_for_tests(std::int32_t count) {
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
+  const std::size_t entries = room / kChunk * kBlock;
   around_group_.make_room(room);
+  around_block_.make_room(room);
+  if (unsettled_.size() >= entries) return;
+  unsettled_.resize(entries);
   for (BlockTest& test : tests_) {
-    test.candidates.make_room(room);
-    if (test.unsettled.size() >= room / kChunk * kBlock) continue;
-    test.mask.resize(room / kChunk * kBlock);
-    test.unsettled.resize(room / kChunk * kBlock);
+    test.ids.resize(room);
+    test.mask.resize(entries);
   }
 }
 
@@ -175,7 +177,8 @@ void RowFinder::test_block(const Scene<Metric>& scene, const Request& request, s
   const ClusterPoints& points = *scene.rows().points;
   const ListLimits& limits = request.limits;
   const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(block, block + 1);
-  const Candidates candidates = test.candidates.at(0);
+  Candidates candidates = around_block_.at(0);
+  candidates.id = test.ids.data();
   const std::int32_t count =
       filter(limits, points.spans[block], size, around_group_.at(begin), nullptr, end - begin, candidates);
   test.chunks = rounded_up(count, kChunk) / kChunk;
@@ -183,14 +186,14 @@ void RowFinder::test_block(const Scene<Metric>& scene, const Request& request, s
     std::array<std::int16_t, kBlock> sizes = points.tags[block];
     for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + limits.skin);
     test.left = kernels_->test_by_size(points.points[block], sizes.data(), candidates, count, limits.band,
-                                       test.mask.data(), test.chunks, test.unsettled.data());
+                                       test.mask.data(), test.chunks, unsettled_.data());
   } else if (limits.by == PairFilter::By::types && !limits.per_pair) {
     test.left = kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, count,
                                        limits.type_in.data(), limits.type_out.data(), test.mask.data(),
-                                       test.chunks, test.unsettled.data());
+                                       test.chunks, unsettled_.data());
   } else {
     test.left = kernels_->test(points.points[block], candidates, count, limits.in, limits.out,
-                               test.mask.data(), test.chunks, test.unsettled.data());
+                               test.mask.data(), test.chunks, unsettled_.data());
   }
 }
 
@@ -203,15 +206,14 @@ void RowFinder::note_open_pairs(const Scene<Metric>& scene, const Request& reque
   const ClusterPoints& points = *source.points;
   const bool accept_all = request.filter->params().superset || request.limits.per_pair;
   for (std::int32_t u = 0; u < test.left; ++u) {
-    const auto [row, chunk, open] = test.unsettled[u];
+    const auto [row, chunk, open] = unsettled_[u];
     std::uint32_t& mask = test.mask[row * test.chunks + chunk];
     if (accept_all) mask |= open;
     if (accept_all || row >= points.count[block]) continue;
     for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
       const int lane = __builtin_ctz(rest);
       if (meets_itself && chunk == 0 && lane <= row) continue;
-      OpenPair pair{
-          points.ids[block][row], test.candidates.id[chunk * kChunk + lane], kNone, kNone, &mask, 1u << lane};
+      OpenPair pair{points.ids[block][row], test.ids[chunk * kChunk + lane], kNone, kNone, &mask, 1u << lane};
       if (source.particle_of_id.empty()) {
         pair.slot_i = points.source[block] * kBlock + row;
         pair.slot_j = source.slot_of_id[pair.j];
@@ -259,7 +261,7 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
     std::uint32_t* const mask = test.mask.data() + row * test.chunks;
     if (meets_itself) mask[0] &= ~0u << (row + 1);
     std::int32_t* const to = out.j.data() + written;
-    std::int32_t length = kernels_->compress(mask, test.chunks, test.candidates.id.data(), to);
+    std::int32_t length = kernels_->compress(mask, test.chunks, test.ids.data(), to);
     if (request.limits.per_pair || request.filter->restricts(ids[row]))
       length = restrict_row(request, ids[row], to, length);
     written += static_cast<std::size_t>(length);
@@ -303,12 +305,11 @@ std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t partic
 
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes =
-      bytes_of(ranges_) + bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) + bytes_of(open_);
-  for (const CandidateStore* store : {&around_cluster_, &around_request_, &around_group_})
+  std::size_t bytes = bytes_of(ranges_) + bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) +
+                      bytes_of(open_) + bytes_of(unsettled_);
+  for (const CandidateStore* store : {&around_cluster_, &around_request_, &around_group_, &around_block_})
     bytes += store->memory_bytes();
-  for (const BlockTest& test : tests_)
-    bytes += test.candidates.memory_bytes() + bytes_of(test.mask) + bytes_of(test.unsettled);
+  for (const BlockTest& test : tests_) bytes += bytes_of(test.ids) + bytes_of(test.mask);
   return bytes;
 }
 

@@ -55,11 +55,10 @@ class RowFinder {
 
   /// A block of the cluster and the candidates near it.
   struct BlockTest {
-    CandidateStore candidates;
+    std::vector<std::int32_t> ids;
     std::int32_t chunks = 0;
-    std::int32_t left = 0;            ///< entries of unsettled
+    std::int32_t left = 0;            ///< entries of unsettled_
     std::vector<std::uint32_t> mask;  ///< row by chunk
-    std::vector<Unsettled> unsettled;
   };
   /// A pair that the kernels could not decide.
   struct OpenPair {
@@ -99,6 +98,8 @@ class RowFinder {
   std::vector<BlockRange> ranges_;
   std::vector<std::int32_t> block_, range_;
   CandidateStore around_cluster_, around_request_, around_group_;
+  CandidateStore around_block_;  ///< but for the ids, which outlive the test of a block
+  std::vector<Unsettled> unsettled_;
   std::vector<std::uint32_t> valid_;
   BlockTest tests_[kGroup];
   std::vector<OpenPair> open_;

@@ -55,7 +55,7 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
       Hierarchy hierarchy(params);
       hierarchy.build(points, box);
       ASSERT_EQ(hierarchy.validate(), "") << "after the build";
-      for (int s = 0; s < 12; ++s) {
+      for (int s = 0; s < effort(12); ++s) {
         for (Vec3& p : points) p = p + random.in_cube(step);
         hierarchy.update(points, box);
         ASSERT_EQ(hierarchy.validate(), "") << "step " << s << " of " << step;
@@ -79,7 +79,7 @@ TEST_P(HierarchySparse, ValidUnderInsertionsAndRemovals) {
     scenes::Random random(10);
     Hierarchy hierarchy(params);
     hierarchy.build(points, box);
-    for (int operation = 0; operation < 120; ++operation) {
+    for (int operation = 0; operation < effort(120); ++operation) {
       const auto id = static_cast<std::int32_t>(random.below(hierarchy.capacity()));
       if (!hierarchy.contains(id)) continue;
       if (random.uniform() < 0.5) {

@@ -6,6 +6,7 @@
 #include <dch/all_pairs.hpp>
 #include <dch/hierarchy.hpp>
 
+#include "effort.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
 
@@ -19,10 +20,11 @@ inline ListParams whole_list() {
   return params;
 }
 
-/// Moves the points `steps` times by up to `step` along each axis and checks the structure after every
-/// repair, the list after every tenth.
+/// Moves the points `full_steps` times (see effort()) by up to `step` along each axis and checks the
+/// structure after every repair, the list after every tenth.
 inline void shake(std::vector<Vec3> points, const Box& box, const HierarchyParams& params, double step,
-                  int steps, std::uint64_t seed) {
+                  int full_steps, std::uint64_t seed) {
+  const int steps = effort(full_steps);
   scenes::Random random(seed);
   Hierarchy hierarchy(params);
   hierarchy.build(points, box);
