@@ -15,16 +15,15 @@
 #include "metric.hpp"
 #include "pair_filter.hpp"
 #include "position_check.hpp"
+#include "seconds_since.hpp"
 
 namespace dch {
 namespace {
 
+using detail::seconds_since;
+
 using detail::CellCoordinates;
 using detail::CellNumbering;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 class CellSearch final : public PairSearch {
  public:

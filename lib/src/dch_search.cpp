@@ -6,6 +6,7 @@
 
 #include <dch/error.hpp>
 
+#include "seconds_since.hpp"
 #include "sized_search.hpp"
 
 namespace dch {
@@ -13,10 +14,6 @@ namespace detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 }  // namespace
 
 void DchSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {

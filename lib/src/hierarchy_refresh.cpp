@@ -9,19 +9,15 @@
 
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
+#include "seconds_since.hpp"
 
 namespace dch {
 
 using detail::kNone;
 using detail::Level;
+using detail::seconds_since;
 using detail::with_metric;
 using Clock = std::chrono::steady_clock;
-
-namespace {
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-}  // namespace
 
 void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   ++stats.updates;

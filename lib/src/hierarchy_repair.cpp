@@ -15,18 +15,14 @@
 #include <cmath>
 
 #include "hierarchy_impl.hpp"
+#include "seconds_since.hpp"
 
 namespace dch {
 
 using detail::kNone;
 using detail::Level;
+using detail::seconds_since;
 using Clock = std::chrono::steady_clock;
-
-namespace {
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-}  // namespace
 
 template <class Metric>
 void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {

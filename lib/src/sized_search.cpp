@@ -11,15 +11,12 @@
 #include "hierarchy_impl.hpp"
 #include "key_table.hpp"
 #include "position_check.hpp"
+#include "seconds_since.hpp"
 
 namespace dch::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// A hierarchy serves lists whose radius is this share of its own or more.
 constexpr double kLeastShare = 0.8;
 

@@ -8,6 +8,7 @@
 #include <dch/hierarchy.hpp>
 #include <dch/instruction_set.hpp>
 
+#include "instruction_sets.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
 
@@ -34,14 +35,6 @@ std::vector<HierarchyParams> variants() {
 }
 
 class HierarchyScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
-
-std::vector<InstructionSet> supported_sets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
-    if (is_supported(set)) sets.push_back(set);  // the widest last: later tests go on with it
-  return sets;
-}
 
 TEST_P(HierarchyScenes, ValidAfterBuild) {
   const Box box = GetParam().box;

@@ -12,6 +12,7 @@
 #include <dch/hierarchy.hpp>
 #include <dch/instruction_set.hpp>
 
+#include "instruction_sets.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
 
@@ -69,14 +70,6 @@ std::vector<SizeModel> size_models(std::size_t n) {
       by_types("types without pairs", 3, {2.4, 0.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0.5, 0.1}),
       by_types("20 types", 20, many),
   };
-}
-
-std::vector<InstructionSet> supported_sets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
-    if (is_supported(set)) sets.push_back(set);
-  return sets;
 }
 
 std::unique_ptr<PairSearch> search_with(bool size_classes, Executor* executor = nullptr) {
