@@ -41,6 +41,8 @@ class ListAssembler {
   template <class ForEachPair>
   void assemble(std::size_t n, ListKind kind, std::int32_t first_ghost, const ForEachPair& for_each,
                 NeighborList& out) {
+    out.particle.clear();
+    out.margin = 0;
     if (kind == ListKind::half) {
       assemble_half(n, for_each, out);
       return;

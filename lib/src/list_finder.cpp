@@ -101,9 +101,9 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
 
 void ListFinder::put_in_order(const ListParams& request, std::size_t n, const NeighborList& found,
                               NeighborList& out) {
-  out.margin = found.margin;
   if (request.order == RowOrder::by_structure) {
     distribute_pairs(found, n, request.kind, request.first_ghost, out);
+    out.margin = found.margin;
     return;
   }
   const auto for_each_pair = [&](const auto& f) {
@@ -113,7 +113,7 @@ void ListFinder::put_in_order(const ListParams& request, std::size_t n, const Ne
     }
   };
   assembler_.assemble(n, request.kind, request.first_ghost, for_each_pair, out);
-  out.particle.clear();
+  out.margin = found.margin;
 }
 
 std::size_t ListFinder::memory_bytes() const {

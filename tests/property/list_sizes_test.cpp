@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <dch/all_pairs.hpp>
+#include <dch/error.hpp>
 #include <dch/executor.hpp>
 #include <dch/hierarchy.hpp>
 #include <dch/instruction_set.hpp>
@@ -261,6 +262,50 @@ TEST_P(ListSizes, InTheSmallestBox) {
       ASSERT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
           << model.name << ", share " << share;
     }
+  }
+}
+
+TEST_P(ListSizes, NothingIsLeftOfWhatAListHeldBefore) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 200, 15);
+  ListParams rough;
+  rough.superset = true;
+  rough.order = RowOrder::by_structure;
+  NeighborList list;
+  const auto dch = search_with(false), cell = make_cell_search(kReach);
+  for (PairSearch* search : {dch.get(), cell.get()}) {
+    dch->update(points, box);
+    cell->update(points, box);
+    dch->list(rough, list);
+    ASSERT_GT(list.margin, 0);
+    ASSERT_FALSE(list.particle.empty());
+    search->list(ListParams(), list);
+    EXPECT_EQ(list.margin, 0);
+    EXPECT_TRUE(list.particle.empty());
+    EXPECT_EQ(first_difference(list, all_pairs(points, box, ListParams())), "");
+  }
+}
+
+// After an error the search holds nothing, and the next good update makes up for it.
+TEST_P(ListSizes, BadInputIsRefusedAndForgotten) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 200, 14);
+  const SizeModel model = size_models(points.size())[1];
+  const auto search = search_with(true);
+  std::vector<Vec3> bad = points;
+  bad[17].y = std::nan("");
+  const std::vector<std::uint64_t> repeated(points.size(), 5), few(3, 1);
+  for (int round = 0; round < 2; ++round) {
+    search->update(points, box);
+    ASSERT_EQ(first_difference(search->list(model.params()), all_pairs(points, box, model.params())), "");
+    ListParams wider = model.params();
+    wider.skin = 2 * kSkin;
+    EXPECT_THROW(search->list(wider), InvalidParameter) << "beyond the radius that the search was made for";
+    EXPECT_THROW(search->update(bad, box), InvalidPosition);
+    EXPECT_THROW(search->list(model.params()), InvalidParameter) << "radii of particles that are not there";
+    EXPECT_THROW(search->update(points, box, repeated), InvalidParameter);
+    EXPECT_THROW(search->update(points, box, few), InvalidParameter);
+    EXPECT_THROW(search->update(points, Box::orthorhombic({5, 5, 5})), CutoffTooLarge);
   }
 }
 

@@ -79,6 +79,25 @@ TEST(CheckListParams, RefusesWhatDoesNotFit) {
   typed.types = negative;
   EXPECT_THROW(check_list_params(typed, 4, 2.5), InvalidParameter);
 
+  const std::vector<double> radii{1, 0, 0.5, 0.25}, none(4, 0.0);
+  ListParams sized = params;
+  sized.radii = radii;
+  EXPECT_EQ(sized.list_radius(), 2.5);
+  EXPECT_NO_THROW(check_list_params(sized, 4, 2.5));
+  EXPECT_THAT([&] { check_list_params(sized, 5, 2.5); },
+              ThrowsMessage<InvalidParameter>(AllOf(HasSubstr("4 radii"), HasSubstr("5 particles"))));
+  EXPECT_THROW(check_list_params(sized, 4, 2.25), InvalidParameter);
+  sized.radii = none;
+  EXPECT_THAT([&] { check_list_params(sized, 4, 2.5); },
+              ThrowsMessage<InvalidParameter>(HasSubstr("at least one must be > 0")));
+  for (const double radius : {-0.5, kNaN, kInfinity}) {
+    const std::vector<double> bad{1, 0.5, radius, 1};
+    sized.radii = bad;
+    EXPECT_THAT([&] { check_list_params(sized, 4, 2.5); },
+                ThrowsMessage<InvalidParameter>(HasSubstr("particle 2 has the radius")))
+        << radius;
+  }
+
   const auto exclusions = Exclusions::from_pairs(4, std::vector<IndexPair>{{0, 1}});
   ListParams excluding = params;
   excluding.exclusions = &exclusions;
