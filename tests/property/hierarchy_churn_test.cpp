@@ -8,6 +8,7 @@
 #include <dch/error.hpp>
 #include <dch/hierarchy.hpp>
 
+#include "effort.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
 
@@ -58,15 +59,17 @@ class HierarchyChurn : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(HierarchyChurn, ValidUnderInsertionsAndRemovals) {
   const Box box = GetParam().box;
+  const auto operations = static_cast<std::size_t>(effort(600));
   for (const auto& params : {params_with(EdgeRule::additive, 16), params_with(EdgeRule::thesis, 1)}) {
     scenes::Random random(3);
-    const std::vector<Vec3> pool = scenes::uniform_in(box, 700, 17);
+    const std::vector<Vec3> pool = scenes::uniform_in(box, 100 + operations, 17);
     Hierarchy hierarchy(params);
     hierarchy.build(Span<const Vec3>(pool.data(), 100), box);
     std::vector<std::int32_t> alive(100);
     for (std::size_t i = 0; i < alive.size(); ++i) alive[i] = static_cast<std::int32_t>(i);
     for (std::size_t next = 100; next < pool.size(); ++next) {
-      const bool growing = next < 350;  // first mostly insertions, then mostly removals, down to nothing
+      const bool growing =
+          next < 100 + operations * 2 / 5;  // first mostly insertions, then mostly removals, down to nothing
       if (random.uniform() < (growing ? 0.8 : 0.2) || alive.empty()) {
         const std::int32_t near =
             alive.empty() || random.uniform() < 0.5 ? -1 : alive[random.below(alive.size())];
@@ -101,7 +104,7 @@ TEST_P(HierarchyChurn, ValidUnderMotionBetweenInsertionsAndRemovals) {
   params.policy = MaintenancePolicy::always_repair;
   Hierarchy hierarchy(params);
   hierarchy.build(scenes::uniform_in(box, 200, 5), box);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < effort(30); ++round) {
     std::vector<Vec3> points(hierarchy.capacity());
     for (std::size_t id = 0; id < points.size(); ++id)
       if (hierarchy.contains(static_cast<std::int32_t>(id)))

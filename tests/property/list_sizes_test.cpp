@@ -13,6 +13,7 @@
 #include <dch/hierarchy.hpp>
 #include <dch/instruction_set.hpp>
 
+#include "effort.hpp"
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
@@ -168,7 +169,7 @@ TEST_P(ListSizes, UnderMotion) {
 
 TEST_P(ListSizes, SeveralListsAtOnce) {
   const Box box = GetParam().box;
-  const std::vector<Vec3> points = scenes::uniform_in(box, 800, 8);
+  const std::vector<Vec3> points = scenes::uniform_in(box, static_cast<std::size_t>(effort(800)), 8);
   for (const SizeModel& model : size_models(points.size())) {
     std::vector<ListParams> requests(4, model.params());
     requests[1].skin = 0;

@@ -6,6 +6,7 @@
 #include <dch/trajectory/topology.hpp>
 
 #include "cell.hpp"
+#include "effort.hpp"
 #include "random.hpp"
 #include "reading.hpp"
 #include "scratch_folder.hpp"
@@ -52,7 +53,7 @@ TEST(Fuzz, DamagedTrajectoriesGiveFramesOrErrors) {
   RecordProperty("seed", std::to_string(kSeed));
   scenes::Random random(kSeed);
   for (const SmallFile& file : small_files(folder)) {
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < effort(1000); ++k) {
       SCOPED_TRACE(file.name + " case " + std::to_string(k) + " seed " + std::to_string(kSeed));
       check_frames(folder.write(file.name, damaged(file.bytes, random)));
       if (testing::Test::HasFatalFailure()) return;
