@@ -15,7 +15,7 @@ constexpr std::size_t kSamples = 9;         ///< points around which others are 
 constexpr std::size_t kLeastOthers = 4096;  ///< points that are counted, or one in kStride if that is more
 constexpr std::size_t kStride = 16;
 // Of the points within R_0 of a center about a third are its children.
-constexpr double kPointsWithinRadius = 450;
+constexpr double kPointsWithinRadius = 300;
 constexpr double kLeastFactor = 0.25, kMostFactor = 4;  ///< R_0 / radius
 
 }  // namespace

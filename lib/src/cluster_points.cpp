@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
+#include <utility>
 
 #include "metric.hpp"
 
@@ -64,21 +66,30 @@ class BlockMeter {
   MeasureBlock kernel_ = measure_block(instruction_set());
 };
 
-BlockBox box_around(Vec3 low, Vec3 high, double per_unit) {
-  BlockBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.v[axis] = static_cast<std::int16_t>(rounded(low[axis] * per_unit) - 1);
-    box.v[axis + 4] = static_cast<std::int16_t>(-rounded(high[axis] * per_unit) - 1);
-  }
-  return box;
-}
-
-/// Holds the rounded points between the corners.
+/// Holds the rounded points between the corners, and the corners themselves.
 BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
   BlockSpan span{};
   for (int axis = 0; axis < 3; ++axis) {
     span.center[axis] = rounded(0.5 * (low[axis] + high[axis]) * per_unit);
     span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5 * (high[axis] - low[axis]) * per_unit) + 2);
+  }
+  return span;
+}
+
+/// Around those of blocks [first, last), whose center and half width along an axis span_of(block, axis)
+/// gives.
+template <class SpanOf>
+BlockSpan around(std::int32_t first, std::int32_t last, const SpanOf& span_of) {
+  BlockSpan span{};
+  for (int axis = 0; axis < 3; ++axis) {
+    int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::lowest();
+    for (std::int32_t b = first; b < last; ++b) {
+      const auto [center, half_width] = span_of(b, axis);
+      least = std::min(least, center - half_width);
+      most = std::max(most, center + half_width);
+    }
+    span.center[axis] = static_cast<std::int16_t>((least + most) / 2);
+    span.half_width[axis] = static_cast<std::int16_t>((most - least + 1) / 2);
   }
   return span;
 }
@@ -161,10 +172,17 @@ void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
   per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(blocks);
   points.resize(all);
-  boxes.resize(all);
   ids.resize(all);
   spans.resize(all);
   owned.resize(all);
+  for (int axis = 0; axis < 3; ++axis) {
+    box_center_[axis].resize(all + kChunk);
+    box_half_width_[axis].resize(all + kChunk);
+  }
+  if (number_.size() < all + kChunk) {
+    number_.resize(all + kChunk);
+    std::iota(number_.begin(), number_.end(), 0);
+  }
   tags.resize(filter.by() == PairFilter::By::one_cutoff ? 0 : all);
   for_ranges(executor, static_cast<std::int32_t>(clusters.size()),
              [&](std::int32_t first, std::int32_t last) {
@@ -177,7 +195,6 @@ void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::in
                                      const PairFilter& filter, Cluster& cluster) {
   const auto per_point_unit = static_cast<float>(per_unit.point);
   const std::int32_t first_ghost = filter.params().first_ghost;
-  Vec3 cluster_low{}, cluster_high{};
   cluster.owned = first_ghost < 0;
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
     const Offset* at = offset.data() + static_cast<std::size_t>(b) * kBlock;
@@ -186,7 +203,11 @@ void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::in
       points[b].y[lane] = rounded(at[lane].y * per_point_unit);
       points[b].z[lane] = rounded(at[lane].z * per_point_unit);
     }
-    boxes[b] = box_around(low[b], high[b], per_unit.box);
+    const BlockSpan box = span_around(low[b], high[b], per_unit.box);
+    for (int axis = 0; axis < 3; ++axis) {
+      box_center_[axis][b] = box.center[axis];
+      box_half_width_[axis][b] = box.half_width[axis];
+    }
     spans[b] = span_around(low[b], high[b], per_unit.point);
     std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
     for (int lane = 0; lane < count[b] && !particle_of_id.empty(); ++lane)
@@ -195,11 +216,7 @@ void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::in
     for (int lane = 0; lane < count[b] && !owned[b]; ++lane) owned[b] = ids[b][lane] < first_ghost;
     if (!tags.empty()) tag_block(b, filter);
     cluster.owned |= owned[b] != 0;
-    cluster_low = lower(cluster_low, low[b]);
-    cluster_high = upper(cluster_high, high[b]);
   }
-  cluster.box = box_around(cluster_low, cluster_high, per_unit.box);
-  cluster.span = span_around(cluster_low, cluster_high, per_unit.point);
 }
 
 void ClusterPoints::tag_block(std::int32_t block, const PairFilter& filter) {
@@ -214,12 +231,21 @@ void ClusterPoints::tag_block(std::int32_t block, const PairFilter& filter) {
 }
 
 BlockSpan ClusterPoints::span_of(std::int32_t first, std::int32_t last) const {
-  Vec3 all_low = low[first], all_high = high[first];
-  for (std::int32_t b = first + 1; b < last; ++b) {
-    all_low = lower(all_low, low[b]);
-    all_high = upper(all_high, high[b]);
-  }
-  return span_around(all_low, all_high, per_unit.point);
+  return around(first, last, [&](std::int32_t b, int axis) {
+    return std::pair<int, int>(spans[b].center[axis], spans[b].half_width[axis]);
+  });
+}
+
+BlockSpan ClusterPoints::box_of(std::int32_t first, std::int32_t last) const {
+  return around(first, last, [&](std::int32_t b, int axis) {
+    return std::pair<int, int>(box_center_[axis][b], box_half_width_[axis][b]);
+  });
+}
+
+BlockSpans ClusterPoints::boxes() const {
+  return {{box_center_[0].data(), box_center_[1].data(), box_center_[2].data()},
+          {box_half_width_[0].data(), box_half_width_[1].data(), box_half_width_[2].data()},
+          number_.data()};
 }
 
 std::int16_t ClusterPoints::largest_tag(std::int32_t first, std::int32_t last) const {
@@ -231,9 +257,11 @@ std::int16_t ClusterPoints::largest_tag(std::int32_t first, std::int32_t last) c
 
 std::size_t ClusterPoints::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  return bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offset) + bytes_of(low) +
-         bytes_of(high) + bytes_of(points) + bytes_of(boxes) + bytes_of(spans) + bytes_of(ids) +
-         bytes_of(tags) + bytes_of(owned);
+  std::size_t bytes = bytes_of(number_);
+  for (int axis = 0; axis < 3; ++axis) bytes += bytes_of(box_center_[axis]) + bytes_of(box_half_width_[axis]);
+  return bytes + bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offset) + bytes_of(low) +
+         bytes_of(high) + bytes_of(points) + bytes_of(spans) + bytes_of(ids) + bytes_of(tags) +
+         bytes_of(owned);
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                             \

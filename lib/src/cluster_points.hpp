@@ -10,6 +10,7 @@
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
+#include "aligned_vector.hpp"
 #include "hierarchy_level.hpp"
 #include "pair_filter.hpp"
 #include "point_blocks.hpp"
@@ -32,8 +33,6 @@ struct ClusterPoints {
     double width = 0;        ///< of the box around the points and the center, along its longest side [length]
     double block_width = 0;  ///< the same of the widest block
     std::int32_t uncovered = 0;  ///< points farther from the center than asked
-    BlockBox box{};              ///< of all blocks
-    BlockSpan span{};            ///< the same in the units of points
     bool owned = true;           ///< whether a point is not a ghost
   };
   struct Offset {
@@ -56,8 +55,11 @@ struct ClusterPoints {
   void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
                 const PairFilter& filter, Executor* executor);
 
-  /// Box around blocks [first, last) of a cluster, in the units of points.
+  /// Box around blocks [first, last) of a cluster.
   BlockSpan span_of(std::int32_t first, std::int32_t last) const;
+  /// The same in the units of boxes.
+  BlockSpan box_of(std::int32_t first, std::int32_t last) const;
+  BlockSpans boxes() const;
   /// Largest tag in blocks [first, last), which have tags.
   std::int16_t largest_tag(std::int32_t first, std::int32_t last) const;
 
@@ -79,7 +81,6 @@ struct ClusterPoints {
     double point = 1, box = 1;
   } per_unit;                       ///< the inverse [1/length]
   std::vector<BlockPoints> points;  ///< by block, as all below
-  std::vector<BlockBox> boxes;
   std::vector<BlockSpan> spans;
   std::vector<std::array<std::int32_t, kBlock>> ids;   ///< particles
   std::vector<std::array<std::int16_t, kBlock>> tags;  ///< what their cutoffs depend on, 0 in empty lanes:
@@ -87,6 +88,9 @@ struct ClusterPoints {
   std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
+  AlignedVector<std::int16_t> box_center_[3], box_half_width_[3];
+  AlignedVector<std::int32_t> number_;
+
   void lay_out(const Level& centers, const PointBlocks& points);
   template <class Metric>
   void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& points,

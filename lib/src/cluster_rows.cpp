@@ -38,10 +38,10 @@ ListUnits units_for(const ListScene& scene, std::size_t s) {
   return {widest * (1 + 1e-9) / kLargest, farthest * (1 + 1e-9) / kLargest};
 }
 
-/// Box corners are rounded outward; their shift and the squares are rounded too.
+/// Boxes are rounded outward by more than their centers and shifts are off; three squares are rounded too.
 std::int16_t box_limit(double reach, const ListUnits& units) {
-  const double box_reach = reach / units.box + 2;
-  return static_cast<std::int16_t>(std::min(std::ceil(box_reach * box_reach / 0x1p15 + 1.5), 32767.0));
+  const double box_reach = reach / units.box;
+  return static_cast<std::int16_t>(std::min(std::floor(box_reach * box_reach / 0x1p15 + 1.5) + 1, 32767.0));
 }
 
 }  // namespace

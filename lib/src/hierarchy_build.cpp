@@ -144,31 +144,12 @@ Hierarchy::Impl::Hint Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at
 template <class Metric>
 void Hierarchy::Impl::place_points(const Metric& metric) {
   const std::vector<std::int32_t> order = reorder_levels();
-  std::vector<std::int32_t> first(order.size() + 1, 0);  // counts, then where the next member goes
   for (std::int32_t& cluster : slot_of_id)
-    if (cluster >= 0) ++first[(cluster = order[cluster]) + 1];
-  std::int32_t blocks = 0;
-  for (std::size_t k = 0; k + 1 < first.size(); ++k) {
-    blocks += detail::blocks_for(first[k + 1]);
-    first[k + 1] += first[k];
-  }
-  std::vector<std::int32_t> members(static_cast<std::size_t>(first.back()));
-  for (std::size_t id = 0; id < slot_of_id.size(); ++id)
-    if (slot_of_id[id] >= 0) members[first[slot_of_id[id]]++] = static_cast<std::int32_t>(id);
-
-  points.reserve(blocks);
-  std::vector<detail::LocalPoint> local;
-  std::int32_t begin = 0;
-  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    local.clear();
-    for (; begin < first[k]; ++begin) {
-      const Vec3 at = metric.displacement(levels[1].position[k], metric.wrap(raw[members[begin]]));
-      local.push_back(detail::local_point(at, members[begin]));
-    }
-    fill_cluster(
-        points, k, local, [&](std::int32_t id) { return id; },
-        [&](std::int32_t id) { return metric.wrap(raw[id]); });
-  }
+    if (cluster >= 0) cluster = order[cluster];
+  std::vector<std::int32_t> cluster_of = slot_of_id;
+  fill_clusters(
+      metric, points, cluster_of, [](std::size_t id) { return static_cast<std::int32_t>(id); },
+      [&](std::size_t id) { return metric.wrap(raw[id]); });
 }
 
 #define DCH_INSTANTIATE(Metric)                                  \

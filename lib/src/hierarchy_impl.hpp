@@ -152,6 +152,22 @@ struct Hierarchy::Impl {
   void place_points(const Metric& metric);
 
   // hierarchy_blocks.hpp
+  /// Points by their cluster.
+  struct Members {
+    std::vector<std::int32_t> index;  ///< those of cluster k from first[k] to first[k + 1]
+    std::vector<std::int32_t> first;
+
+    void sort(const std::vector<std::int32_t>& cluster_of, std::int32_t clusters);
+  };
+  /// Puts points into blocks, each point into the nearest cluster that an edge joins to its own. Their ids
+  /// and positions depend on their indices, and so do their clusters, which are negative for what is no
+  /// point.
+  template <class Metric, class IdOf, class PositionOf>
+  void fill_clusters(const Metric& metric, detail::PointBlocks& blocks, std::vector<std::int32_t>& cluster_of,
+                     const IdOf& id_of, const PositionOf& position_of);
+  template <class Metric, class PositionOf>
+  void choose_nearest(const Metric& metric, const Members& members, std::vector<std::int32_t>& cluster_of,
+                      const PositionOf& position_of);
   /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their
   /// indices.
   template <class IdOf, class PositionOf>

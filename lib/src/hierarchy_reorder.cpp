@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <numeric>
+
 #include "hierarchy_blocks.hpp"
 
 namespace dch {
@@ -80,21 +82,26 @@ void Hierarchy::Impl::reorder() {
   strayed = 0;
 }
 
+void Hierarchy::Impl::Members::sort(const std::vector<std::int32_t>& cluster_of, std::int32_t clusters) {
+  std::vector<std::int32_t> next(static_cast<std::size_t>(clusters) + 1, 0);
+  for (const std::int32_t cluster : cluster_of)
+    if (cluster >= 0) ++next[cluster + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  first = next;
+  index.resize(static_cast<std::size_t>(first.back()));
+  for (std::size_t k = 0; k < cluster_of.size(); ++k)
+    if (cluster_of[k] >= 0) index[next[cluster_of[k]]++] = static_cast<std::int32_t>(k);
+}
+
 void Hierarchy::Impl::reorder_points() {
+  std::vector<std::int32_t> cluster_of(points.id.size(), kNone);
+  for (std::int32_t k = 0; k < levels[1].size(); ++k)
+    for_each_child(1, k, [&](std::int32_t slot) { cluster_of[slot] = k; });
   detail::PointBlocks fresh;
-  fresh.reserve(static_cast<std::int32_t>(points.cluster.size() - points.free.size()));
-  std::vector<detail::LocalPoint> local;
   with_metric(box, [&](const auto& metric) {
-    for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-      local.clear();
-      for_each_child(1, k, [&](std::int32_t slot) {
-        local.push_back(
-            detail::local_point(metric.displacement(levels[1].position[k], points.position[slot]), slot));
-      });
-      fill_cluster(
-          fresh, k, local, [&](std::int32_t slot) { return points.id[slot]; },
-          [&](std::int32_t slot) { return points.position[slot]; });
-    }
+    fill_clusters(
+        metric, fresh, cluster_of, [&](std::size_t slot) { return points.id[slot]; },
+        [&](std::size_t slot) { return points.position[slot]; });
   });
   points = std::move(fresh);
 }

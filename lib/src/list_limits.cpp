@@ -24,6 +24,9 @@ class Rounding {
   double band(double reach) const {
     return (2 * off_ * reach / unit_ + off_ * off_) / kSquareScale + 1.5 + 1e-6;
   }
+  /// Squares of what a pair's distance in units is at most, and at least, if the pair is beyond doubt.
+  std::int64_t sure_in(double reach) const { return squared(std::max(reach / unit_ - off_, 0.0)) - 1; }
+  std::int64_t sure_out(double reach) const { return squared(reach / unit_ + off_) + 1; }
   std::int16_t in(double reach) const { return clamped(std::floor(limit(reach) - band(reach)) + 1); }
   std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
   /// How far beyond `reach` a pair with a square below limit(reach) + `above` may be [length].
@@ -32,6 +35,7 @@ class Rounding {
   }
 
  private:
+  static std::int64_t squared(double units) { return static_cast<std::int64_t>(units * units); }
   double unit_, off_;
 };
 
@@ -48,6 +52,8 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error
     case PairFilter::By::one_cutoff:
       in = rounding.in(largest);
       out = rounding.out(largest);
+      sure_in = rounding.sure_in(largest);
+      sure_out = rounding.sure_out(largest);
       widen(largest, rounding.band(largest) + 1);
       return;
     case PairFilter::By::radii: {

@@ -18,8 +18,7 @@ void NearRanges<Metric>::add(const ClusterPoints& points, const Cluster& other, 
   range.first = other.first_block;
   range.count = other.blocks;
   for (int axis = 0; axis < 3; ++axis) {
-    range.box_shift.v[axis] = rounded(between[axis] * points.per_unit.box);
-    range.box_shift.v[axis + 4] = static_cast<std::int16_t>(-range.box_shift.v[axis]);
+    range.box_shift[axis] = rounded(between[axis] * points.per_unit.box);
     range.point_shift[axis] = rounded(between[axis] * points.per_unit.point);
   }
   ranges_.push_back(range);

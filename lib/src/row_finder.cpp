@@ -10,6 +10,19 @@ namespace {
 
 constexpr std::size_t kFewExclusions = 4;  ///< of a particle
 constexpr std::int32_t kShortRow = 16;
+constexpr std::int32_t kPart = 24, kGroup = 5;  ///< most blocks in one
+
+/// Calls f(first, last) for groups of at most that many blocks, so cut that those of one group are close
+/// together: where order_by_halving() has cut.
+template <class F>
+void for_each_group(std::int32_t first, std::int32_t blocks, std::int32_t most, const F& f) {
+  if (blocks <= most) {
+    if (blocks > 0) f(first, first + blocks);
+    return;
+  }
+  for_each_group(first, blocks / 2, most, f);
+  for_each_group(first + blocks / 2, blocks - blocks / 2, most, f);
+}
 
 std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
@@ -17,24 +30,25 @@ std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
 
 }  // namespace
 
-/// The points of blocks near the cluster's box are put side by side and those near the box itself kept; of
-/// these, for each list, first those within its own reach.
+/// The points of blocks near the box of a part of the cluster are put side by side and those near the box
+/// itself kept; of these, for each list, first those within its own reach.
 template <class Metric>
 void RowFinder::append_rows(const Scene<Metric>& scene, std::int32_t k, NeighborList* lists) {
   const ClusterPoints& points = *scene.rows().points;
   const Cluster& cluster = points.clusters[k];
-  const std::int32_t count = collect(scene, k);
-  append_cluster(scene, scene.requests[0], cluster, around_cluster_.at(0), count, lists[0]);
-  for (std::size_t r = 1; r < scene.requests.size(); ++r) {
-    const Request& request = scene.requests[r];
-    around_request_.make_room(around_cluster_.id.size());
-    const std::int16_t size =
-        points.tags.empty() ? std::int16_t{0}
-                            : points.largest_tag(cluster.first_block, cluster.first_block + cluster.blocks);
-    const std::int32_t near = filter(request.limits, cluster.span, size, around_cluster_.at(0), nullptr,
-                                     count, around_request_.at(0));
-    append_cluster(scene, request, cluster, around_request_.at(0), near, lists[r]);
-  }
+  find_ranges(scene, k);
+  for_each_group(cluster.first_block, cluster.blocks, kPart, [&](std::int32_t first, std::int32_t last) {
+    const Part part = part_of(points, cluster, first, last);
+    const std::int32_t count = collect(scene, part);
+    append_part(scene, scene.requests[0], part, around_part_.at(0), count, lists[0]);
+    for (std::size_t r = 1; r < scene.requests.size(); ++r) {
+      const Request& request = scene.requests[r];
+      around_request_.make_room(around_part_.id.size());
+      const std::int32_t near = filter(request.limits, part.span, part.size, around_part_.at(0), nullptr,
+                                       count, around_request_.at(0));
+      append_part(scene, request, part, around_request_.at(0), near, lists[r]);
+    }
+  });
 }
 
 // --- points near a cluster
@@ -53,62 +67,83 @@ std::size_t RowFinder::CandidateStore::memory_bytes() const {
   return 4 * x.capacity() * sizeof(x[0]) + id.capacity() * sizeof(id[0]);
 }
 
-/// Fills around_cluster_ and returns how many there are. The cluster's own points come first, in order.
+RowFinder::Part RowFinder::part_of(const ClusterPoints& points, const Cluster& cluster, std::int32_t first,
+                                   std::int32_t last) {
+  return {first, last, cluster.owned, points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last),
+          points.span_of(first, last)};
+}
+
+/// Fills ranges_.
 template <class Metric>
-std::int32_t RowFinder::collect(const Scene<Metric>& scene, std::int32_t k) {
-  const ClusterPoints& points = *scene.rows().points;
-  const Cluster& cluster = points.clusters[k];
-  const std::int16_t size =
-      points.tags.empty() ? std::int16_t{0}
-                          : points.largest_tag(cluster.first_block, cluster.first_block + cluster.blocks);
-  std::int32_t count = 0;
-  for (const NearSource& near : scene.near) {
-    NearRanges<Metric> ranges(scene.metric, scene.box, scene.rows(), k, ranges_);
-    if (&near == &scene.near.front()) {
-      ranges.find_own(near);
+void RowFinder::find_ranges(const Scene<Metric>& scene, std::int32_t k) {
+  ranges_.resize(scene.near.size());
+  for (std::size_t s = 0; s < scene.near.size(); ++s) {
+    NearRanges<Metric> ranges(scene.metric, scene.box, scene.rows(), k, ranges_[s]);
+    if (s == 0) {
+      ranges.find_own(scene.near[s]);
     } else {
-      ranges.find_others(near);
+      ranges.find_others(scene.near[s]);
     }
-    const std::int32_t collected = collect_from(near, cluster, count);
-    count += filter(scene.requests[0].limits, cluster.span, size, around_cluster_.at(count), valid_.data(),
-                    collected * kBlock, around_cluster_.at(count));
+  }
+}
+
+/// Fills around_part_ and returns how many there are. The part's own points come first, in order, then those
+/// of the cluster's parts after it.
+template <class Metric>
+std::int32_t RowFinder::collect(const Scene<Metric>& scene, const Part& part) {
+  const BlockSpan box = scene.rows().points->box_of(part.first, part.last);
+  BlockRange& own = ranges_[0][0];
+  own.count -= part.first - own.first;
+  own.first = part.first;
+  std::int32_t count = 0;
+  for (std::size_t s = 0; s < scene.near.size(); ++s) {
+    const std::int32_t collected = collect_from(scene.near[s], ranges_[s], box, part.owned, count);
+    count += filter(scene.requests[0].limits, part.span, part.size, around_part_.at(count), valid_.data(),
+                    collected * kBlock, around_part_.at(count));
   }
   return count;
 }
 
-/// Puts the points of near blocks behind those that there are `already`, and returns the number of blocks. If
-/// the cluster's points are all ghosts, blocks of ghosts are left out, since two ghosts are no pair.
-std::int32_t RowFinder::collect_from(const NearSource& near, const Cluster& cluster, std::int32_t already) {
+/// Puts the points of blocks near the box behind those that there are `already`, and returns the number of
+/// blocks. If the cluster's points are all ghosts, blocks of ghosts are left out, since two ghosts are no
+/// pair.
+std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<BlockRange>& ranges,
+                                     const BlockSpan& box, bool owned, std::int32_t already) {
   const ClusterPoints& points = *near.source->points;
   std::int32_t most = 0;
-  for (const BlockRange& range : ranges_) most += range.count;
-  const auto blocks = static_cast<std::size_t>(rounded_up(most + 1, kBlocksInChunk)) + kBlocksInChunk;
+  for (const BlockRange& range : ranges) most += range.count;
+  const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk) + kChunk);
   if (block_.size() < blocks) {
     block_.resize(blocks);
-    range_.resize(blocks);
     valid_.resize(blocks / kBlocksInChunk);
   }
-  around_cluster_.make_room(static_cast<std::size_t>(already) + blocks * kBlock);
+  range_end_.resize(std::max(range_end_.size(), ranges.size()));
+  around_part_.make_room(static_cast<std::size_t>(already) + blocks * kBlock);
 
-  std::int32_t collected =
-      kernels_->collect(cluster.box, near.box_limit, points.boxes.data(), ranges_.data(),
-                        static_cast<std::int32_t>(ranges_.size()), block_.data(), range_.data());
-  if (!cluster.owned) {
-    std::int32_t kept = 0;
-    for (std::int32_t n = 0; n < collected; ++n) {
-      block_[kept] = block_[n];
-      range_[kept] = range_[n];
-      kept += points.owned[block_[n]];
-    }
-    collected = kept;
-  }
-  kernels_->gather(block_.data(), range_.data(), collected, ranges_.data(), points.points.data(),
+  const auto range_count = static_cast<std::int32_t>(ranges.size());
+  std::int32_t collected = kernels_->collect(box, near.box_limit, points.boxes(), ranges.data(), range_count,
+                                             block_.data(), range_end_.data());
+  if (!owned) collected = leave_out_ghosts(points, range_count);
+  kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, points.points.data(),
                    points.ids.data()->data(), points.tags.empty() ? nullptr : points.tags.data()->data(),
-                   around_cluster_.at(already));
+                   around_part_.at(already));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
   for (std::int32_t n = 0; n < collected; ++n)
     lanes[n] = static_cast<std::uint8_t>((1u << points.count[block_[n]]) - 1);
   return collected;
+}
+
+/// Of the blocks that have been collected.
+std::int32_t RowFinder::leave_out_ghosts(const ClusterPoints& points, std::int32_t range_count) {
+  std::int32_t kept = 0, n = 0;
+  for (std::int32_t r = 0; r < range_count; ++r) {
+    for (; n < range_end_[r]; ++n) {
+      block_[kept] = block_[n];
+      kept += points.owned[block_[n]];
+    }
+    range_end_[r] = kept;
+  }
+  return kept;
 }
 
 /// @param size the largest of the points in the box, where cutoffs go by radii
@@ -125,62 +160,60 @@ std::int32_t RowFinder::filter(const ListLimits& limits, const BlockSpan& span, 
 
 // --- rows
 
-/// For each few of the cluster's blocks the candidates near these, and for each block those near it.
+/// For each few of the part's blocks the candidates near these, and for each block those near it.
 template <class Metric>
-void RowFinder::append_cluster(const Scene<Metric>& scene, const Request& request, const Cluster& cluster,
-                               const Candidates& around_cluster, std::int32_t count, NeighborList& out) {
+void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, const Part& part,
+                            const Candidates& around_part, std::int32_t count, NeighborList& out) {
   const ClusterPoints& points = *scene.rows().points;
   make_room_for_tests(count);
-  const std::int32_t end = cluster.first_block + cluster.blocks;
   std::int32_t own_before = 0;
-  for (std::int32_t first = cluster.first_block; first < end; first += kGroup) {
-    const std::int32_t last = std::min(first + kGroup, end);
+  for_each_group(part.first, part.last - part.first, kGroup, [&](std::int32_t first, std::int32_t last) {
     const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last);
-    const Candidates from{around_cluster.x + own_before, around_cluster.y + own_before,
-                          around_cluster.z + own_before, around_cluster.id + own_before,
-                          around_cluster.tag + own_before};
+    const Candidates from{around_part.x + own_before, around_part.y + own_before, around_part.z + own_before,
+                          around_part.id + own_before, around_part.tag + own_before};
     const std::int32_t near = filter(request.limits, points.span_of(first, last), size, from, nullptr,
                                      count - own_before, around_group_.at(0));
+    // All blocks are thinned before the first is tested: its candidates have left the store queue by then,
+    // out of which loads that span several stores cannot be served.
     std::int32_t before = 0;
-    open_.clear();
     for (std::int32_t own = first; own < last; ++own) {
       BlockTest& test = tests_[own - first];
-      test_block(scene, request, own, before, near, test);
-      note_open_pairs(scene, request, own, cluster.owned, test);
-      if (cluster.owned) before += points.count[own];
+      const std::int16_t own_size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(own, own + 1);
+      test.count = filter(request.limits, points.spans[own], own_size, around_group_.at(before), nullptr,
+                          near - before, test.near.at(0));
+      if (part.owned) before += points.count[own];
     }
-    settle(scene, request);
+    for (std::int32_t own = first; own < last; ++own) {
+      test_block(request, points, own, tests_[own - first]);
+      note_open_pairs(request, points, own, tests_[own - first]);
+    }
+    settle(*request.filter);
     ask_for_exclusions(*request.filter, points, first, last);
     for (std::int32_t own = first; own < last; ++own)
-      append_block(request, points, own, cluster.owned, tests_[own - first], out);
+      append_block(request, points, own, part.owned, tests_[own - first], out);
     own_before += before;
-  }
+  });
 }
 
 void RowFinder::make_room_for_tests(std::int32_t count) {
+  tests_.resize(kGroup);
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
   const std::size_t entries = room / kChunk * kBlock;
   around_group_.make_room(room);
-  around_block_.make_room(room);
   if (unsettled_.size() >= entries) return;
   unsettled_.resize(entries);
   for (BlockTest& test : tests_) {
-    test.ids.resize(room);
+    test.near.make_room(room);
     test.mask.resize(entries);
   }
 }
 
-/// Tests a block against the candidates around its group from `begin` on that are near it.
-template <class Metric>
-void RowFinder::test_block(const Scene<Metric>& scene, const Request& request, std::int32_t block,
-                           std::int32_t begin, std::int32_t end, BlockTest& test) {
-  const ClusterPoints& points = *scene.rows().points;
+/// Tests a block against the candidates near it.
+void RowFinder::test_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+                           BlockTest& test) {
   const ListLimits& limits = request.limits;
-  const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(block, block + 1);
-  Candidates candidates = around_block_.at(0);
-  candidates.id = test.ids.data();
-  const std::int32_t count =
-      filter(limits, points.spans[block], size, around_group_.at(begin), nullptr, end - begin, candidates);
+  const Candidates candidates = test.near.at(0);
+  const std::int32_t count = test.count;
   test.chunks = rounded_up(count, kChunk) / kChunk;
   if (limits.by == PairFilter::By::radii) {
     std::array<std::int16_t, kBlock> sizes = points.tags[block];
@@ -197,47 +230,50 @@ void RowFinder::test_block(const Scene<Metric>& scene, const Request& request, s
   }
 }
 
-/// Puts the pairs that the test of a block has left open into open_. The first candidates are the block's own
-/// points if it `meets_itself`.
-template <class Metric>
-void RowFinder::note_open_pairs(const Scene<Metric>& scene, const Request& request, std::int32_t block,
-                                bool meets_itself, BlockTest& test) {
-  const ListSource& source = scene.rows();
-  const ClusterPoints& points = *source.points;
-  const bool accept_all = request.filter->params().superset || request.limits.per_pair;
+/// In units, without the roundings of the kernels' squares.
+std::int64_t RowFinder::squared_distance(const BlockPoints& points, std::int32_t row,
+                                         const CandidateStore& near, std::int32_t at) {
+  const auto square = [](std::int16_t a, std::int16_t b) {
+    const std::int64_t d = static_cast<std::int16_t>(a - b);
+    return d * d;
+  };
+  return square(near.x[at], points.x[row]) + square(near.y[at], points.y[row]) +
+         square(near.z[at], points.z[row]);
+}
+
+/// Decides what the test of a block has left open, or puts it into open_ if that takes the positions.
+void RowFinder::note_open_pairs(const Request& request, const ClusterPoints& points, std::int32_t block,
+                                BlockTest& test) {
+  const ListLimits& limits = request.limits;
+  if (request.filter->params().superset || limits.per_pair) {
+    for (std::int32_t u = 0; u < test.left; ++u)
+      test.mask[unsettled_[u].row * test.chunks + unsettled_[u].chunk] |= unsettled_[u].lanes;
+    return;
+  }
   for (std::int32_t u = 0; u < test.left; ++u) {
     const auto [row, chunk, open] = unsettled_[u];
     std::uint32_t& mask = test.mask[row * test.chunks + chunk];
-    if (accept_all) mask |= open;
-    if (accept_all || row >= points.count[block]) continue;
-    for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
+    if (open_.size() < open_count_ + kChunk) open_.resize(2 * open_count_ + kChunk);
+    for (std::uint32_t rest = row < points.count[block] ? open : 0; rest != 0; rest &= rest - 1) {
+      // Without branches: whether a pair is near enough is hard to foretell.
       const int lane = __builtin_ctz(rest);
-      if (meets_itself && chunk == 0 && lane <= row) continue;
-      OpenPair pair{points.ids[block][row], test.ids[chunk * kChunk + lane], kNone, kNone, &mask, 1u << lane};
-      if (source.particle_of_id.empty()) {
-        pair.slot_i = points.source[block] * kBlock + row;
-        pair.slot_j = source.slot_of_id[pair.j];
-        __builtin_prefetch(&source.blocks->position[pair.slot_j]);
-      } else {
-        request.filter->ask_for(pair.i, pair.j);
-      }
-      open_.push_back(pair);
+      const std::int32_t at = chunk * kChunk + lane;
+      const std::int64_t d2 = squared_distance(points.points[block], row, test.near, at);
+      const bool is_in = d2 <= limits.sure_in;
+      mask |= static_cast<std::uint32_t>(is_in) << lane;
+      OpenPair& pair = open_[open_count_];
+      pair = {points.ids[block][row], test.near.id[at], &mask, 1u << lane};
+      request.filter->ask_for(pair.i, pair.j);
+      open_count_ += static_cast<std::size_t>(!is_in) & static_cast<std::size_t>(d2 < limits.sure_out);
     }
   }
 }
 
 /// Decides the open pairs. Their positions are likely in no cache; they have been asked for together.
-template <class Metric>
-void RowFinder::settle(const Scene<Metric>& scene, const Request& request) {
-  const std::vector<Vec3>& position = scene.rows().blocks->position;
-  for (const OpenPair& pair : open_) {
-    const bool accepted =
-        pair.slot_i == kNone
-            ? request.filter->accept(pair.i, pair.j)
-            : request.filter->accept(pair.i, pair.j,
-                                     scene.metric.distance2(position[pair.slot_i], position[pair.slot_j]));
-    if (accepted) *pair.mask |= pair.bit;
-  }
+void RowFinder::settle(const PairFilter& filter) {
+  for (std::size_t k = 0; k < open_count_; ++k)
+    if (filter.accept(open_[k].i, open_[k].j)) *open_[k].mask |= open_[k].bit;
+  open_count_ = 0;
 }
 
 /// Whom the points of blocks [first, last) are excluded with is likely in no cache: asked for together.
@@ -257,16 +293,19 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
   auto written = static_cast<std::size_t>(out.first.back());
   const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * test.chunks + kChunk);
   if (out.j.size() < most) out.j.resize(most + most / 4);
+  const std::size_t rows_before = out.particle.size();
+  out.particle.insert(out.particle.end(), ids.begin(), ids.begin() + rows);
+  out.first.resize(rows_before + static_cast<std::size_t>(rows) + 1);
+  std::int64_t* const row_end = out.first.data() + rows_before + 1;
   for (std::int32_t row = 0; row < rows; ++row) {
     std::uint32_t* const mask = test.mask.data() + row * test.chunks;
     if (meets_itself) mask[0] &= ~0u << (row + 1);
     std::int32_t* const to = out.j.data() + written;
-    std::int32_t length = kernels_->compress(mask, test.chunks, test.ids.data(), to);
+    std::int32_t length = kernels_->compress(mask, test.chunks, test.near.id.data(), to);
     if (request.limits.per_pair || request.filter->restricts(ids[row]))
       length = restrict_row(request, ids[row], to, length);
     written += static_cast<std::size_t>(length);
-    out.particle.push_back(ids[row]);
-    out.first.push_back(static_cast<std::int64_t>(written));
+    row_end[row] = static_cast<std::int64_t>(written);
   }
 }
 
@@ -305,11 +344,12 @@ std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t partic
 
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes = bytes_of(ranges_) + bytes_of(block_) + bytes_of(range_) + bytes_of(valid_) +
-                      bytes_of(open_) + bytes_of(unsettled_);
-  for (const CandidateStore* store : {&around_cluster_, &around_request_, &around_group_, &around_block_})
+  std::size_t bytes =
+      bytes_of(block_) + bytes_of(range_end_) + bytes_of(valid_) + bytes_of(open_) + bytes_of(unsettled_);
+  for (const CandidateStore* store : {&around_part_, &around_request_, &around_group_})
     bytes += store->memory_bytes();
-  for (const BlockTest& test : tests_) bytes += bytes_of(test.ids) + bytes_of(test.mask);
+  for (const std::vector<BlockRange>& ranges : ranges_) bytes += bytes_of(ranges);
+  for (const BlockTest& test : tests_) bytes += test.near.memory_bytes() + bytes_of(test.mask);
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include <dch/box.hpp>
 #include <dch/neighbor_list.hpp>
 
+#include "aligned_vector.hpp"
 #include "cluster_points.hpp"
 #include "list_limits.hpp"
 #include "list_source.hpp"
@@ -46,8 +47,8 @@ class RowFinder {
  private:
   using Cluster = ClusterPoints::Cluster;
   struct CandidateStore {
-    std::vector<std::int16_t> x, y, z, tag;
-    std::vector<std::int32_t> id;
+    AlignedVector<std::int16_t> x, y, z, tag;
+    AlignedVector<std::int32_t> id;
     Candidates at(std::int32_t k);
     void make_room(std::size_t count);
     std::size_t memory_bytes() const;
@@ -55,38 +56,46 @@ class RowFinder {
 
   /// A block of the cluster and the candidates near it.
   struct BlockTest {
-    std::vector<std::int32_t> ids;
-    std::int32_t chunks = 0;
-    std::int32_t left = 0;            ///< entries of unsettled_
-    std::vector<std::uint32_t> mask;  ///< row by chunk
+    CandidateStore near;
+    std::int32_t count = 0, chunks = 0;
+    std::int32_t left = 0;              ///< entries of unsettled_
+    AlignedVector<std::uint32_t> mask;  ///< row by chunk
   };
   /// A pair that the kernels could not decide.
   struct OpenPair {
     std::int32_t i, j;
-    std::int32_t slot_i, slot_j;  ///< kNone where there are several hierarchies
     std::uint32_t* mask;
     std::uint32_t bit;
   };
-  static constexpr std::int32_t kGroup = 4;  ///< blocks that are looked at together
+  /// Blocks of a cluster that are looked at together.
+  struct Part {
+    std::int32_t first, last;
+    bool owned;         ///< whether a point of the cluster is not a ghost
+    std::int16_t size;  ///< the largest of the points, where cutoffs go by radii
+    BlockSpan span;
+  };
 
+  Part part_of(const ClusterPoints& points, const Cluster& cluster, std::int32_t first, std::int32_t last);
   template <class Metric>
-  std::int32_t collect(const Scene<Metric>& scene, std::int32_t k);
-  std::int32_t collect_from(const NearSource& near, const Cluster& cluster, std::int32_t already);
+  void find_ranges(const Scene<Metric>& scene, std::int32_t k);
+  template <class Metric>
+  std::int32_t collect(const Scene<Metric>& scene, const Part& part);
+  std::int32_t collect_from(const NearSource& near, const std::vector<BlockRange>& ranges,
+                            const BlockSpan& box, bool owned, std::int32_t already);
+  std::int32_t leave_out_ghosts(const ClusterPoints& points, std::int32_t range_count);
   std::int32_t filter(const ListLimits& limits, const BlockSpan& span, std::int16_t size,
                       const Candidates& from, const std::uint32_t* valid, std::int32_t count,
                       const Candidates& to) const;
   template <class Metric>
-  void append_cluster(const Scene<Metric>& scene, const Request& request, const Cluster& cluster,
-                      const Candidates& around_cluster, std::int32_t count, NeighborList& out);
+  void append_part(const Scene<Metric>& scene, const Request& request, const Part& part,
+                   const Candidates& around_part, std::int32_t count, NeighborList& out);
   void make_room_for_tests(std::int32_t count);
-  template <class Metric>
-  void test_block(const Scene<Metric>& scene, const Request& request, std::int32_t block, std::int32_t begin,
-                  std::int32_t end, BlockTest& test);
-  template <class Metric>
-  void note_open_pairs(const Scene<Metric>& scene, const Request& request, std::int32_t block,
-                       bool meets_itself, BlockTest& test);
-  template <class Metric>
-  void settle(const Scene<Metric>& scene, const Request& request);
+  void test_block(const Request& request, const ClusterPoints& points, std::int32_t block, BlockTest& test);
+  static std::int64_t squared_distance(const BlockPoints& points, std::int32_t row,
+                                       const CandidateStore& near, std::int32_t at);
+  void note_open_pairs(const Request& request, const ClusterPoints& points, std::int32_t block,
+                       BlockTest& test);
+  void settle(const PairFilter& filter);
   static void ask_for_exclusions(const PairFilter& filter, const ClusterPoints& points, std::int32_t first,
                                  std::int32_t last);
   void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
@@ -95,14 +104,14 @@ class RowFinder {
                                    std::int32_t count);
 
   const ListKernels* kernels_ = nullptr;
-  std::vector<BlockRange> ranges_;
-  std::vector<std::int32_t> block_, range_;
-  CandidateStore around_cluster_, around_request_, around_group_;
-  CandidateStore around_block_;  ///< but for the ids, which outlive the test of a block
+  std::vector<std::vector<BlockRange>> ranges_;  ///< by source: blocks of clusters near the cluster
+  std::vector<std::int32_t> block_, range_end_;
+  CandidateStore around_part_, around_request_, around_group_;
   std::vector<Unsettled> unsettled_;
   std::vector<std::uint32_t> valid_;
-  BlockTest tests_[kGroup];
-  std::vector<OpenPair> open_;
+  std::vector<BlockTest> tests_;  ///< of the blocks that are looked at together
+  std::vector<OpenPair> open_;    ///< and room for more
+  std::size_t open_count_ = 0;
 };
 
 }  // namespace dch::detail

@@ -18,26 +18,25 @@ inline constexpr int kBlocksInChunk = kChunk / kBlock;
 //   square(d) = (d * d + 2^14) >> 15,
 // and sums saturate at 32767. All sets do this the same, so all find the same.
 
-/// A box as its lower and its negated upper corner: (lo_x, lo_y, lo_z, 0, -hi_x, -hi_y, -hi_z, 0).
-struct alignas(16) BlockBox {
-  std::int16_t v[8];
-};
-
 /// Coordinates of a block's points; lanes without a point hold anything.
 struct alignas(16) BlockPoints {
   std::int16_t x[kBlock], y[kBlock], z[kBlock];
 };
 
-/// A box in the units of points.
-struct BlockSpan {
+struct BlockSpan {  ///< A box.
   std::int16_t center[3], half_width[3];
+};
+
+/// Boxes side by side. Each array can be read up to kChunk entries beyond its end.
+struct BlockSpans {
+  const std::int16_t *center[3], *half_width[3];
+  const std::int32_t* number;  ///< number[k] is k
 };
 
 /// Blocks that lie side by side and have a common shift.
 struct BlockRange {
   std::int32_t first, count;
-  BlockBox box_shift;           ///< to add to their boxes: (d, 0, -d, 0)
-  std::int16_t point_shift[4];  ///< to add to their points: (d, 0)
+  std::int16_t box_shift[3], point_shift[3];  ///< to add to their boxes and to their points
 };
 
 /// Points side by side: coordinates in one array each, and whose they are.
@@ -63,15 +62,17 @@ struct Unsettled {
 
 /// The loops that lists are made with, compiled for one instruction set. No function allocates.
 struct ListKernels {
-  /// Finds the blocks of some ranges whose boxes are near a box: sum of square(gap) <= limit over the axes.
-  /// Writes block and range of each. Returns how many; room for one more is needed.
-  std::int32_t (*collect)(const BlockBox& box, std::int16_t limit, const BlockBox* boxes,
+  /// Finds the blocks of some ranges whose boxes are near a box: sum of square(gap) < limit, with gap =
+  /// max(|difference of centers| - both half_widths, 0) along each axis. Writes them range after range, and
+  /// where those of each range end. Returns how many; room for kChunk more is needed.
+  std::int32_t (*collect)(const BlockSpan& box, std::int16_t limit, const BlockSpans& boxes,
                           const BlockRange* ranges, std::int32_t range_count, std::int32_t* block,
-                          std::int32_t* range);
+                          std::int32_t* range_end);
 
-  /// Copies the points of `count` blocks side by side, shifted by their ranges, with all lanes of each.
-  void (*gather)(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
-                 const BlockRange* ranges, const BlockPoints* points,
+  /// Copies the points of the blocks that collect() has found side by side, shifted by their ranges, with all
+  /// lanes of each.
+  void (*gather)(const std::int32_t* block, const std::int32_t* range_end, const BlockRange* ranges,
+                 std::int32_t range_count, const BlockPoints* points,
                  const std::int32_t* ids,   ///< kBlock a block
                  const std::int16_t* tags,  ///< the same, or null where there are none
                  const Candidates& to);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "list_kernels_loops.hpp"
 #include "list_kernels_sets.hpp"
-#include "x86_boxes.hpp"
+#include "x86_blocks.hpp"
 
 namespace dch::detail {
 namespace {
@@ -20,7 +20,7 @@ struct PackTable {
 constexpr PackTable kPack;
 constexpr PackTable16 kPack16;
 
-struct Avx2 : X86Boxes {
+struct Avx2 : X86Blocks {
   using V = __m256i;
   static constexpr int kLanes = 16;
   static constexpr std::uint32_t kAll = 0xFFFF;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "list_kernels_loops.hpp"
 #include "list_kernels_sets.hpp"
-#include "x86_boxes.hpp"
+#include "x86_blocks.hpp"
 
 namespace dch::detail {
 namespace {
 
-struct Avx512 : X86Boxes {
+struct Avx512 : X86Blocks {
   using V = __m512i;
   static constexpr int kLanes = 32;
   static constexpr std::uint32_t kAll = 0xFFFFFFFF;
@@ -33,6 +33,9 @@ struct Avx512 : X86Boxes {
     _mm512_storeu_si512(y, _mm512_maskz_compress_epi16(lanes, py));
     _mm512_storeu_si512(z, _mm512_maskz_compress_epi16(lanes, pz));
     return compress_chunk(lanes, from, to);
+  }
+  static std::int32_t compress_lanes(std::uint32_t mask, int, const std::int32_t* ids, std::int32_t* out) {
+    return compress_chunk(mask, ids, out);
   }
   // Compressed in a register, then stored whole: a compressing store is many times slower on some processors.
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {

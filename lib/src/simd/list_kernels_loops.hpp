@@ -13,37 +13,53 @@ namespace {
 // NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
 
 template <class Simd>
-std::int32_t collect(const BlockBox& box, std::int16_t limit, const BlockBox* boxes, const BlockRange* ranges,
-                     std::int32_t range_count, std::int32_t* block, std::int32_t* range) {
-  // lo_j - hi and lo - hi_j in one subtraction
-  const BlockBox opposite{{static_cast<std::int16_t>(-box.v[4]), static_cast<std::int16_t>(-box.v[5]),
-                           static_cast<std::int16_t>(-box.v[6]), 0, static_cast<std::int16_t>(-box.v[0]),
-                           static_cast<std::int16_t>(-box.v[1]), static_cast<std::int16_t>(-box.v[2]), 0}};
-  const auto other = Simd::load_box(opposite);
+std::int32_t collect(const BlockSpan& box, std::int16_t limit, const BlockSpans& boxes,
+                     const BlockRange* ranges, std::int32_t range_count, std::int32_t* block,
+                     std::int32_t* range_end) {
+  using V = typename Simd::V;
+  const V most = Simd::set1(limit);
+  const V wx = Simd::set1(box.half_width[0]), wy = Simd::set1(box.half_width[1]),
+          wz = Simd::set1(box.half_width[2]);
   std::int32_t found = 0;
   for (std::int32_t r = 0; r < range_count; ++r) {
-    const auto shift = Simd::load_box(ranges[r].box_shift);
-    for (std::int32_t b = ranges[r].first; b < ranges[r].first + ranges[r].count; ++b) {
-      block[found] = b;
-      range[found] = r;
-      found += Simd::box_gap2(Simd::shift_box(Simd::load_box(boxes[b]), shift), other) <= limit;
+    const V shift_x = Simd::set1(ranges[r].box_shift[0]), shift_y = Simd::set1(ranges[r].box_shift[1]),
+            shift_z = Simd::set1(ranges[r].box_shift[2]);
+    const V cx = Simd::sub(Simd::set1(box.center[0]), shift_x),
+            cy = Simd::sub(Simd::set1(box.center[1]), shift_y),
+            cz = Simd::sub(Simd::set1(box.center[2]), shift_z);
+    const std::int32_t end = ranges[r].first + ranges[r].count;
+    for (std::int32_t k = ranges[r].first; k < end; k += Simd::kLanes) {
+      const auto gap = [&](int axis, V center, V width) {
+        return Simd::above(Simd::abs(Simd::sub(Simd::load(boxes.center[axis] + k), center)),
+                           Simd::adds(Simd::load(boxes.half_width[axis] + k), width));
+      };
+      const V gx = gap(0, cx, wx), gy = gap(1, cy, wy), gz = gap(2, cz, wz);
+      const V t = Simd::adds(Simd::adds(Simd::square(gx), Simd::square(gy)), Simd::square(gz));
+      std::uint32_t lanes = Simd::bits_greater(most, t) & Simd::kAll;
+      if (end - k < Simd::kLanes) lanes &= ~(~0u << (end - k));
+      found += Simd::compress_lanes(lanes, Simd::kLanes, boxes.number + k, block + found);
     }
+    range_end[r] = found;
   }
   return found;
 }
 
 template <class Simd>
-void gather(const std::int32_t* block, const std::int32_t* range, std::int32_t count,
-            const BlockRange* ranges, const BlockPoints* points, const std::int32_t* ids,
+void gather(const std::int32_t* block, const std::int32_t* range_end, const BlockRange* ranges,
+            std::int32_t range_count, const BlockPoints* points, const std::int32_t* ids,
             const std::int16_t* tags, const Candidates& to) {
-  for (std::int32_t n = 0; n < count; ++n) {
-    const BlockPoints& from = points[block[n]];
-    const std::int16_t* shift = ranges[range[n]].point_shift;
-    Simd::copy_shifted(from.x, shift[0], to.x + n * kBlock);
-    Simd::copy_shifted(from.y, shift[1], to.y + n * kBlock);
-    Simd::copy_shifted(from.z, shift[2], to.z + n * kBlock);
-    Simd::copy_ids(ids + static_cast<std::int64_t>(block[n]) * kBlock, to.id + n * kBlock);
-    if (tags) Simd::copy_shifted(tags + static_cast<std::int64_t>(block[n]) * kBlock, 0, to.tag + n * kBlock);
+  std::int32_t n = 0;
+  for (std::int32_t r = 0; r < range_count; ++r) {
+    const std::int16_t* const shift = ranges[r].point_shift;
+    for (; n < range_end[r]; ++n) {
+      const BlockPoints& from = points[block[n]];
+      const std::int64_t first = static_cast<std::int64_t>(block[n]) * kBlock;
+      Simd::copy_shifted(from.x, shift[0], to.x + n * kBlock);
+      Simd::copy_shifted(from.y, shift[1], to.y + n * kBlock);
+      Simd::copy_shifted(from.z, shift[2], to.z + n * kBlock);
+      Simd::copy_ids(ids + first, to.id + n * kBlock);
+      if (tags) Simd::copy_shifted(tags + first, 0, to.tag + n * kBlock);
+    }
   }
 }
 

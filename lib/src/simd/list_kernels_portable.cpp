@@ -18,23 +18,12 @@ struct Portable {
     return static_cast<V>(static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b));
   }
   static V adds(V a, V b) { return saturated(a + b); }
-  static V max(V a, V b) { return a > b ? a : b; }
   static V abs(V a) { return static_cast<V>(a < 0 ? -a : a); }
   static V above(V a, V b) { return a > b ? static_cast<V>(a - b) : V{0}; }  // of numbers >= 0
   // -32768 squared does not fit: it comes out as -32768, as in the vector instruction
   static V square(V d) { return static_cast<V>(static_cast<std::uint16_t>((d * d + 0x4000) >> 15)); }
   static std::uint32_t bits_greater(V a, V b) { return a > b; }
 
-  static BlockBox load_box(const BlockBox& box) { return box; }
-  static BlockBox shift_box(BlockBox box, const BlockBox& shift) {
-    for (int k = 0; k < 8; ++k) box.v[k] = adds(box.v[k], shift.v[k]);
-    return box;
-  }
-  static int box_gap2(const BlockBox& box, const BlockBox& opposite) {
-    V sum = 0;
-    for (int k = 0; k < 8; ++k) sum = adds(sum, square(max(saturated(box.v[k] - opposite.v[k]), 0)));
-    return sum;
-  }
   static void copy_shifted(const std::int16_t* from, std::int16_t shift, std::int16_t* to) {
     for (int lane = 0; lane < kBlock; ++lane)
       to[lane] = static_cast<V>(static_cast<std::uint16_t>(from[lane]) + static_cast<std::uint16_t>(shift));
@@ -53,6 +42,9 @@ struct Portable {
     *z = pz;
     *to = *from;
     return static_cast<std::int32_t>(lane);
+  }
+  static std::int32_t compress_lanes(std::uint32_t mask, int, const std::int32_t* ids, std::int32_t* out) {
+    return compress_chunk(mask, ids, out);
   }
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     std::int32_t written = 0;

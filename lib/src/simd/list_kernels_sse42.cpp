@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "list_kernels_loops.hpp"
 #include "list_kernels_sets.hpp"
-#include "x86_boxes.hpp"
+#include "x86_blocks.hpp"
 
 namespace dch::detail {
 namespace {
@@ -21,7 +21,7 @@ struct PackTable {
 constexpr PackTable kPack;
 constexpr PackTable16 kPack16;
 
-struct Sse42 : X86Boxes {
+struct Sse42 : X86Blocks {
   using V = __m128i;
   static constexpr int kLanes = 8;
   static constexpr std::uint32_t kAll = 0xFF;

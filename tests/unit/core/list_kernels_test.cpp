@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -208,18 +209,16 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
   std::vector<BlockRange> ranges(4);
   for (BlockRange& range : ranges)
     for (int axis = 0; axis < 3; ++axis) range.point_shift[axis] = coordinate(random, 32767);
-  std::vector<std::int32_t> block(9), range(9);
-  for (std::size_t n = 0; n < block.size(); ++n) {
-    block[n] = static_cast<std::int32_t>(random.below(points.size()));
-    range[n] = static_cast<std::int32_t>(random.below(ranges.size()));
-  }
+  const std::vector<std::int32_t> range_end{2, 2, 6, 9};
+  std::vector<std::int32_t> block(9);
+  for (std::int32_t& b : block) b = static_cast<std::int32_t>(random.below(points.size()));
   CandidateArrays to(block.size() * kBlock, 1, random);
-  kernels().gather(block.data(), range.data(), 9, ranges.data(), points.data(), ids.data(), tags.data(),
+  kernels().gather(block.data(), range_end.data(), ranges.data(), 4, points.data(), ids.data(), tags.data(),
                    to.view());
   for (std::size_t n = 0; n < block.size(); ++n)
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
       const BlockPoints& from = points[block[n]];
-      const std::int16_t* shift = ranges[range[n]].point_shift;
+      const std::int16_t* shift = ranges[n < 2 ? 0 : n < 6 ? 2 : 3].point_shift;
       ASSERT_EQ(to.x[n * kBlock + lane], wrapped(from.x[lane] + shift[0]));
       ASSERT_EQ(to.y[n * kBlock + lane], wrapped(from.y[lane] + shift[1]));
       ASSERT_EQ(to.z[n * kBlock + lane], wrapped(from.z[lane] + shift[2]));
@@ -250,61 +249,75 @@ TEST_P(ListKernelsTest, CompressKeepsTheOrder) {
   }
 }
 
-int gap2(const BlockBox& a, const BlockBox& b) {
-  int sum = 0;
+BlockSpan random_span(scenes::Random& random, int most) {
+  BlockSpan span{};
   for (int axis = 0; axis < 3; ++axis) {
-    const int above = saturated(b.v[axis] + a.v[axis + 4]), below = saturated(b.v[axis + 4] + a.v[axis]);
-    sum = saturated(sum + square(std::max({above, below, 0})));
+    span.center[axis] = coordinate(random, most);
+    span.half_width[axis] = static_cast<std::int16_t>(random.below(3000));
   }
-  return sum;
+  return span;
 }
 
-BlockBox random_box(scenes::Random& random, int most) {
-  BlockBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int a = coordinate(random, most), b = coordinate(random, most);
-    box.v[axis] = static_cast<std::int16_t>(std::min(a, b));
-    box.v[axis + 4] = static_cast<std::int16_t>(-std::max(a, b));
+/// Boxes as the kernels take them.
+struct SpanArrays {
+  explicit SpanArrays(const std::vector<BlockSpan>& spans) {
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis].resize(spans.size() + kChunk);
+      half_width[axis].resize(spans.size() + kChunk);
+      for (std::size_t k = 0; k < spans.size(); ++k) {
+        center[axis][k] = spans[k].center[axis];
+        half_width[axis][k] = spans[k].half_width[axis];
+      }
+    }
+    for (std::size_t k = 0; k < spans.size() + kChunk; ++k) number.push_back(static_cast<std::int32_t>(k));
   }
-  return box;
-}
+  BlockSpans view() const {
+    return {{center[0].data(), center[1].data(), center[2].data()},
+            {half_width[0].data(), half_width[1].data(), half_width[2].data()},
+            number.data()};
+  }
+  std::vector<std::int16_t> center[3], half_width[3];
+  std::vector<std::int32_t> number;
+};
 
 TEST_P(ListKernelsTest, CollectFindsTheBoxesThatAreNear) {
   scenes::Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
-    std::vector<BlockBox> boxes(1 + random.below(90));
-    for (BlockBox& box : boxes) box = random_box(random, 8000);
+    std::vector<BlockSpan> spans(1 + random.below(90));
+    for (BlockSpan& span : spans) span = random_span(random, 8000);
+    const SpanArrays boxes(spans);
     std::vector<BlockRange> ranges(1 + random.below(6));
     std::size_t total = 0;
     for (BlockRange& range : ranges) {
       range = {};
-      range.first = static_cast<std::int32_t>(random.below(boxes.size()));
-      const std::size_t rest = boxes.size() - static_cast<std::size_t>(range.first);
+      range.first = static_cast<std::int32_t>(random.below(spans.size()));
+      const std::size_t rest = spans.size() - static_cast<std::size_t>(range.first);
       range.count = static_cast<std::int32_t>(random.below(rest + 1));
       total += static_cast<std::size_t>(range.count);
-      for (int axis = 0; axis < 3; ++axis) {
-        range.box_shift.v[axis] = coordinate(random, 20000);
-        range.box_shift.v[axis + 4] = static_cast<std::int16_t>(-range.box_shift.v[axis]);
-      }
+      for (std::int16_t& shift : range.box_shift) shift = coordinate(random, 11000);
     }
-    std::vector<std::int32_t> block(total + 1), range(total + 1);
-    const BlockBox around = random_box(random, 12000);
+    std::vector<std::int32_t> block(total + kChunk), range_end(ranges.size());
+    const BlockSpan around = random_span(random, 12000);
     const auto limit = static_cast<std::int16_t>(random.below(4000));
     const std::int32_t found =
-        kernels().collect(around, limit, boxes.data(), ranges.data(),
-                          static_cast<std::int32_t>(ranges.size()), block.data(), range.data());
+        kernels().collect(around, limit, boxes.view(), ranges.data(),
+                          static_cast<std::int32_t>(ranges.size()), block.data(), range_end.data());
     std::int32_t expected = 0;
-    for (std::size_t r = 0; r < ranges.size(); ++r)
+    for (std::size_t r = 0; r < ranges.size(); ++r) {
       for (std::int32_t b = ranges[r].first; b < ranges[r].first + ranges[r].count; ++b) {
-        BlockBox shifted = boxes[static_cast<std::size_t>(b)];
-        for (int k = 0; k < 8; ++k)
-          shifted.v[k] = static_cast<std::int16_t>(saturated(shifted.v[k] + ranges[r].box_shift.v[k]));
-        if (gap2(around, shifted) > limit) continue;
+        const BlockSpan& span = spans[static_cast<std::size_t>(b)];
+        int gap2 = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          const int apart = std::abs(span.center[axis] + ranges[r].box_shift[axis] - around.center[axis]);
+          gap2 =
+              saturated(gap2 + square(std::max(apart - span.half_width[axis] - around.half_width[axis], 0)));
+        }
+        if (gap2 >= limit) continue;
         ASSERT_LT(expected, found);
-        ASSERT_EQ(block[static_cast<std::size_t>(expected)], b);
-        ASSERT_EQ(range[static_cast<std::size_t>(expected)], static_cast<std::int32_t>(r));
-        ++expected;
+        ASSERT_EQ(block[static_cast<std::size_t>(expected++)], b);
       }
+      ASSERT_EQ(range_end[r], expected);
+    }
     ASSERT_EQ(found, expected);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the x86 sets have in common: a box, or one coordinate of a block's points, fills a 128-bit register.
+// What the x86 sets have in common: one coordinate of a block's points fills a 128-bit register.
 // See list_kernels_loops.hpp for the rules.
 #pragma once
 
@@ -24,7 +24,7 @@ struct PackTable16 {
   }
 };
 
-struct X86Boxes {
+struct X86Blocks {
   static __m128i packed16(__m128i lanes, const unsigned char* order) {
     return _mm_shuffle_epi8(lanes, _mm_load_si128(reinterpret_cast<const __m128i*>(order)));
   }
@@ -41,18 +41,6 @@ struct X86Boxes {
     const __m128i byte = _mm_set1_epi16(0xFF);
     return {_mm_packus_epi16(_mm_and_si128(first, byte), _mm_and_si128(second, byte)),
             _mm_packus_epi16(_mm_srli_epi16(first, 8), _mm_srli_epi16(second, 8))};
-  }
-  static __m128i load_box(const BlockBox& box) {
-    return _mm_load_si128(reinterpret_cast<const __m128i*>(box.v));
-  }
-  static __m128i shift_box(__m128i box, __m128i shift) { return _mm_adds_epi16(box, shift); }
-  static int box_gap2(__m128i box, __m128i opposite) {
-    const __m128i gap = _mm_max_epi16(_mm_subs_epi16(box, opposite), _mm_setzero_si128());
-    __m128i sum = _mm_mulhrs_epi16(gap, gap);
-    sum = _mm_adds_epi16(sum, _mm_srli_si128(sum, 8));
-    sum = _mm_adds_epi16(sum, _mm_srli_si128(sum, 4));
-    sum = _mm_adds_epi16(sum, _mm_srli_si128(sum, 2));
-    return static_cast<std::int16_t>(_mm_cvtsi128_si32(sum));
   }
   static void copy_shifted(const std::int16_t* from, std::int16_t shift, std::int16_t* to) {
     const __m128i points = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
