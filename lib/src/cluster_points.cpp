@@ -26,7 +26,7 @@ class BlockMeter {
     if constexpr (kIsBrick) cell_ = metric.brick();
   }
 
-  void measure(std::int32_t block, Vec3 center, float* offset, BlockExtremes& out) const {
+  void measure(std::int32_t block, Vec3 center, ClusterPoints::Offsets& offsets, BlockExtremes& out) const {
     const std::int32_t first = block * kBlock, count = blocks_.count[block];
     if constexpr (kIsBrick) {
       std::int32_t slots[kBlock];
@@ -34,7 +34,7 @@ class BlockMeter {
       const double from[3] = {center.x, center.y, center.z};
       const bool done = kernel_(cell_, &(positions_ ? positions_ : blocks_.position.data())->x,
                                 positions_ ? blocks_.id.data() + first : slots, count, from, covered2_,
-                                &blocks_.position[first].x, offset, out);
+                                &blocks_.position[first].x, offsets.axis[0], out);
       if (done) return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -47,7 +47,7 @@ class BlockMeter {
       if (positions_) blocks_.position[slot] = metric_.wrap(positions_[blocks_.id[slot]]);
       const Vec3 at = metric_.displacement(center, blocks_.position[slot]);
       for (int axis = 0; axis < 3; ++axis) {
-        *offset++ = static_cast<float>(at[axis]);
+        offsets.axis[axis][slot - first] = static_cast<float>(at[axis]);
         out.low[axis] = std::min(out.low[axis], at[axis]);
         out.high[axis] = std::max(out.high[axis], at[axis]);
       }
@@ -67,11 +67,12 @@ class BlockMeter {
 };
 
 /// Holds the rounded points between the corners, and the corners themselves.
-BlockSpan span_around(Vec3 low, Vec3 high, double per_unit) {
+BlockSpan span_around(const ClusterPoints::Corners& corners, float per_unit) {
   BlockSpan span{};
   for (int axis = 0; axis < 3; ++axis) {
-    span.center[axis] = rounded(0.5 * (low[axis] + high[axis]) * per_unit);
-    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5 * (high[axis] - low[axis]) * per_unit) + 2);
+    const float low = corners.low[axis] * per_unit, high = corners.high[axis] * per_unit;
+    span.center[axis] = rounded(0.5f * (low + high));
+    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5f * (high - low)) + 2);
   }
   return span;
 }
@@ -114,9 +115,8 @@ void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
   const std::size_t most = from.cluster.size();
   source.resize(most);
   count.resize(most);
-  low.resize(most);
-  high.resize(most);
-  offset.resize(most * kBlock);
+  corners.resize(most);
+  offsets.resize(most);
   blocks = 0;
   for (std::int32_t k = 0; k < centers.size(); ++k) {
     clusters[k].first_block = blocks;
@@ -151,30 +151,69 @@ void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const Point
   Vec3 cluster_low{}, cluster_high{};  // the center is in the box
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
     BlockExtremes measured;
-    meter.measure(source[b], center, &offset[static_cast<std::size_t>(b) * kBlock].x, measured);
-    low[b] = {measured.low[0], measured.low[1], measured.low[2]};
-    high[b] = {measured.high[0], measured.high[1], measured.high[2]};
+    meter.measure(source[b], center, offsets[b], measured);
+    const Vec3 low{measured.low[0], measured.low[1], measured.low[2]};
+    const Vec3 high{measured.high[0], measured.high[1], measured.high[2]};
+    for (int axis = 0; axis < 3; ++axis) {
+      corners[b].low[axis] = static_cast<float>(low[axis]);
+      corners[b].high[axis] = static_cast<float>(high[axis]);
+    }
     count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
     extent2 = std::max(extent2, measured.extent2);
     cluster.uncovered += measured.uncovered;
-    cluster.block_width = std::max(cluster.block_width, longest(high[b] - low[b]));
-    cluster_low = lower(cluster_low, low[b]);
-    cluster_high = upper(cluster_high, high[b]);
+    cluster.block_width = std::max(cluster.block_width, longest(high - low));
+    cluster_low = lower(cluster_low, low);
+    cluster_high = upper(cluster_high, high);
   }
   cluster.extent = std::sqrt(extent2);
   cluster.width = longest(cluster_high - cluster_low);
 }
 
-void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
-                             Span<const std::int32_t> particle_of_id, const PairFilter& filter,
-                             Executor* executor) {
+void ClusterPoints::name(const PointBlocks& from, Span<const std::int32_t> particle_of_id,
+                         const PairFilter& filter, Executor* executor) {
+  const auto all = static_cast<std::size_t>(blocks);
+  ids.resize(all);
+  owned.resize(all);
+  radii.resize(filter.by() == PairFilter::By::radii ? all : 0);
+  tags.resize(filter.by() == PairFilter::By::one_cutoff ? 0 : all);
+  for_ranges(executor, static_cast<std::int32_t>(clusters.size()),
+             [&](std::int32_t first, std::int32_t last) {
+               for (std::int32_t k = first; k < last; ++k) {
+                 Cluster& cluster = clusters[k];
+                 cluster.owned = filter.params().first_ghost < 0;
+                 for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
+                   name_block(b, from, particle_of_id, filter);
+                   cluster.owned |= owned[b] != 0;
+                 }
+               }
+             });
+}
+
+void ClusterPoints::name_block(std::int32_t b, const PointBlocks& from,
+                               Span<const std::int32_t> particle_of_id, const PairFilter& filter) {
+  const ListParams& params = filter.params();
+  std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
+  for (int lane = 0; lane < count[b] && !particle_of_id.empty(); ++lane)
+    ids[b][lane] = particle_of_id[ids[b][lane]];
+  owned[b] = params.first_ghost < 0;
+  for (int lane = 0; lane < count[b] && !owned[b]; ++lane) owned[b] = ids[b][lane] < params.first_ghost;
+  if (!radii.empty()) {
+    radii[b].fill(0);
+    for (int lane = 0; lane < count[b]; ++lane)
+      radii[b][lane] = static_cast<float>(params.radii[ids[b][lane]]);
+  } else if (!tags.empty()) {
+    tags[b].fill(0);
+    for (int lane = 0; lane < count[b]; ++lane)
+      tags[b][lane] = static_cast<std::int16_t>(params.types[ids[b][lane]] % kKernelTypes);
+  }
+}
+
+void ClusterPoints::quantize(const ListUnits& to_units, Executor* executor) {
   units = to_units;
   per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(blocks);
   points.resize(all);
-  ids.resize(all);
   spans.resize(all);
-  owned.resize(all);
   for (int axis = 0; axis < 3; ++axis) {
     box_center_[axis].resize(all + kChunk);
     box_half_width_[axis].resize(all + kChunk);
@@ -183,50 +222,25 @@ void ClusterPoints::quantize(const PointBlocks& from, const ListUnits& to_units,
     number_.resize(all + kChunk);
     std::iota(number_.begin(), number_.end(), 0);
   }
-  tags.resize(filter.by() == PairFilter::By::one_cutoff ? 0 : all);
-  for_ranges(executor, static_cast<std::int32_t>(clusters.size()),
-             [&](std::int32_t first, std::int32_t last) {
-               for (std::int32_t k = first; k < last; ++k)
-                 quantize_cluster(from, particle_of_id, filter, clusters[k]);
-             });
+  for_ranges(executor, blocks, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t b = first; b < last; ++b) quantize_block(b);
+  });
 }
 
-void ClusterPoints::quantize_cluster(const PointBlocks& from, Span<const std::int32_t> particle_of_id,
-                                     const PairFilter& filter, Cluster& cluster) {
-  const auto per_point_unit = static_cast<float>(per_unit.point);
-  const std::int32_t first_ghost = filter.params().first_ghost;
-  cluster.owned = first_ghost < 0;
-  for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
-    const Offset* at = offset.data() + static_cast<std::size_t>(b) * kBlock;
-    for (int lane = 0; lane < kBlock; ++lane) {  // whatever empty lanes hold
-      points[b].x[lane] = rounded(at[lane].x * per_point_unit);
-      points[b].y[lane] = rounded(at[lane].y * per_point_unit);
-      points[b].z[lane] = rounded(at[lane].z * per_point_unit);
-    }
-    const BlockSpan box = span_around(low[b], high[b], per_unit.box);
-    for (int axis = 0; axis < 3; ++axis) {
-      box_center_[axis][b] = box.center[axis];
-      box_half_width_[axis][b] = box.half_width[axis];
-    }
-    spans[b] = span_around(low[b], high[b], per_unit.point);
-    std::copy_n(from.id.data() + static_cast<std::size_t>(source[b]) * kBlock, kBlock, ids[b].data());
-    for (int lane = 0; lane < count[b] && !particle_of_id.empty(); ++lane)
-      ids[b][lane] = particle_of_id[ids[b][lane]];
-    owned[b] = first_ghost < 0;
-    for (int lane = 0; lane < count[b] && !owned[b]; ++lane) owned[b] = ids[b][lane] < first_ghost;
-    if (!tags.empty()) tag_block(b, filter);
-    cluster.owned |= owned[b] != 0;
-  }
-}
-
-void ClusterPoints::tag_block(std::int32_t block, const PairFilter& filter) {
-  tags[block].fill(0);
-  const ListParams& params = filter.params();
-  for (int lane = 0; lane < count[block]; ++lane) {
-    const std::int32_t particle = ids[block][lane];
-    tags[block][lane] = filter.by() == PairFilter::By::radii
-                            ? rounded(params.radii[particle] / units.point)
-                            : static_cast<std::int16_t>(params.types[particle] % kKernelTypes);
+void ClusterPoints::quantize_block(std::int32_t b) {
+  const auto per_point = static_cast<float>(per_unit.point), per_box = static_cast<float>(per_unit.box);
+  const auto round_all = [&](const float* from, std::int16_t* to) {
+    for (int lane = 0; lane < kBlock; ++lane) to[lane] = rounded(from[lane] * per_point);
+  };
+  round_all(offsets[b].axis[0], points[b].x);  // whatever empty lanes hold
+  round_all(offsets[b].axis[1], points[b].y);
+  round_all(offsets[b].axis[2], points[b].z);
+  if (!radii.empty()) round_all(radii[b].data(), tags[b].data());
+  spans[b] = span_around(corners[b], per_point);
+  const BlockSpan box = span_around(corners[b], per_box);
+  for (int axis = 0; axis < 3; ++axis) {
+    box_center_[axis][b] = box.center[axis];
+    box_half_width_[axis][b] = box.half_width[axis];
   }
 }
 
@@ -259,9 +273,9 @@ std::size_t ClusterPoints::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   std::size_t bytes = bytes_of(number_);
   for (int axis = 0; axis < 3; ++axis) bytes += bytes_of(box_center_[axis]) + bytes_of(box_half_width_[axis]);
-  return bytes + bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offset) + bytes_of(low) +
-         bytes_of(high) + bytes_of(points) + bytes_of(spans) + bytes_of(ids) + bytes_of(tags) +
-         bytes_of(owned);
+  return bytes + bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offsets) +
+         bytes_of(corners) + bytes_of(radii) + bytes_of(points) + bytes_of(spans) + bytes_of(ids) +
+         bytes_of(tags) + bytes_of(owned);
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                             \

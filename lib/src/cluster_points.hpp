@@ -35,8 +35,13 @@ struct ClusterPoints {
     std::int32_t uncovered = 0;  ///< points farther from the center than asked
     bool owned = true;           ///< whether a point is not a ghost
   };
-  struct Offset {
-    float x, y, z;
+  /// Positions of a block's points relative to the cluster's center [length].
+  struct Offsets {
+    float axis[3][kBlock];
+  };
+  /// The box around them [length].
+  struct Corners {
+    float low[3], high[3];
   };
 
   /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
@@ -51,9 +56,12 @@ struct ClusterPoints {
   void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, PointBlocks& points,
                double covered2, Executor* executor);
 
-  /// Rounds everything to the units. `filter` says what the cutoffs of pairs depend on.
-  void quantize(const PointBlocks& points, const ListUnits& units, Span<const std::int32_t> particle_of_id,
-                const PairFilter& filter, Executor* executor);
+  /// Takes from `filter` which points are ghosts and what the cutoffs of pairs depend on.
+  /// @param particle_of_id empty where ids are those of the particles
+  void name(const PointBlocks& points, Span<const std::int32_t> particle_of_id, const PairFilter& filter,
+            Executor* executor);
+  /// Rounds everything to the units. To be called after name().
+  void quantize(const ListUnits& units, Executor* executor);
 
   /// Box around blocks [first, last) of a cluster.
   BlockSpan span_of(std::int32_t first, std::int32_t last) const;
@@ -69,11 +77,16 @@ struct ClusterPoints {
   std::int32_t blocks = 0;
   std::vector<std::int32_t> source;  ///< by block: the block of PointBlocks
   std::vector<std::uint8_t> count;   ///< by block: number of points
-  std::vector<Offset> offset;        ///< by slot: position relative to the cluster's center [length]
-  std::vector<Vec3> low, high;       ///< by block: corners of the box around its points [length]
+  std::vector<Offsets> offsets;      ///< by block
+  std::vector<Corners> corners;      ///< by block
   double largest_extent = 0;         ///< of a cluster
   double largest_width = 0;
   double largest_block_width = 0;
+
+  // What name() makes, by block
+  std::vector<std::array<std::int32_t, kBlock>> ids;  ///< particles
+  std::vector<std::array<float, kBlock>> radii;       ///< [length]; empty if cutoffs do not depend on them
+  std::vector<std::uint8_t> owned;                    ///< whether a point is not a ghost
 
   // What quantize() makes
   ListUnits units;
@@ -82,10 +95,8 @@ struct ClusterPoints {
   } per_unit;                       ///< the inverse [1/length]
   std::vector<BlockPoints> points;  ///< by block, as all below
   std::vector<BlockSpan> spans;
-  std::vector<std::array<std::int32_t, kBlock>> ids;   ///< particles
   std::vector<std::array<std::int16_t, kBlock>> tags;  ///< what their cutoffs depend on, 0 in empty lanes:
                                                        ///< radii in units or types; empty if nothing
-  std::vector<std::uint8_t> owned;                     ///< whether a point is not a ghost
 
  private:
   AlignedVector<std::int16_t> box_center_[3], box_half_width_[3];
@@ -97,9 +108,9 @@ struct ClusterPoints {
                    double covered2, Executor* executor);
   template <class Meter>
   void measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& points, Cluster& cluster);
-  void quantize_cluster(const PointBlocks& points, Span<const std::int32_t> particle_of_id,
-                        const PairFilter& filter, Cluster& cluster);
-  void tag_block(std::int32_t block, const PairFilter& filter);
+  void name_block(std::int32_t block, const PointBlocks& points, Span<const std::int32_t> particle_of_id,
+                  const PairFilter& filter);
+  void quantize_block(std::int32_t block);
 };
 
 /// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.

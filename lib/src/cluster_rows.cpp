@@ -57,13 +57,15 @@ void ClusterRows::find(const Metric& metric, const ListScene& scene,
       find_by_distance(metric, scene.sources.front(), *filters[r], *out[r]);
     return;
   }
+  for (const ListSource& source : scene.sources)
+    source.points->name(*source.blocks, source.particle_of_id, *filters.front(), scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
     RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};
     for (std::size_t turn = 0; turn <= s; ++turn) {
       const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
       const ListSource& source = scene.sources[a];
-      source.points->quantize(*source.blocks, units, source.particle_of_id, *filters.front(), scene.executor);
+      source.points->quantize(units, scene.executor);
       const double reach = scene.reach_of(s, a);
       const double extents = scene.sources[s].points->largest_extent + source.points->largest_extent;
       const bool one_image =

@@ -57,8 +57,10 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error
       widen(largest, rounding.band(largest) + 1);
       return;
     case PairFilter::By::radii: {
-      // The kernels round two radii and the skin, hence their sum by up to 3/2, and its square once more.
-      const double off = (3 * largest / point_unit + 2.25) / kSquareScale + 0.5;
+      // The kernels round two radii and the skin, hence their sum by up to 3/2 (rounding in float adds 0.01
+      // at most), and its square once more.
+      constexpr double kOff = 1.51;
+      const double off = (2 * kOff * largest / point_unit + kOff * kOff) / kSquareScale + 0.5;
       const double whole = std::floor(rounding.band(largest) + off) + 1;
       band = clamped(whole);
       skin = clamped(std::round(params.skin / point_unit));

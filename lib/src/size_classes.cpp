@@ -65,6 +65,47 @@ void widen_by_types(const ListParams& params, SizeClasses& classes) {
 
 }  // namespace
 
+bool SizeRecord::has_sizes_of(const ListParams& request, const ListParams& other) {
+  return request.radii.data() == other.radii.data() && request.radii.size() == other.radii.size() &&
+         request.types.data() == other.types.data() && request.types.size() == other.types.size();
+}
+
+bool SizeRecord::says_the_same(Span<const ListParams> requests) const {
+  if (requests.size() != each_.size()) return false;
+  for (std::size_t r = 0; r < each_.size(); ++r) {
+    const Request& kept = each_[r];
+    const ListParams& request = requests[r];
+    if (request.skin != kept.skin || !(request.cutoffs == kept.cutoffs)) return false;
+    if (kept.has_sizes_of_first) {
+      if (!has_sizes_of(request, requests[0])) return false;
+    } else if (!std::equal(request.radii.begin(), request.radii.end(), kept.radii.begin(),
+                           kept.radii.end()) ||
+               !std::equal(request.types.begin(), request.types.end(), kept.types.begin(),
+                           kept.types.end())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void SizeRecord::keep(Span<const ListParams> requests) {
+  each_.clear();
+  for (const ListParams& request : requests) {
+    const bool known = !each_.empty() && has_sizes_of(request, requests[0]);
+    each_.push_back({request.skin, request.cutoffs, {}, {}, known});
+    if (known) continue;
+    each_.back().radii.assign(request.radii.begin(), request.radii.end());
+    each_.back().types.assign(request.types.begin(), request.types.end());
+  }
+}
+
+std::size_t SizeRecord::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const Request& request : each_)
+    bytes += request.radii.capacity() * sizeof(double) + request.types.capacity() * sizeof(std::int32_t);
+  return bytes;
+}
+
 /// Classes between powers of the ratio; those that no particle is in are left out.
 template <class Size>
 void SizeClasses::divide(const Size& size, double smallest, double largest) {
@@ -85,11 +126,9 @@ void SizeClasses::divide(const Size& size, double smallest, double largest) {
   for (std::int32_t& number : of) number = class_of[number];
 }
 
-SizeClasses::SizeClasses(Span<const ListParams> requests, std::size_t n, double farthest) : of(n, 0) {
-  const bool can_be_told_apart =
-      std::all_of(requests.begin(), requests.end(),
-                  [&](const ListParams& request) { return request.list_radius() < farthest; });
-  if (n > 0 && can_be_told_apart) {
+SizeClasses::SizeClasses(Span<const ListParams> requests, std::size_t n, bool told_apart)
+    : count(1), of(n, 0) {
+  if (n > 0 && told_apart) {
     const Sizes size(requests[0]);
     double smallest = size[0], largest = size[0];
     for (std::size_t i = 0; i < n; ++i) {

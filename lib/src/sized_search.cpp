@@ -48,6 +48,7 @@ SizedSearch::SizedSearch(const HierarchyParams& params) : params_(params) {
 void SizedSearch::clear() {
   for (const Group& group : groups_) retire(*group.search);
   groups_.clear();
+  sizes_.forget();
   positions_.clear();
   keys_.clear();
   stale_ = false;
@@ -83,15 +84,9 @@ void SizedSearch::lists(Span<const ListParams> requests, std::vector<NeighborLis
 
 void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
   if (requests.empty()) return;
-  for (const ListParams& request : requests) check_list_params(request, positions_.size(), params_.radius);
   const auto start = Clock::now();
-  // One class where two images of a particle may tie at the cutoff, up to rounding.
-  constexpr double kTie = 1e-6;
-  const double farthest = box_.any_periodic()
-                              ? box_.max_cutoff() * (1 - kTie) - 4 * WrapError(box_).bound(largest_reach_)
-                              : std::numeric_limits<double>::infinity();
-  const SizeClasses classes(requests, positions_.size(), farthest);
-  bring_up_to_date(classes);
+  classify(requests);
+  bring_up_to_date();
   maintain_seconds_ += seconds_since(start);
 
   const auto listing = Clock::now();
@@ -103,44 +98,65 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
     sources.push_back(hierarchy.list_source(group.particle));
   }
   error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
-  ListScene scene{box_, std::move(sources), classes.reach, error, params_.executor};
+  ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
   for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
   list_finder_.find(scene, positions_, requests, out);
   list_seconds_ += seconds_since(listing);
 }
 
+/// Checks the requests and sorts the particles into classes, unless sizes are what they were.
+void SizedSearch::classify(Span<const ListParams> requests) {
+  // One class where two images of a particle may tie at the cutoff, up to rounding.
+  constexpr double kTie = 1e-6;
+  const double farthest = box_.any_periodic()
+                              ? box_.max_cutoff() * (1 - kTie) - 4 * WrapError(box_).bound(largest_reach_)
+                              : std::numeric_limits<double>::infinity();
+  for (const ListParams& request : requests) check_list_params(request, positions_.size(), params_.radius);
+  const bool are_known = classes_.of.size() == positions_.size() && sizes_.says_the_same(requests);
+  if (!are_known) {
+    largest_radius_ = 0;
+    for (const ListParams& request : requests)
+      largest_radius_ = std::max(largest_radius_, request.list_radius());
+  }
+  const bool can_be_told_apart = largest_radius_ < farthest;
+  if (are_known && can_be_told_apart == told_apart_) return;
+  sizes_.forget();
+  classes_ = SizeClasses(requests, positions_.size(), can_be_told_apart);
+  sizes_.keep(requests);
+  told_apart_ = can_be_told_apart;
+  assign_particles();
+}
+
 /// Each group gets the particles of its class, in their order.
-void SizedSearch::assign_groups(const SizeClasses& classes) {
-  while (groups_.size() > classes.count) {
+void SizedSearch::assign_particles() {
+  while (groups_.size() > classes_.count) {
     retire(*groups_.back().search);
     groups_.pop_back();
   }
-  groups_.resize(classes.count);
-  std::vector<std::vector<std::int32_t>> members(classes.count);
-  for (std::size_t i = 0; i < classes.of.size(); ++i)
-    members[classes.of[i]].push_back(static_cast<std::int32_t>(i));
-  for (std::size_t g = 0; g < classes.count; ++g) {
-    Group& group = groups_[g];
-    group.is_new = group.particle != members[g];
-    group.particle = std::move(members[g]);
-    group.positions.resize(group.particle.size());
-    group.keys.resize(keys_.empty() ? 0 : group.particle.size());
-    for (std::size_t k = 0; k < group.particle.size(); ++k) {
-      group.positions[k] = positions_[group.particle[k]];
-      if (!keys_.empty()) group.keys[k] = keys_[group.particle[k]];
-    }
+  groups_.resize(classes_.count);
+  std::vector<std::vector<std::int32_t>> members(classes_.count);
+  for (std::size_t i = 0; i < classes_.of.size(); ++i)
+    members[classes_.of[i]].push_back(static_cast<std::int32_t>(i));
+  for (std::size_t g = 0; g < classes_.count; ++g) {
+    groups_[g].is_new = groups_[g].particle != members[g];
+    groups_[g].particle = std::move(members[g]);
   }
 }
 
-void SizedSearch::bring_up_to_date(const SizeClasses& classes) {
-  assign_groups(classes);
+void SizedSearch::take_positions(Group& group) const {
+  group.positions.resize(group.particle.size());
+  group.keys.resize(keys_.empty() ? 0 : group.particle.size());
+  for (std::size_t k = 0; k < group.particle.size(); ++k) group.positions[k] = positions_[group.particle[k]];
+  for (std::size_t k = 0; k < group.keys.size(); ++k) group.keys[k] = keys_[group.particle[k]];
+}
+
+void SizedSearch::bring_up_to_date() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
-    const double wanted = own_reach(classes, g);
-    const bool is_named = !group.keys.empty();
+    const double wanted = own_reach(classes_, g);
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
-    if (!group.search || !fits || (group.is_new && !is_named)) {
+    if (!group.search || !fits || (group.is_new && keys_.empty())) {
       if (group.search) retire(*group.search);
       HierarchyParams own = params_;
       own.radius = wanted;
@@ -149,7 +165,9 @@ void SizedSearch::bring_up_to_date(const SizeClasses& classes) {
     } else if (!stale_ && !group.is_new) {
       continue;
     }
+    take_positions(group);
     group.search->update(group.positions, box_, group.keys);
+    group.is_new = false;
   }
   stale_ = false;
 }
@@ -157,6 +175,7 @@ void SizedSearch::bring_up_to_date(const SizeClasses& classes) {
 const SearchStats& SizedSearch::stats() const {
   stats_ = retired_;
   stats_.memory_bytes = positions_.capacity() * sizeof(Vec3) + keys_.capacity() * sizeof(std::uint64_t) +
+                        classes_.of.capacity() * sizeof(std::int32_t) + sizes_.memory_bytes() +
                         list_finder_.memory_bytes();
   for (const Group& group : groups_) {
     const SearchStats& own = group.search->stats();

@@ -45,8 +45,10 @@ class SizedSearch final : public PairSearch {
 
   void clear();
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
-  void assign_groups(const SizeClasses& classes);
-  void bring_up_to_date(const SizeClasses& classes);
+  void classify(Span<const ListParams> requests);
+  void assign_particles();
+  void take_positions(Group& group) const;
+  void bring_up_to_date();
   void retire(const DchSearch& search);
 
   HierarchyParams params_;
@@ -56,6 +58,10 @@ class SizedSearch final : public PairSearch {
   std::vector<std::uint64_t> keys_;
   KeyTable key_table_;  ///< finds keys that repeat
   bool stale_ = false;  ///< whether positions have come that the groups do not have
+  SizeRecord sizes_;    ///< that the classes were made from
+  double largest_radius_ = 0;
+  bool told_apart_ = false;  ///< whether there may be several classes
+  SizeClasses classes_;
   std::vector<Group> groups_;
   ListFinder list_finder_;
   std::int64_t updates_ = 0;

@@ -58,6 +58,9 @@ class TypeCutoffs {
   }
   double largest() const { return largest_; }
 
+  friend bool operator==(const TypeCutoffs& a, const TypeCutoffs& b) { return a.matrix_ == b.matrix_; }
+  friend bool operator!=(const TypeCutoffs& a, const TypeCutoffs& b) { return !(a == b); }
+
  private:
   int types_ = 1;
   std::vector<double> matrix_;

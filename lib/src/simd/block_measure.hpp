@@ -27,9 +27,9 @@ struct BlockExtremes {
 
 /// Takes the positions of `count` points of a block (3 numbers a point; `index` says which), wraps them into
 /// the cell, writes the images to `wrapped` (3 numbers a slot) and their displacements from the center to
-/// `offset`; entries beyond `count` are overwritten. In double throughout, the same as OrthorhombicMetric
-/// does it, so the same on every instruction set. Returns false, and nothing of use, if a point lies more
-/// than a cell away.
+/// `offset` (kBlock numbers an axis); entries beyond `count` are overwritten. In double throughout, the same
+/// as OrthorhombicMetric does it, so the same on every instruction set. Returns false, and nothing of use, if
+/// a point lies more than a cell away.
 using MeasureBlock = bool (*)(const BrickCell& cell, const double* positions, const std::int32_t* index,
                               std::int32_t count, const double* center, double covered2, double* wrapped,
                               float* offset, BlockExtremes& out);

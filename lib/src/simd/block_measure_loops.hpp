@@ -70,15 +70,14 @@ inline bool measure_block_loops(const BrickCell& cell, const double* positions, 
   out.uncovered = 0;
   for (std::int32_t lane = 0; out.extent2 > covered2 && lane < count; ++lane)
     out.uncovered += distance2[lane] > covered2;
-  FloatLanes rounded[3];
-  for (int axis = 0; axis < 3; ++axis) rounded[axis] = __builtin_convertvector(relative[axis], FloatLanes);
+  for (int axis = 0; axis < 3; ++axis) {
+    const FloatLanes rounded = __builtin_convertvector(relative[axis], FloatLanes);
+    __builtin_memcpy(offset + axis * kBlock, &rounded, sizeof rounded);
+  }
   std::int64_t any_outside = 0;
   for (int lane = 0; lane < kBlock; ++lane) {
     any_outside |= outside[lane];
-    for (int axis = 0; axis < 3; ++axis) {
-      wrapped[3 * lane + axis] = at[axis][lane];
-      offset[3 * lane + axis] = rounded[axis][lane];
-    }
+    for (int axis = 0; axis < 3; ++axis) wrapped[3 * lane + axis] = at[axis][lane];
   }
   return any_outside == 0;
 }

@@ -57,7 +57,7 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
         extent2 = std::max(extent2, norm2(at));
         uncovered += norm2(at) > covered2;
         for (int axis = 0; axis < 3; ++axis) {
-          EXPECT_EQ(m.offset[3 * lane + axis], static_cast<float>(at[axis]));
+          EXPECT_EQ(m.offset[axis * kBlock + lane], static_cast<float>(at[axis]));
           EXPECT_LE(m.extremes.low[axis], at[axis]);
           EXPECT_GE(m.extremes.high[axis], at[axis]);
         }
