@@ -72,8 +72,10 @@ void ClusterRows::find(const Metric& metric, const ListScene& scene,
           !scene.box.any_periodic() || (reach + extents) * kInflate < scene.box.max_cutoff();
       rows.near.push_back({&source, reach, box_limit(reach, units), one_image});
     }
+    double farthest = 0;
+    for (const NearSource& near : rows.near) farthest = std::max(farthest, near.reach);
     for (std::size_t r = 0; r < out.size(); ++r) {
-      rows.requests.push_back({filters[r], ListLimits(*filters[r], units.point, scene.error)});
+      rows.requests.push_back({filters[r], ListLimits(*filters[r], units.point, farthest, scene.error)});
       if (filters[r]->params().superset)
         out[r]->margin = std::max(out[r]->margin, rows.requests.back().limits.margin);
     }

@@ -24,9 +24,7 @@ class Rounding {
   double band(double reach) const {
     return (2 * off_ * reach / unit_ + off_ * off_) / kSquareScale + 1.5 + 1e-6;
   }
-  /// Squares of what a pair's distance in units is at most, and at least, if the pair is beyond doubt.
-  std::int64_t sure_in(double reach) const { return squared(std::max(reach / unit_ - off_, 0.0)) - 1; }
-  std::int64_t sure_out(double reach) const { return squared(reach / unit_ + off_) + 1; }
+  double off() const { return off_; }
   std::int16_t in(double reach) const { return clamped(std::floor(limit(reach) - band(reach)) + 1); }
   std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
   /// How far beyond `reach` a pair with a square below limit(reach) + `above` may be [length].
@@ -35,37 +33,39 @@ class Rounding {
   }
 
  private:
-  static std::int64_t squared(double units) { return static_cast<std::int64_t>(units * units); }
   double unit_, off_;
 };
 
 }  // namespace
 
-ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error) : by(filter.by()) {
+ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach, double error)
+    : by(filter.by()) {
   const Rounding rounding(point_unit, error);
   const ListParams& params = filter.params();
   const double largest = std::sqrt(filter.largest_distance2());
-  const auto widen = [&](double reach, double above) {
-    margin = std::max(margin, rounding.margin(reach, above));
+  const auto widen = [&](double pair_reach, double above) {
+    margin = std::max(margin, rounding.margin(pair_reach, above));
   };
   switch (by) {
     case PairFilter::By::one_cutoff:
       in = rounding.in(largest);
       out = rounding.out(largest);
-      sure_in = rounding.sure_in(largest);
-      sure_out = rounding.sure_out(largest);
+      cutoff = largest / point_unit;
+      off = rounding.off();
       widen(largest, rounding.band(largest) + 1);
       return;
     case PairFilter::By::radii: {
       // The kernels round two radii and the skin, hence their sum by up to 3/2 (rounding in float adds 0.01
       // at most), and its square once more.
       constexpr double kOff = 1.51;
-      const double off = (2 * kOff * largest / point_unit + kOff * kOff) / kSquareScale + 0.5;
-      const double whole = std::floor(rounding.band(largest) + off) + 1;
+      off = rounding.off() + kOff;
+      const double farthest_pair = std::min(largest, reach);
+      const double sizes = (2 * kOff * farthest_pair / point_unit + kOff * kOff) / kSquareScale + 0.5;
+      const double whole = std::floor(rounding.band(farthest_pair) + sizes) + 1;
       band = clamped(whole);
       skin = clamped(std::round(params.skin / point_unit));
       const double least = *std::min_element(params.radii.begin(), params.radii.end());
-      widen(2 * least + params.skin, whole + off);
+      widen(2 * least + params.skin, whole + sizes);
       return;
     }
     case PairFilter::By::types:
@@ -77,6 +77,8 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error
     out = rounding.out(largest);
     return;  // decided pair by pair, whatever the margin
   }
+  off = rounding.off();
+  type_cutoff.resize(static_cast<std::size_t>(types));
   type_in.resize(static_cast<std::size_t>(types));
   type_out.resize(static_cast<std::size_t>(types));
   farthest = {};
@@ -84,11 +86,12 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double error
   for (int a = 0; a < types; ++a) {
     for (int b = 0; b < types; ++b) {
       if (params.cutoffs(a, b) == 0) continue;
-      const double reach = params.cutoffs(a, b) + params.skin;
-      type_in[a].limit[b] = rounding.in(reach);
-      type_out[a].limit[b] = rounding.out(reach);
+      const double far = params.cutoffs(a, b) + params.skin;
+      type_cutoff[a][b] = far / point_unit;
+      type_in[a].limit[b] = rounding.in(far);
+      type_out[a].limit[b] = rounding.out(far);
       farthest.limit[b] = std::max(farthest.limit[b], type_out[a].limit[b]);
-      widen(reach, rounding.band(reach) + 1);
+      widen(far, rounding.band(far) + 1);
     }
   }
 }

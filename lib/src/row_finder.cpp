@@ -231,14 +231,27 @@ void RowFinder::test_block(const Request& request, const ClusterPoints& points, 
 }
 
 /// In units, without the roundings of the kernels' squares.
-std::int64_t RowFinder::squared_distance(const BlockPoints& points, std::int32_t row,
-                                         const CandidateStore& near, std::int32_t at) {
+double RowFinder::squared_distance(const BlockPoints& points, std::int32_t row, const CandidateStore& near,
+                                   std::int32_t at) {
   const auto square = [](std::int16_t a, std::int16_t b) {
-    const std::int64_t d = static_cast<std::int16_t>(a - b);
+    const double d = static_cast<std::int16_t>(a - b);
     return d * d;
   };
   return square(near.x[at], points.x[row]) + square(near.y[at], points.y[row]) +
          square(near.z[at], points.z[row]);
+}
+
+/// Of a point of a block with one that has this tag [units].
+double RowFinder::cutoff_of(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
+                            std::int32_t row, std::int16_t tag) {
+  switch (limits.by) {
+    case PairFilter::By::radii:
+      return points.tags[block][row] + tag + limits.skin;
+    case PairFilter::By::types:
+      return limits.type_cutoff[points.tags[block][row]][tag];
+    default:
+      return limits.cutoff;
+  }
 }
 
 /// Decides what the test of a block has left open, or puts it into open_ if that takes the positions.
@@ -258,13 +271,15 @@ void RowFinder::note_open_pairs(const Request& request, const ClusterPoints& poi
       // Without branches: whether a pair is near enough is hard to foretell.
       const int lane = __builtin_ctz(rest);
       const std::int32_t at = chunk * kChunk + lane;
-      const std::int64_t d2 = squared_distance(points.points[block], row, test.near, at);
-      const bool is_in = d2 <= limits.sure_in;
+      const double d2 = squared_distance(points.points[block], row, test.near, at);
+      const double cutoff = cutoff_of(limits, points, block, row, test.near.tag[at]);
+      const double less = std::max(cutoff - limits.off, 0.0), more = cutoff + limits.off;
+      const bool is_in = d2 < less * less;
       mask |= static_cast<std::uint32_t>(is_in) << lane;
       OpenPair& pair = open_[open_count_];
       pair = {points.ids[block][row], test.near.id[at], &mask, 1u << lane};
       request.filter->ask_for(pair.i, pair.j);
-      open_count_ += static_cast<std::size_t>(!is_in) & static_cast<std::size_t>(d2 < limits.sure_out);
+      open_count_ += static_cast<std::size_t>(!is_in) & static_cast<std::size_t>(d2 <= more * more);
     }
   }
 }

@@ -91,8 +91,10 @@ class RowFinder {
                    const Candidates& around_part, std::int32_t count, NeighborList& out);
   void make_room_for_tests(std::int32_t count);
   void test_block(const Request& request, const ClusterPoints& points, std::int32_t block, BlockTest& test);
-  static std::int64_t squared_distance(const BlockPoints& points, std::int32_t row,
-                                       const CandidateStore& near, std::int32_t at);
+  static double cutoff_of(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
+                          std::int32_t row, std::int16_t tag);
+  static double squared_distance(const BlockPoints& points, std::int32_t row, const CandidateStore& near,
+                                 std::int32_t at);
   void note_open_pairs(const Request& request, const ClusterPoints& points, std::int32_t block,
                        BlockTest& test);
   void settle(const PairFilter& filter);
