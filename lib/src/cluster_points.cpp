@@ -115,6 +115,7 @@ void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
   const std::size_t most = from.cluster.size();
   source.resize(most);
   count.resize(most);
+  lanes.resize(most);
   corners.resize(most);
   offsets.resize(most);
   blocks = 0;
@@ -159,6 +160,7 @@ void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const Point
       corners[b].high[axis] = static_cast<float>(high[axis]);
     }
     count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
+    lanes[b] = static_cast<std::uint8_t>((1u << count[b]) - 1);
     extent2 = std::max(extent2, measured.extent2);
     cluster.uncovered += measured.uncovered;
     cluster.block_width = std::max(cluster.block_width, longest(high - low));
@@ -273,9 +275,9 @@ std::size_t ClusterPoints::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   std::size_t bytes = bytes_of(number_);
   for (int axis = 0; axis < 3; ++axis) bytes += bytes_of(box_center_[axis]) + bytes_of(box_half_width_[axis]);
-  return bytes + bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(offsets) +
-         bytes_of(corners) + bytes_of(radii) + bytes_of(points) + bytes_of(spans) + bytes_of(ids) +
-         bytes_of(tags) + bytes_of(owned);
+  return bytes + bytes_of(clusters) + bytes_of(source) + bytes_of(count) + bytes_of(lanes) +
+         bytes_of(offsets) + bytes_of(corners) + bytes_of(radii) + bytes_of(points) + bytes_of(spans) +
+         bytes_of(ids) + bytes_of(tags) + bytes_of(owned);
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                             \

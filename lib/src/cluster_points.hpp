@@ -77,6 +77,7 @@ struct ClusterPoints {
   std::int32_t blocks = 0;
   std::vector<std::int32_t> source;  ///< by block: the block of PointBlocks
   std::vector<std::uint8_t> count;   ///< by block: number of points
+  std::vector<std::uint8_t> lanes;   ///< by block: a bit for each of them
   std::vector<Offsets> offsets;      ///< by block
   std::vector<Corners> corners;      ///< by block
   double largest_extent = 0;         ///< of a cluster

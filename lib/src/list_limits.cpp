@@ -64,8 +64,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       const double whole = std::floor(rounding.band(farthest_pair) + sizes) + 1;
       band = clamped(whole);
       skin = clamped(std::round(params.skin / point_unit));
-      const double least = *std::min_element(params.radii.begin(), params.radii.end());
-      widen(2 * least + params.skin, whole + sizes);
+      widen(2 * filter.least_radius() + params.skin, whole + sizes);
       return;
     }
     case PairFilter::By::types:

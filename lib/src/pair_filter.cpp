@@ -33,6 +33,7 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       restricted_(exclusions_ != nullptr || first_ghost_ >= 0) {
   if (by_ == By::radii) {
     largest_ = band_within(params.list_radius()).out_above;
+    least_radius_ = *std::min_element(params.radii.begin(), params.radii.end());
   } else {
     for (int a = 0; a < params.cutoffs.types(); ++a) {
       for (int b = 0; b < params.cutoffs.types(); ++b) {

@@ -40,6 +40,8 @@ class PairFilter {
   enum class By { one_cutoff, radii, types };
   By by() const { return by_; }
   const ListParams& params() const { return params_; }
+  /// Smallest of the radii, where cutoffs go by them [length].
+  double least_radius() const { return least_radius_; }
   /// Has the positions of a pair fetched that is to be decided soon.
   void ask_for(std::int32_t i, std::int32_t j) const {
     __builtin_prefetch(&positions_[static_cast<std::size_t>(i)]);
@@ -78,6 +80,7 @@ class PairFilter {
   bool restricted_;          ///< by exclusions or ghosts
   std::vector<Band> bands_;  ///< by pair of types
   double largest_ = -1;
+  double least_radius_ = 0;
 
   std::array<Vec3, 3> cell_{};  ///< as given
   std::array<Vec3, 3> dual_{};  ///< gives the integers of a lattice vector; zero along open axes

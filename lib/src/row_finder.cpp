@@ -128,8 +128,7 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
                    points.ids.data()->data(), points.tags.empty() ? nullptr : points.tags.data()->data(),
                    around_part_.at(already));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
-  for (std::int32_t n = 0; n < collected; ++n)
-    lanes[n] = static_cast<std::uint8_t>((1u << points.count[block_[n]]) - 1);
+  for (std::int32_t n = 0; n < collected; ++n) lanes[n] = points.lanes[block_[n]];
   return collected;
 }
 
