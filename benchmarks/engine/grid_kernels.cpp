@@ -83,15 +83,6 @@ void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::
   }
 }
 
-std::int32_t without(Span<const std::int32_t> partners, std::int32_t* row, std::int32_t count) {
-  for (const std::int32_t partner : partners) {
-    std::int32_t found = 0;  // how often; the loop is written so that compilers make vectors of it
-    for (std::int32_t k = 0; k < count; ++k) found += row[k] == partner;
-    if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, partner) - row);
-  }
-  return count;
-}
-
 namespace {
 
 struct Lanes {

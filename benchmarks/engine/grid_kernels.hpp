@@ -36,9 +36,6 @@ void copy_shortened(const FinePoints& from, int shift, std::int32_t count, const
 void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::int32_t* numbers,
             std::int16_t* radii);
 
-/// Drops partners from a row. Returns how many entries are left.
-std::int32_t without(Span<const std::int32_t> partners, std::int32_t* row, std::int32_t count);
-
 /// As ListKernels::test, with another limit for each pair: with s = reach[row] + radius of the candidate and
 /// t = sum of square(difference), lanes with t < square(s) - band are in, those with t < square(s) + band
 /// open.

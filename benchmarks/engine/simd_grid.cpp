@@ -293,7 +293,10 @@ void SimdGrid::rows_of_block(Run block, std::int32_t before, Span<const Vec3> po
     std::int32_t* const to = out.j.data() + written;
     const std::int32_t particle = sorted_.id[first + static_cast<std::size_t>(row)];
     std::int32_t length = kernels_->compress(mask, chunks, near.id, to);
-    if (exclusions_) length = without(exclusions_->partners(particle), to, length);
+    if (exclusions_) {
+      const Span<const std::int32_t> partners = exclusions_->partners(particle);
+      length = kernels_->leave_out(to, length, partners.data(), static_cast<std::int32_t>(partners.size()));
+    }
     written += static_cast<std::size_t>(length);
     out.particle.push_back(particle);
     out.first.push_back(static_cast<std::int64_t>(written));

@@ -10,6 +10,7 @@
 #include <dch/neighbor_list.hpp>
 #include <dch/span.hpp>
 
+#include "aligned_vector.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::bench {
@@ -42,8 +43,8 @@ class SimdGrid {
     std::int32_t begin = 0, end = 0;
   };
   struct Candidates {
-    std::vector<std::int16_t> x, y, z;
-    std::vector<std::int32_t> id;
+    detail::AlignedVector<std::int16_t> x, y, z;
+    detail::AlignedVector<std::int32_t> id;
     void make_room(std::size_t count);
     detail::Candidates at(std::size_t k) { return {x.data() + k, y.data() + k, z.data() + k, id.data() + k}; }
   };

@@ -8,8 +8,7 @@
 namespace dch::detail {
 namespace {
 
-constexpr std::size_t kFewExclusions = 4;  ///< of a particle
-constexpr std::int32_t kShortRow = 16;
+constexpr std::size_t kFewExclusions = 32;      ///< of a particle: fewer than a search of them would cost
 constexpr std::int32_t kPart = 24, kGroup = 5;  ///< most blocks in one
 
 /// Calls f(first, last) for groups of at most that many blocks, so cut that those of one group are close
@@ -325,30 +324,15 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
 
 /// Exclusions and ghosts, and cutoffs where the kernels did not know them. Returns how many are left.
 std::int32_t RowFinder::restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
-                                     std::int32_t count) {
+                                     std::int32_t count) const {
   const PairFilter& filter = *request.filter;
   const auto keep_if = [&](const auto& is_kept) {
     return static_cast<std::int32_t>(std::copy_if(row, row + count, row, is_kept) - row);
   };
   if (request.limits.per_pair) return keep_if([&](std::int32_t j) { return filter.accept(particle, j); });
   const Span<const std::int32_t> excluded = filter.excluded_with(particle);
-  if (excluded.size() <= kFewExclusions && count <= kShortRow) {
-    std::int32_t others[kFewExclusions] = {kNone, kNone, kNone, kNone};
-    std::copy(excluded.begin(), excluded.end(), others);
-    std::int32_t kept = 0;
-    for (std::int32_t k = 0; k < count; ++k) {  // without branches: which are excluded is hard to foretell
-      const std::int32_t j = row[k];
-      row[kept] = j;
-      kept += static_cast<std::int32_t>(j != others[0]) & static_cast<std::int32_t>(j != others[1]) &
-              static_cast<std::int32_t>(j != others[2]) & static_cast<std::int32_t>(j != others[3]);
-    }
-    count = kept;
-  } else if (excluded.size() <= static_cast<std::size_t>(count)) {
-    for (const std::int32_t other : excluded) {
-      std::int32_t found = 0;
-      for (std::int32_t k = 0; k < count; ++k) found += row[k] == other;  // compilers make vectors of this
-      if (found != 0) count = static_cast<std::int32_t>(std::remove(row, row + count, other) - row);
-    }
+  if (excluded.size() <= kFewExclusions) {
+    count = kernels_->leave_out(row, count, excluded.data(), static_cast<std::int32_t>(excluded.size()));
   } else {
     count = keep_if([&](std::int32_t j) { return !std::binary_search(excluded.begin(), excluded.end(), j); });
   }

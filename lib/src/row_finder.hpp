@@ -102,8 +102,8 @@ class RowFinder {
                                  std::int32_t last);
   void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                     bool meets_itself, BlockTest& test, NeighborList& out);
-  static std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
-                                   std::int32_t count);
+  std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
+                            std::int32_t count) const;
 
   const ListKernels* kernels_ = nullptr;
   std::vector<std::vector<BlockRange>> ranges_;  ///< by source: blocks of clusters near the cluster

@@ -112,6 +112,11 @@ struct ListKernels {
   /// overwritten.
   std::int32_t (*compress)(const std::uint32_t* mask, std::int32_t chunks, const std::int32_t* ids,
                            std::int32_t* out);
+
+  /// Takes those of a row's ids out that are among `excluded`; the others keep their order. Returns how many
+  /// are left. The row is read and overwritten up to 16 entries beyond its end.
+  std::int32_t (*leave_out)(std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
+                            std::int32_t excluded_count);
 };
 
 /// The kernels of a set that is supported.

@@ -71,6 +71,15 @@ struct Avx2 : X86Blocks {
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kChunk, ids, out);
   }
+  static constexpr int kIds = 8;
+  static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
+    const __m256i equal =
+        _mm256_cmpeq_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), _mm256_set1_epi32(id));
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+  }
+  static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    return compress_lanes(mask, kIds, ids, out);
+  }
   static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
                                      std::int32_t* out) {
     std::int32_t written = 0;

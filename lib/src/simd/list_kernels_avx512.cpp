@@ -34,6 +34,15 @@ struct Avx512 : X86Blocks {
     _mm512_storeu_si512(z, _mm512_maskz_compress_epi16(lanes, pz));
     return compress_chunk(lanes, from, to);
   }
+  static constexpr int kIds = 16;
+  static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
+    return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(ids), _mm512_set1_epi32(id));
+  }
+  static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    const __m512i front = _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(ids));
+    _mm512_storeu_si512(out, front);
+    return __builtin_popcount(mask);
+  }
   static std::int32_t compress_lanes(std::uint32_t mask, int, const std::int32_t* ids, std::int32_t* out) {
     return compress_chunk(mask, ids, out);
   }

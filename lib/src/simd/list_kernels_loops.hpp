@@ -218,12 +218,25 @@ std::int32_t compress(const std::uint32_t* mask, std::int32_t chunks, const std:
   return written;
 }
 
+template <class Simd>
+std::int32_t leave_out(std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
+                       std::int32_t excluded_count) {
+  std::int32_t kept = 0;
+  for (std::int32_t k = 0; k < count; k += Simd::kIds) {
+    std::uint32_t lanes = (1u << Simd::kIds) - 1;
+    if (count - k < Simd::kIds) lanes = (1u << (count - k)) - 1;
+    for (std::int32_t e = 0; e < excluded_count; ++e) lanes &= ~Simd::equal_ids(row + k, excluded[e]);
+    kept += Simd::compress_ids(lanes, row + k, row + kept);
+  }
+  return kept;
+}
+
 // NOLINTEND(bugprone-easily-swappable-parameters)
 
 template <class Simd>
-constexpr ListKernels kernels_of{collect<Simd>,      gather<Simd>,         filter<Simd>,
-                                 test<Simd>,         filter_by_size<Simd>, filter_by_type<Simd>,
-                                 test_by_size<Simd>, test_by_type<Simd>,   compress<Simd>};
+constexpr ListKernels kernels_of{
+    collect<Simd>,        gather<Simd>,       filter<Simd>,       test<Simd>,     filter_by_size<Simd>,
+    filter_by_type<Simd>, test_by_size<Simd>, test_by_type<Simd>, compress<Simd>, leave_out<Simd>};
 
 }  // namespace
 }  // namespace dch::detail

@@ -43,6 +43,12 @@ struct Portable {
     *to = *from;
     return static_cast<std::int32_t>(lane);
   }
+  static constexpr int kIds = 1;
+  static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) { return *ids == id; }
+  static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    *out = *ids;
+    return static_cast<std::int32_t>(mask);
+  }
   static std::int32_t compress_lanes(std::uint32_t mask, int, const std::int32_t* ids, std::int32_t* out) {
     return compress_chunk(mask, ids, out);
   }

@@ -56,6 +56,15 @@ struct Sse42 : X86Blocks {
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kChunk, ids, out);
   }
+  static constexpr int kIds = 4;
+  static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
+    const __m128i equal =
+        _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)), _mm_set1_epi32(id));
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal)));
+  }
+  static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
+    return compress_lanes(mask, kIds, ids, out);
+  }
   static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
                                      std::int32_t* out) {
     std::int32_t written = 0;

@@ -249,6 +249,24 @@ TEST_P(ListKernelsTest, CompressKeepsTheOrder) {
   }
 }
 
+TEST_P(ListKernelsTest, LeaveOutKeepsTheOrderOfTheOthers) {
+  scenes::Random random(6);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::size_t count = random.below(70);
+    std::vector<std::int32_t> row(count + 16), excluded(random.below(20));
+    for (std::int32_t& id : row) id = static_cast<std::int32_t>(random.below(60));
+    for (std::int32_t& id : excluded) id = static_cast<std::int32_t>(random.below(60));
+    std::vector<std::int32_t> expected;
+    for (std::size_t k = 0; k < count; ++k)
+      if (std::find(excluded.begin(), excluded.end(), row[k]) == excluded.end()) expected.push_back(row[k]);
+    const std::int32_t left =
+        kernels().leave_out(row.data(), static_cast<std::int32_t>(count), excluded.data(),
+                            static_cast<std::int32_t>(excluded.size()));
+    row.resize(static_cast<std::size_t>(left));
+    ASSERT_EQ(row, expected);
+  }
+}
+
 BlockSpan random_span(scenes::Random& random, int most) {
   BlockSpan span{};
   for (int axis = 0; axis < 3; ++axis) {
