@@ -153,7 +153,8 @@ void SizedSearch::take_positions(Group& group) const {
 void SizedSearch::bring_up_to_date() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
-    const double wanted = own_reach(classes_, g);
+    const double reach = own_reach(classes_, g);
+    const double wanted = reach > 0 ? reach : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
     if (!group.search || !fits || (group.is_new && keys_.empty())) {

@@ -167,6 +167,23 @@ TEST_P(ListSizes, UnderMotion) {
   }
 }
 
+TEST(ListSizesTest, NoParticlesAndNoPairsAreNoTrouble) {
+  for (const bool size_classes : {false, true}) {
+    const auto search = search_with(size_classes);
+    const Box box = Box::orthorhombic({kSide, kSide, kSide});
+    ListParams params;
+    params.cutoffs = TypeCutoffs(kReach);
+    search->update({}, box);
+    EXPECT_EQ(search->list(params).size(), 0u);
+    const std::vector<Vec3> points = scenes::uniform_in(box, 50, 1);
+    const std::vector<std::int32_t> types(points.size(), 1);
+    params.cutoffs = TypeCutoffs(2, {1, 0, 0, 0});
+    params.types = types;
+    search->update(points, box);
+    EXPECT_EQ(search->list(params).pairs(), 0);
+  }
+}
+
 TEST_P(ListSizes, SeveralListsAtOnce) {
   const Box box = GetParam().box;
   const std::vector<Vec3> points = scenes::uniform_in(box, static_cast<std::size_t>(effort(800)), 8);

@@ -70,9 +70,9 @@ class RandomScene {
   void choose_sizes() {
     request_.skin = coin() ? 0.0 : reach_ * random_.uniform(0, 0.5);
     const double largest = reach_ - request_.skin;
+    request_.cutoffs = TypeCutoffs(largest);
     switch (random_.below(4)) {
       case 0:
-        request_.cutoffs = TypeCutoffs(largest);
         what_ += ", one cutoff";
         return;
       case 1: {
