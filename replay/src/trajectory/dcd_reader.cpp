@@ -51,19 +51,14 @@ DcdReader::DcdReader(const std::string& path)
 bool DcdReader::read(Frame& frame) {
   if (records_.at_end()) return false;
   records_.set_frame(frames_);
-  const auto n = static_cast<std::size_t>(header_.atoms);
-  if (frames_ > 0 && !header_.free_atoms.empty()) {
-    frame.positions = first_positions_;
-  } else {
-    frame.positions.resize(n);
-  }
+  if (frames_ > 0 && !header_.free_atoms.empty()) frame.positions = first_positions_;
   frame.box = Box::none();
   if (header_.has_cell) read_cell(frame);
   for (int axis = 0; axis < 3; ++axis) read_coordinate(axis, frame);
   if (header_.has_fourth_dimension) records_.next("the coordinates of the fourth dimension");
   if (frames_ == 0 && !header_.free_atoms.empty()) first_positions_ = frame.positions;
 
-  frame.ids.resize(n);
+  frame.ids.resize(frame.positions.size());
   std::iota(frame.ids.begin(), frame.ids.end(), std::int64_t{1});
   frame.types.clear();
   frame.molecules.clear();
@@ -99,6 +94,7 @@ void DcdReader::read_coordinate(int axis, Frame& frame) {
   const std::size_t count = only_free ? header_.free_atoms.size() : static_cast<std::size_t>(header_.atoms);
   const auto& data =
       records_.next(kNames[static_cast<std::size_t>(axis)], static_cast<std::int64_t>(4 * count));
+  if (!only_free) frame.positions.resize(count);  // not before the file is known to hold that many
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t atom = only_free ? static_cast<std::size_t>(header_.free_atoms[k]) : k;
     const auto value = static_cast<double>(decode<float>(data.data() + 4 * k, header_.order));

@@ -150,6 +150,11 @@ TEST_F(DcdReader, RefusesBadFrames) {
   }
   EXPECT_THAT(error(other_count.bytes()),
               AllOf(HasSubstr("frame 1"), HasSubstr("of 8 bytes, found a length of 12")));
+  DcdFile too_many;  // more than memory holds: the length of the record has to be looked at first
+  too_many.atoms = 2000000000;
+  too_many.append_header();
+  too_many.append_coordinates({1, 2});
+  EXPECT_THAT(error(too_many.bytes()), HasSubstr("of 8000000000 bytes, found a length of 8"));
   for (const std::array<double, 6>& cell :
        {std::array<double, 6>{10, 90, 0, 90, 90, 30}, {-10, 90, 20, 90, 90, 30}, {10, 130, 20, 60, 60, 30}}) {
     DcdFile bad_cell;
