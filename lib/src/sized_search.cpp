@@ -138,7 +138,7 @@ void SizedSearch::assign_particles() {
   for (std::size_t i = 0; i < classes_.of.size(); ++i)
     members[classes_.of[i]].push_back(static_cast<std::int32_t>(i));
   for (std::size_t g = 0; g < classes_.count; ++g) {
-    groups_[g].is_new = groups_[g].particle != members[g];
+    groups_[g].is_new |= groups_[g].particle != members[g];  // still, if its hierarchy never got them
     groups_[g].particle = std::move(members[g]);
   }
 }
