@@ -111,6 +111,7 @@ void ClusterPoints::refresh(const Metric& metric, const Level& centers, Span<con
 
 /// Says where the blocks of each cluster lie.
 void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
+  if (laid_out_) return;
   clusters.assign(centers.position.size(), Cluster());
   const std::size_t most = from.cluster.size();
   source.resize(most);
@@ -126,6 +127,11 @@ void ClusterPoints::lay_out(const Level& centers, const PointBlocks& from) {
       source[blocks++] = block;
     clusters[k].blocks = blocks - clusters[k].first_block;
   }
+  for (std::int32_t b = 0; b < blocks; ++b) {
+    count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
+    lanes[b] = static_cast<std::uint8_t>((1u << count[b]) - 1);
+  }
+  laid_out_ = true;
 }
 
 template <class Metric>
@@ -135,7 +141,7 @@ void ClusterPoints::measure_all(const Metric& metric, const Level& centers, cons
   const BlockMeter<Metric> meter(metric, positions, from, covered2);
   for_ranges(executor, centers.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t k = first; k < last; ++k)
-      if (centers.is_alive(k)) measure_cluster(meter, centers.position[k], from, clusters[k]);
+      if (centers.is_alive(k)) measure_cluster(meter, centers.position[k], clusters[k]);
   });
   largest_extent = largest_width = largest_block_width = 0;
   for (const Cluster& cluster : clusters) {
@@ -146,9 +152,10 @@ void ClusterPoints::measure_all(const Metric& metric, const Level& centers, cons
 }
 
 template <class Meter>
-void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& from,
-                                    Cluster& cluster) {
+void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, Cluster& cluster) {
   double extent2 = 0;
+  cluster.block_width = 0;
+  cluster.uncovered = 0;
   Vec3 cluster_low{}, cluster_high{};  // the center is in the box
   for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
     BlockExtremes measured;
@@ -159,8 +166,6 @@ void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const Point
       corners[b].low[axis] = static_cast<float>(low[axis]);
       corners[b].high[axis] = static_cast<float>(high[axis]);
     }
-    count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
-    lanes[b] = static_cast<std::uint8_t>((1u << count[b]) - 1);
     extent2 = std::max(extent2, measured.extent2);
     cluster.uncovered += measured.uncovered;
     cluster.block_width = std::max(cluster.block_width, longest(high - low));
@@ -171,8 +176,13 @@ void ClusterPoints::measure_cluster(const Meter& meter, Vec3 center, const Point
   cluster.width = longest(cluster_high - cluster_low);
 }
 
-void ClusterPoints::name(const PointBlocks& from, Span<const std::int32_t> particle_of_id,
-                         const PairFilter& filter, Executor* executor) {
+void ClusterPoints::name(const PointBlocks& from, const ParticleNames& names, const PairFilter& filter,
+                         Executor* executor) {
+  const ListParams& params = filter.params();
+  const Naming naming{names.version, filter.by(), params.first_ghost, params.radii.data(),
+                      params.types.data()};
+  const bool sizes_are_known = names.version != 0 || filter.by() == PairFilter::By::one_cutoff;
+  if (named_ && sizes_are_known && naming == naming_) return;
   const auto all = static_cast<std::size_t>(blocks);
   ids.resize(all);
   owned.resize(all);
@@ -182,13 +192,15 @@ void ClusterPoints::name(const PointBlocks& from, Span<const std::int32_t> parti
              [&](std::int32_t first, std::int32_t last) {
                for (std::int32_t k = first; k < last; ++k) {
                  Cluster& cluster = clusters[k];
-                 cluster.owned = filter.params().first_ghost < 0;
+                 cluster.owned = params.first_ghost < 0;
                  for (std::int32_t b = cluster.first_block; b < cluster.first_block + cluster.blocks; ++b) {
-                   name_block(b, from, particle_of_id, filter);
+                   name_block(b, from, names.particle_of_id, filter);
                    cluster.owned |= owned[b] != 0;
                  }
                }
              });
+  naming_ = naming;
+  named_ = true;
 }
 
 void ClusterPoints::name_block(std::int32_t b, const PointBlocks& from,

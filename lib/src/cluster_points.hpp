@@ -23,6 +23,13 @@ struct ListUnits {
   double point = 1, box = 1;  ///< of points, and of the boxes of blocks [length]
 };
 
+/// Which particles the ids of a hierarchy are.
+struct ParticleNames {
+  Span<const std::int32_t> particle_of_id;  ///< empty where ids are those of the particles
+  std::uint64_t version = 0;  ///< another one when these or the sizes of particles may have changed; 0 where
+                              ///< that is not known of sizes
+};
+
 /// The points as lists are made from them: relative to the center of their cluster (a node of level 1), in
 /// blocks with a box around each, first as lengths, then as 16-bit integers. The blocks of a cluster lie side
 /// by side.
@@ -44,6 +51,9 @@ struct ClusterPoints {
     float low[3], high[3];
   };
 
+  /// To be called when points have come, gone or changed their cluster, slot or id.
+  void forget_layout() { laid_out_ = named_ = false; }
+
   /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
   /// distance from their center exceeds `covered2`.
   template <class Metric>
@@ -57,8 +67,7 @@ struct ClusterPoints {
                double covered2, Executor* executor);
 
   /// Takes from `filter` which points are ghosts and what the cutoffs of pairs depend on.
-  /// @param particle_of_id empty where ids are those of the particles
-  void name(const PointBlocks& points, Span<const std::int32_t> particle_of_id, const PairFilter& filter,
+  void name(const PointBlocks& points, const ParticleNames& names, const PairFilter& filter,
             Executor* executor);
   /// Rounds everything to the units. To be called after name().
   void quantize(const ListUnits& units, Executor* executor);
@@ -102,13 +111,23 @@ struct ClusterPoints {
  private:
   AlignedVector<std::int16_t> box_center_[3], box_half_width_[3];
   AlignedVector<std::int32_t> number_;
+  bool laid_out_ = false, named_ = false;  ///< and nothing has changed since
+  /// What name() has gone by.
+  struct Naming {
+    std::uint64_t version = 0;
+    PairFilter::By by = PairFilter::By::one_cutoff;
+    std::int32_t first_ghost = -1;
+    const double* radii = nullptr;
+    const std::int32_t* types = nullptr;
+    bool operator==(const Naming&) const = default;
+  } naming_;
 
   void lay_out(const Level& centers, const PointBlocks& points);
   template <class Metric>
   void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& points,
                    double covered2, Executor* executor);
   template <class Meter>
-  void measure_cluster(const Meter& meter, Vec3 center, const PointBlocks& points, Cluster& cluster);
+  void measure_cluster(const Meter& meter, Vec3 center, Cluster& cluster);
   void name_block(std::int32_t block, const PointBlocks& points, Span<const std::int32_t> particle_of_id,
                   const PairFilter& filter);
   void quantize_block(std::int32_t block);

@@ -58,7 +58,7 @@ void ClusterRows::find(const Metric& metric, const ListScene& scene,
     return;
   }
   for (const ListSource& source : scene.sources)
-    source.points->name(*source.blocks, source.particle_of_id, *filters.front(), scene.executor);
+    source.points->name(*source.blocks, source.names, *filters.front(), scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
     RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};

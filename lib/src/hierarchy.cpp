@@ -98,7 +98,8 @@ void Hierarchy::Impl::reset(const Box& b) {
   wrap_slack = 0;
   largest_reach = 0;
   strayed = 0;
-  pending = measured = false;
+  pending = false;
+  note_new_places();
   levels.clear();
   points.clear();
   lone.clear();
@@ -167,7 +168,7 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
   Impl& h = *impl_;
   h.repair_if_pending();
   h.largest_reach = std::max(h.largest_reach, reach);
-  h.measured = false;
+  h.note_new_places();
   std::int32_t id;
   if (h.free_ids.empty()) {
     id = static_cast<std::int32_t>(h.slot_of_id.size());
@@ -189,7 +190,7 @@ void Hierarchy::remove(std::int32_t id) {
   if (!contains(id)) throw InvalidParameter("remove(): there is no point with id " + std::to_string(id));
   Impl& h = *impl_;
   h.repair_if_pending();
-  h.measured = false;
+  h.note_new_places();
   with_metric(h.box, [&](const auto& metric) { h.remove(metric, id); });
   h.free_ids.push_back(id);
   std::push_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
@@ -198,7 +199,7 @@ void Hierarchy::remove(std::int32_t id) {
 
 void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
   Impl& h = *impl_;
-  h.measured = false;
+  h.note_new_places();
   if (old_of_new.size() != size())
     throw InvalidParameter("renumber() got " + std::to_string(old_of_new.size()) + " ids for " +
                            std::to_string(size()) + " points");

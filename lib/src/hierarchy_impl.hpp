@@ -83,6 +83,12 @@ struct Hierarchy::Impl {
   bool measured = false;     ///< whether cluster_points holds the points as they are now
   std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
+  /// To be called when points have come, gone or changed their cluster, slot or id.
+  void note_new_places() {
+    measured = false;
+    cluster_points.forget_layout();
+  }
+
   int top() const { return static_cast<int>(levels.size()) - 1; }
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
@@ -294,7 +300,7 @@ struct Hierarchy::Impl {
   /// Brings up to date what lists are made from. Returns how far the distance of two wrapped positions may be
   /// from their pair distance [length].
   double prepare_for_lists();
-  detail::ListSource list_source(Span<const std::int32_t> particle_of_id);
+  detail::ListSource list_source(const detail::ParticleNames& names);
 
   // hierarchy_cluster_pairs.cpp
   void cluster_pairs(const ListParams& request, ClusterPairs& out);

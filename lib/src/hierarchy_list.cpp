@@ -27,8 +27,8 @@ double Hierarchy::Impl::prepare_for_lists() {
   return wrap_error + kRoundings * std::numeric_limits<double>::epsilon() * params.radius;
 }
 
-detail::ListSource Hierarchy::Impl::list_source(Span<const std::int32_t> particle_of_id) {
-  return {&levels, &points, &cluster_points, slot_of_id, particle_of_id, pending ? motion : 0.0};
+detail::ListSource Hierarchy::Impl::list_source(const detail::ParticleNames& names) {
+  return {&levels, &points, &cluster_points, names, pending ? motion : 0.0};
 }
 
 void Hierarchy::Impl::lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {

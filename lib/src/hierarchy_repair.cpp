@@ -49,7 +49,8 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
   trim_top();
   fold();
   ++stats.repairs;
-  pending = measured = false;
+  pending = false;
+  note_new_places();
   const std::int64_t orphans = stats.reparented - reparented_before;
   const double n = static_cast<double>(std::max<std::size_t>(raw.size(), 1));
   const double orphan_seconds = std::max(0.0, cover_seconds - check_seconds);

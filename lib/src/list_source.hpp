@@ -17,8 +17,7 @@ struct ListSource {
   const std::vector<Level>* levels;
   const PointBlocks* blocks;
   ClusterPoints* points;  ///< measured
-  Span<const std::int32_t> slot_of_id;
-  Span<const std::int32_t> particle_of_id;  ///< empty where ids are those of the particles
+  ParticleNames names;
   double motion = 0;  ///< how far a node may be from where it was when parents were in order [length]
 
   const Level& centers() const { return (*levels)[1]; }

@@ -58,7 +58,12 @@ Candidates RowFinder::CandidateStore::at(std::int32_t k) {
 
 void RowFinder::CandidateStore::make_room(std::size_t count) {
   if (id.size() >= count) return;
-  for (auto* axis : {&x, &y, &z, &tag}) axis->resize(count);
+  count += count / 8;
+  for (auto* axis : {&x, &y, &z, &tag}) {
+    axis->reserve(count);  // else it might take twice as much
+    axis->resize(count);
+  }
+  id.reserve(count);
   id.resize(count);
 }
 
@@ -117,12 +122,12 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
     valid_.resize(blocks / kBlocksInChunk);
   }
   range_end_.resize(std::max(range_end_.size(), ranges.size()));
-  around_part_.make_room(static_cast<std::size_t>(already) + blocks * kBlock);
 
   const auto range_count = static_cast<std::int32_t>(ranges.size());
   std::int32_t collected = kernels_->collect(box, near.box_limit, points.boxes(), ranges.data(), range_count,
                                              block_.data(), range_end_.data());
   if (!owned) collected = leave_out_ghosts(points, range_count);
+  around_part_.make_room(static_cast<std::size_t>(already + collected * kBlock + kChunk));
   kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, points.points.data(),
                    points.ids.data()->data(), points.tags.empty() ? nullptr : points.tags.data()->data(),
                    around_part_.at(already));
@@ -163,7 +168,7 @@ template <class Metric>
 void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, const Part& part,
                             const Candidates& around_part, std::int32_t count, NeighborList& out) {
   const ClusterPoints& points = *scene.rows().points;
-  make_room_for_tests(count);
+  around_group_.make_room(static_cast<std::size_t>(count + kChunk));
   std::int32_t own_before = 0;
   for_each_group(part.first, part.last - part.first, kGroup, [&](std::int32_t first, std::int32_t last) {
     const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last);
@@ -171,6 +176,7 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
                           around_part.id + own_before, around_part.tag + own_before};
     const std::int32_t near = filter(request.limits, points.span_of(first, last), size, from, nullptr,
                                      count - own_before, around_group_.at(0));
+    make_room_for_tests(near);
     // All blocks are thinned before the first is tested: its candidates have left the store queue by then,
     // out of which loads that span several stores cannot be served.
     std::int32_t before = 0;
@@ -197,7 +203,6 @@ void RowFinder::make_room_for_tests(std::int32_t count) {
   tests_.resize(kGroup);
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
   const std::size_t entries = room / kChunk * kBlock;
-  around_group_.make_room(room);
   if (unsettled_.size() >= entries) return;
   unsettled_.resize(entries);
   for (BlockTest& test : tests_) {

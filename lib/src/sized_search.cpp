@@ -95,7 +95,7 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
   for (Group& group : groups_) {
     Hierarchy::Impl& hierarchy = *group.search->hierarchy().impl_;
     error = std::max(error, hierarchy.prepare_for_lists());
-    sources.push_back(hierarchy.list_source(group.particle));
+    sources.push_back(hierarchy.list_source({group.particle, names_version_}));
   }
   error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
   ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
@@ -124,6 +124,7 @@ void SizedSearch::classify(Span<const ListParams> requests) {
   classes_ = SizeClasses(requests, positions_.size(), can_be_told_apart);
   sizes_.keep(requests);
   told_apart_ = can_be_told_apart;
+  ++names_version_;
   assign_particles();
 }
 

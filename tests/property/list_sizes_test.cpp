@@ -283,6 +283,40 @@ TEST_P(ListSizes, InTheSmallestBox) {
   }
 }
 
+// What lists take from the structure is kept while it stays as it is; what requests say is not.
+TEST_P(ListSizes, RequestsMayDifferWhileTheStructureStaysAsItIs) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, 400, 16);
+  const std::vector<SizeModel> models = size_models(points.size());
+  std::vector<double> radii = models[1].radii;
+  ListParams one_cutoff, ghosts, in_place;
+  ghosts.first_ghost = 150;
+  in_place.radii = radii;
+  in_place.skin = kSkin;
+  for (const bool size_classes : {false, true}) {
+    const auto search = search_with(size_classes);
+    search->update(points, box);
+    const auto expect_pairs_of = [&](const ListParams& params, const char* what) {
+      EXPECT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
+          << what << (size_classes ? ", classes" : "");
+    };
+    for (int round = 0; round < 2; ++round) {
+      expect_pairs_of(one_cutoff, "one cutoff");
+      expect_pairs_of(ghosts, "ghosts");
+      for (const SizeModel& model : models) expect_pairs_of(model.params(), model.name.c_str());
+      for (std::size_t turn = 0; turn < 3; ++turn) {
+        for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = models[1].radii[(i + turn) % radii.size()];
+        expect_pairs_of(in_place, "other radii at the same address");
+      }
+      std::vector<NeighborList> lists;
+      const std::vector<ListParams> both{in_place, models[3].params()};
+      search->lists(both, lists);
+      for (std::size_t r = 0; r < both.size(); ++r)
+        EXPECT_EQ(first_difference(lists[r], all_pairs(points, box, both[r])), "") << "of two, " << r;
+    }
+  }
+}
+
 TEST_P(ListSizes, NothingIsLeftOfWhatAListHeldBefore) {
   const Box box = GetParam().box;
   const std::vector<Vec3> points = scenes::uniform_in(box, 200, 15);
