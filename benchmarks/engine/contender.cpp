@@ -85,6 +85,11 @@ void DchContender::make_lists(const Scene& scene, std::vector<NeighborList>& lis
   search_->lists(requests_, lists);
 }
 
+std::string DchContender::validate() const {
+  const Hierarchy* const hierarchy = hierarchy_of(*search_);
+  return hierarchy ? hierarchy->validate() : std::string();
+}
+
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
     : name_(std::move(name)), cells_(cells), radii_(scene.list_radii) {
   for (const double radius : radii_) widths_.push_back(best_width(scene, radius, cells));

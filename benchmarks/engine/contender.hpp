@@ -33,6 +33,8 @@ class Contender {
   virtual bool makes_supersets() const { return false; }
   /// Updates so far by what they took; null for one that keeps nothing.
   virtual const SearchStats* stats() const { return nullptr; }
+  /// What is broken in the structure it keeps; empty if nothing is, or if it keeps none.
+  virtual std::string validate() const { return {}; }
 };
 
 /// Lists by structure from a hierarchy that is kept up.
@@ -51,6 +53,7 @@ class DchContender : public Contender {
   std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
   bool makes_supersets() const override { return superset_; }
   const SearchStats* stats() const override { return &search_->stats(); }
+  std::string validate() const override;
 
  private:
   std::string name_;

@@ -11,8 +11,7 @@
 #include <dch/error.hpp>
 
 #include "affinity.hpp"
-#include "contender.hpp"
-#include "pair_check.hpp"
+#include "list_check.hpp"
 #include "stopwatch.hpp"
 #include "table_report.hpp"
 
@@ -28,55 +27,12 @@ struct Options {
   std::string json, only;
 };
 
-/// A list that does not hold the pairs it should.
-class WrongList : public Error {
- public:
-  using Error::Error;
-};
-
-using Contenders = std::vector<std::unique_ptr<Contender>>;
-
 /// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
 int configurations(const Scene& scene, const Options& options) {
   constexpr double kParticles = 32000;
   constexpr int kFewest = 20;  // so that there are repairs among them
   const double fitting = options.lists * kParticles / static_cast<double>(scene.positions.size());
   return std::clamp(static_cast<int>(fitting), std::min(options.lists, kFewest), options.lists);
-}
-
-/// Every contender's lists at every configuration: equal to each other, at the first and the last to what is
-/// expected. Returns the number of pairs at the last.
-std::int64_t check(Scene& scene, Contenders& contenders, int lists) {
-  std::vector<NeighborList> made(std::max<std::size_t>(1, scene.list_radii.size()));
-  std::int64_t pairs = 0;
-  scene.restart();
-  for (const auto& contender : contenders) contender->reset();
-  bool more = true;
-  for (int k = 0; more; ++k) {
-    std::vector<PairSum> wanted;
-    for (const auto& contender : contenders) {
-      contender->make_lists(scene, made);
-      std::vector<PairSum> found;
-      for (std::size_t list = 0; list < made.size(); ++list)
-        found.push_back(contender->makes_supersets() ? sum_within(made[list], scene, list)
-                                                     : sum_of(made[list]));
-      if (wanted.empty()) wanted = found;
-      if (wanted != found)
-        throw WrongList(fmt::format("{}: the list of '{}' at configuration {} has {} pairs, that of '{}' {}",
-                                    scene.name, contender->name(), k, found.back().pairs,
-                                    contenders.front()->name(), wanted.back().pairs));
-    }
-    const bool first = k == 0, last = k == lists;
-    if (first || last)
-      for (std::size_t list = 0; list < made.size(); ++list)
-        if (!(expected_pairs(scene, list) == wanted[list]))
-          throw WrongList(fmt::format("{}: the lists at configuration {} have {} pairs, expected {}",
-                                      scene.name, k, wanted[list].pairs, expected_pairs(scene, list).pairs));
-    pairs = 0;
-    for (const PairSum& sum : wanted) pairs += sum.pairs;
-    more = !last && scene.step();
-  }
-  return pairs;
 }
 
 /// One repetition: all contenders take turns, each configuration in another order, so that none always finds
@@ -115,8 +71,8 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
   result.origin = scene->origin;
   result.particles = scene->positions.size();
   const int lists = configurations(*scene, options);
-  result.pairs =
-      static_cast<double>(check(*scene, contenders, lists)) / static_cast<double>(result.particles);
+  result.pairs = static_cast<double>(check_lists(*scene, contenders, {.last = lists}).last_pairs) /
+                 static_cast<double>(result.particles);
   for (const auto& contender : contenders) {
     Measurement m;
     m.contender = contender->name();

@@ -139,7 +139,8 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
   for (std::int32_t n = 0; n < node.clusters; ++n) {
     const std::int32_t c = node.first + n;
     out.origin_of[static_cast<std::size_t>(c)] = k;
-    put_cluster(local.data() + n * kSlots, std::min(kSlots, count - n * kSlots), c, scene.request, out);
+    put_cluster(local.data() + std::ptrdiff_t{n} * kSlots, std::min(kSlots, count - n * kSlots), c,
+                scene.request, out);
     for (int s = 0; s < 6; ++s) {
       const float side = boxes_.side[s][static_cast<std::size_t>(c)];
       node.box[s] = n == 0 ? side : s < 3 ? std::min(node.box[s], side) : std::max(node.box[s], side);
@@ -264,7 +265,8 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   ClusterPairs::Entry* to = first + before;
   bool has_row = false;
   for (std::int32_t n = 0; n < found; ++n) {
-    const auto [other, shift] = part.source[static_cast<std::size_t>(own + chosen[n])];
+    const auto [other, shift] =
+        part.source[static_cast<std::size_t>(own) + static_cast<std::size_t>(chosen[n])];
     const auto b = static_cast<std::size_t>(other);
     std::uint32_t mask = filled * filled_[b] & ~(ghosts * ghost_[b]);
     if (chosen[n] == 0) mask &= kPairsWithinCluster;

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kSlots = ClusterPairs::kSlots;
 
+std::size_t first_slot(std::int32_t cluster) { return static_cast<std::size_t>(cluster) * kSlots; }
+
 }  // namespace
 
 /// Calls f(cluster, bit) for each pair of a slot of cluster c with an excluded partner.
@@ -15,7 +17,7 @@ template <class F>
 void ClusterPairFinder::for_each_excluded(const Exclusions& exclusions, std::int32_t c,
                                           const ClusterPairs& clusters, const F& f) const {
   for (int slot = 0; slot < kSlots; ++slot) {
-    const std::int32_t i = clusters.particle[static_cast<std::size_t>(c * kSlots + slot)];
+    const std::int32_t i = clusters.particle[first_slot(c) + static_cast<std::size_t>(slot)];
     if (i == kNone) continue;
     for (const std::int32_t j : exclusions.partners(i)) {
       const std::int32_t other = slot_of_[static_cast<std::size_t>(j)];
@@ -42,8 +44,8 @@ std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoff
                                                        std::int32_t b, const ClusterPairs& clusters) {
   std::uint32_t mask = 0;
   for (int pair = 0; pair < kSlots * kSlots; ++pair) {
-    const std::int32_t type_a = clusters.type[static_cast<std::size_t>(a * kSlots + pair / kSlots)];
-    const std::int32_t type_b = clusters.type[static_cast<std::size_t>(b * kSlots + pair % kSlots)];
+    const std::int32_t type_a = clusters.type[first_slot(a) + static_cast<std::size_t>(pair / kSlots)];
+    const std::int32_t type_b = clusters.type[first_slot(b) + static_cast<std::size_t>(pair % kSlots)];
     mask |= static_cast<std::uint32_t>(cutoffs(type_a, type_b) > 0) << pair;
   }
   return mask;

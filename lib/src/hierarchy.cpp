@@ -295,6 +295,7 @@ void Hierarchy::list(const ListParams& params, NeighborList& out) { impl_->lists
 void Hierarchy::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
   out.resize(requests.size());
   std::vector<NeighborList*> each;
+  each.reserve(out.size());
   for (NeighborList& list : out) each.push_back(&list);
   impl_->lists(requests, each);
 }

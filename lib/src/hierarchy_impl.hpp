@@ -94,7 +94,7 @@ struct Hierarchy::Impl {
   double threshold_of_level(int i) const;
   void set_base_radius(Span<const Vec3> positions);
   void set_wrap_slack();
-  void set_lengths(int level);
+  void set_lengths(int i);
 
   // The nodes of all levels alike
   std::int32_t size(int level) const { return level == 0 ? points.size() : levels[level].size(); }
@@ -214,7 +214,7 @@ struct Hierarchy::Impl {
   // hierarchy_links.cpp: parents and children
   void attach(int level, std::int32_t node, std::int32_t parent);
   void detach(int level, std::int32_t node);
-  std::int32_t place_point(std::int32_t id, Vec3 at, std::int32_t cluster);
+  std::int32_t place_point(std::int32_t point, Vec3 at, std::int32_t cluster);
   void take_point(std::int32_t slot);
   void disconnect(int level, std::int32_t node);
 
@@ -254,7 +254,7 @@ struct Hierarchy::Impl {
   void update(Span<const Vec3> positions, const Box& b);
   double check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
   template <class Metric>
-  void refresh_level(const Metric& metric, int level);
+  void refresh_level(const Metric& metric, int i);
   /// New positions of the points and of level 1; with this, points are measured.
   template <class Metric>
   void refresh_clusters(const Metric& metric);
@@ -277,14 +277,14 @@ struct Hierarchy::Impl {
   template <class Metric>
   void cover_points(const Metric& metric);
   template <class Metric>
-  void cover_level(const Metric& metric, int level);
-  bool edges_are_complete(int level) const;
+  void cover_level(const Metric& metric, int i);
+  bool edges_are_complete(int i) const;
   template <class Metric>
-  void find_too_close(const Metric& metric, int level);
+  void find_too_close(const Metric& metric, int i);
   template <class Metric>
-  void connect_level(const Metric& metric, int level);
-  void separate_level(int level);
-  void demote(int level, std::int32_t node, std::int32_t heir);
+  void connect_level(const Metric& metric, int i);
+  void separate_level(int i);
+  void demote(int i, std::int32_t node, std::int32_t heir);
 
   // hierarchy_reorder.cpp: puts nodes in depth-first order, siblings side by side
   void reorder();

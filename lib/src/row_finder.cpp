@@ -116,7 +116,7 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   const ClusterPoints& points = *near.source->points;
   std::int32_t most = 0;
   for (const BlockRange& range : ranges) most += range.count;
-  const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk) + kChunk);
+  const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk)) + kChunk;
   if (block_.size() < blocks) {
     block_.resize(blocks);
     valid_.resize(blocks / kBlocksInChunk);
@@ -127,7 +127,8 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   std::int32_t collected = kernels_->collect(box, near.box_limit, points.boxes(), ranges.data(), range_count,
                                              block_.data(), range_end_.data());
   if (!owned) collected = leave_out_ghosts(points, range_count);
-  around_part_.make_room(static_cast<std::size_t>(already + collected * kBlock + kChunk));
+  around_part_.make_room(static_cast<std::size_t>(already) + static_cast<std::size_t>(collected) * kBlock +
+                         kChunk);
   kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, points.points.data(),
                    points.ids.data()->data(), points.tags.empty() ? nullptr : points.tags.data()->data(),
                    around_part_.at(already));
@@ -168,7 +169,7 @@ template <class Metric>
 void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, const Part& part,
                             const Candidates& around_part, std::int32_t count, NeighborList& out) {
   const ClusterPoints& points = *scene.rows().points;
-  around_group_.make_room(static_cast<std::size_t>(count + kChunk));
+  around_group_.make_room(static_cast<std::size_t>(count) + kChunk);
   std::int32_t own_before = 0;
   for_each_group(part.first, part.last - part.first, kGroup, [&](std::int32_t first, std::int32_t last) {
     const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last);
@@ -202,7 +203,7 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
 void RowFinder::make_room_for_tests(std::int32_t count) {
   tests_.resize(kGroup);
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
-  const std::size_t entries = room / kChunk * kBlock;
+  const std::size_t entries = room / kChunk * std::size_t{kBlock};
   if (unsettled_.size() >= entries) return;
   unsettled_.resize(entries);
   for (BlockTest& test : tests_) {
@@ -316,7 +317,7 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
   out.first.resize(rows_before + static_cast<std::size_t>(rows) + 1);
   std::int64_t* const row_end = out.first.data() + rows_before + 1;
   for (std::int32_t row = 0; row < rows; ++row) {
-    std::uint32_t* const mask = test.mask.data() + row * test.chunks;
+    std::uint32_t* const mask = test.mask.data() + std::ptrdiff_t{row} * test.chunks;
     if (meets_itself) mask[0] &= ~0u << (row + 1);
     std::int32_t* const to = out.j.data() + written;
     std::int32_t length = kernels_->compress(mask, test.chunks, test.near.id.data(), to);

@@ -75,7 +75,8 @@ class RowFinder {
     BlockSpan span;
   };
 
-  Part part_of(const ClusterPoints& points, const Cluster& cluster, std::int32_t first, std::int32_t last);
+  static Part part_of(const ClusterPoints& points, const Cluster& cluster, std::int32_t first,
+                      std::int32_t last);
   template <class Metric>
   void find_ranges(const Scene<Metric>& scene, std::int32_t k);
   template <class Metric>

@@ -110,7 +110,11 @@ std::size_t SizeRecord::memory_bytes() const {
 template <class Size>
 void SizeClasses::divide(const Size& size, double smallest, double largest) {
   std::vector<double> bounds;
-  for (double bound = kRatio * smallest; bound <= largest; bound *= kRatio) bounds.push_back(bound);
+  double next = kRatio * smallest;
+  while (next <= largest) {
+    bounds.push_back(next);
+    next *= kRatio;
+  }
   std::vector<std::int32_t> class_of(bounds.size() + 1, -1);  // first 0 where there are particles
   for (std::size_t i = 0; i < of.size(); ++i) {
     const double own = size[i];

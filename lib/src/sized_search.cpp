@@ -78,6 +78,7 @@ void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const 
 void SizedSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
   out.resize(requests.size());
   std::vector<NeighborList*> each;
+  each.reserve(out.size());
   for (NeighborList& list : out) each.push_back(&list);
   make_lists(requests, each);
 }

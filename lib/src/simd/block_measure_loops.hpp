@@ -10,10 +10,10 @@ namespace dch::detail {
 namespace {
 
 /// A number for each point of a block: a vector of the compiler's, in as many registers as that takes.
-typedef double Lanes __attribute__((vector_size(kBlock * sizeof(double))));
-typedef double HalfLanes __attribute__((vector_size(kBlock / 2 * sizeof(double))));
-typedef std::int64_t Mask __attribute__((vector_size(kBlock * sizeof(std::int64_t))));
-typedef float FloatLanes __attribute__((vector_size(kBlock * sizeof(float))));
+using Lanes __attribute__((vector_size(kBlock * sizeof(double)))) = double;
+using HalfLanes __attribute__((vector_size(kBlock / 2 * sizeof(double)))) = double;
+using Mask __attribute__((vector_size(kBlock * sizeof(std::int64_t)))) = std::int64_t;
+using FloatLanes __attribute__((vector_size(kBlock * sizeof(float)))) = float;
 
 /// One coordinate of all points: wraps it, and makes it relative to the center. Marks points not in the cell.
 inline void measure_axis(const BrickCell& cell, int axis, double center, Lanes& x, Lanes& relative,

@@ -21,16 +21,17 @@ std::string supported_names() {
 }
 
 InstructionSet choose() {
-  const char* forced = std::getenv("DCH_FORCE_ISA");
+  const char* variable = std::getenv("DCH_FORCE_ISA");
+  const std::string forced = variable ? variable : "";
   for (const InstructionSet set : kWidestFirst) {
-    if (forced && *forced ? name(set) != forced : !is_supported(set)) continue;
+    if (!forced.empty() ? name(set) != forced : !is_supported(set)) continue;
     if (!is_supported(set))
-      throw InvalidParameter("DCH_FORCE_ISA is '" + std::string(forced) +
+      throw InvalidParameter("DCH_FORCE_ISA is '" + forced +
                              "', which this processor or build does not support; choose one of " +
                              supported_names());
     return set;
   }
-  throw InvalidParameter("DCH_FORCE_ISA is '" + std::string(forced) + "', which is unknown; choose one of " +
+  throw InvalidParameter("DCH_FORCE_ISA is '" + forced + "', which is unknown; choose one of " +
                          supported_names());
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 /// By a mask of 8 lanes: the chosen lanes, first come first.
 struct PackTable {
-  alignas(32) unsigned char lanes[256][8];
-  constexpr PackTable() : lanes() {
+  alignas(32) unsigned char lanes[256][8]{};
+  constexpr PackTable() {
     for (int mask = 0; mask < 256; ++mask) {
       int to = 0;
       for (int lane = 0; lane < 8; ++lane)
@@ -80,10 +80,10 @@ struct Avx2 : X86Blocks {
   static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kIds, ids, out);
   }
-  static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
+  static std::int32_t compress_lanes(std::uint32_t mask, int count, const std::int32_t* ids,
                                      std::int32_t* out) {
     std::int32_t written = 0;
-    for (int k = 0; k < lanes; k += 8, mask >>= 8) {
+    for (int k = 0; k < count; k += 8, mask >>= 8) {
       const std::uint32_t eight = mask & 255;
       const __m256i order =
           _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPack.lanes[eight])));

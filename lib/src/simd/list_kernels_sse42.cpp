@@ -8,8 +8,8 @@ namespace {
 
 /// By a mask of 4 lanes: the bytes that move the chosen lanes to the front.
 struct PackTable {
-  alignas(16) unsigned char bytes[16][16];
-  constexpr PackTable() : bytes() {
+  alignas(16) unsigned char bytes[16][16]{};
+  constexpr PackTable() {
     for (int mask = 0; mask < 16; ++mask) {
       int to = 0;
       for (int lane = 0; lane < 4; ++lane)
@@ -65,10 +65,10 @@ struct Sse42 : X86Blocks {
   static std::int32_t compress_ids(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kIds, ids, out);
   }
-  static std::int32_t compress_lanes(std::uint32_t mask, int lanes, const std::int32_t* ids,
+  static std::int32_t compress_lanes(std::uint32_t mask, int count, const std::int32_t* ids,
                                      std::int32_t* out) {
     std::int32_t written = 0;
-    for (int k = 0; k < lanes; k += 4, mask >>= 4) {
+    for (int k = 0; k < count; k += 4, mask >>= 4) {
       const std::uint32_t four = mask & 15;
       const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack.bytes[four]));
       const __m128i from = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ids + k));

@@ -13,8 +13,8 @@ namespace {
 
 /// By a mask of 8 lanes of 16 bits: the bytes that move the chosen lanes to the front.
 struct PackTable16 {
-  alignas(16) unsigned char bytes[256][16];
-  constexpr PackTable16() : bytes() {
+  alignas(16) unsigned char bytes[256][16]{};
+  constexpr PackTable16() {
     for (int mask = 0; mask < 256; ++mask) {
       int to = 0;
       for (int lane = 0; lane < 8; ++lane)

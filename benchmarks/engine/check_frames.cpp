@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// The lists of a hierarchy that is kept up over many configurations of a scene, each compared with a search
+// that shares no code with it: see benchmarks/README.md.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <string>
+#include <vector>
+
+#include "list_check.hpp"
+
+namespace dch::bench {
+namespace {
+
+constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
+
+struct Options {
+  std::vector<std::string> scenes;
+  SceneOptions scene;
+  int frames = 2000, structures = 10;
+};
+
+void check_scene(const std::string& name, const Options& options) {
+  SceneOptions scene_options = options.scene;
+  scene_options.most_frames = static_cast<std::size_t>(options.frames);
+  const std::unique_ptr<Scene> scene = make_scene(name, scene_options);
+  Contenders contenders;
+  for (const char* kind : {"dch", "dch, superset"})
+    for (auto& contender : make_contenders(*scene, nullptr, kind)) contenders.push_back(std::move(contender));
+  const CheckedLists checked =
+      check_lists(*scene, contenders,
+                  {.last = options.frames - 1, .expect_all = true, .structures_checked = options.structures});
+  if (checked.configurations < options.frames)
+    throw Error(fmt::format("{}: {} frames are asked for, {} are there", name, options.frames,
+                            checked.configurations));
+  const SearchStats& stats = *contenders.front()->stats();
+  fmt::print(
+      "{}: {}, {} particles, {} configurations, {} pairs: none missing, none invented; structure valid at "
+      "{} of them; {} updates refreshed, {} repaired, {} built\n",
+      name, scene->origin, scene->positions.size(), checked.expected, checked.pairs, checked.structures,
+      stats.refreshes, stats.repairs, stats.builds);
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Lists of a hierarchy kept up over many frames, compared with a search of another kind");
+  Options options;
+  app.add_option("scenes", options.scenes, "Scenes of dch_bench_table")->required();
+  app.add_option("--trajectories", options.scene.trajectories, "Folder filled by make_trajectories");
+  app.add_option("--frames", options.frames, "Configurations to compare; fewer are an error")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--structures", options.structures,
+                 "Compare the structure with all pairs at so many of them; 0: never")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--scale", options.scene.scale,
+                 "Particles of artificial scenes, relative to the usual number")
+      ->check(CLI::PositiveNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  for (const std::string& name : options.scenes) {
+    check_scene(name, options);
+    std::fflush(stdout);
+  }
+  return kOk;
+}
+
+}  // namespace
+}  // namespace dch::bench
+
+int main(int argc, char** argv) {
+  try {
+    return dch::bench::parse_and_run(argc, argv);
+  } catch (const dch::bench::WrongList& error) {
+    fmt::print(stderr, "dch_check_frames: {}\n", error.what());
+    return dch::bench::kWrongList;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "dch_check_frames: {}\n", error.what());
+    return dch::bench::kBadFile;
+  }
+}
