@@ -44,7 +44,7 @@ std::string types_text(const trajectory::Frame& frame) {
   std::vector<std::string> parts;
   for (const auto& [type, count] : counts) {
     if (parts.size() == kMostTypesShown) {
-      parts.push_back("...");
+      parts.emplace_back("...");
       break;
     }
     parts.push_back(fmt::format("{}: {}", type, counted(count, "atom")));
