@@ -9,15 +9,6 @@
 #include <neighbor.h>
 
 namespace LAMMPS_NS {
-namespace {
-
-double distance2(const double* a, const double* b) {
-  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  return x * x + y * y + z * z;
-}
-
-}  // namespace
-
 void GhostImages::gather(double radius) {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -38,31 +29,23 @@ void GhostImages::gather(double radius) {
     low_[a] = open ? -infinity : below;
     high_[a] = open ? infinity : above;
   }
+  positions_ = atom->nlocal > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
+  has_one_limit_ = neighbor->cutneighmin == neighbor->cutneighmax;
+  limit_ = neighbor->cutneighsq[1][1];
   list_ghosts();
-}
-
-/// The owned atom of which a ghost is an image.
-int GhostImages::owner_of(int ghost) {
-  const tagint tag = atom->tag[ghost];
-  if (atom->map_style == Atom::MAP_NONE) {
-    const auto found = owned_with_tag_.find(tag);
-    return found != owned_with_tag_.end() ? found->second : -1;
-  }
-  int i = atom->map(tag);
-  while (i >= atom->nlocal) i = atom->sametag[i];  // images of one atom, the owned one last
-  return i;
 }
 
 void GhostImages::list_ghosts() {
   const int owned = atom->nlocal, ghosts = atom->nghost;
-  owned_with_tag_.clear();
-  if (atom->map_style == Atom::MAP_NONE && ghosts > 0) {
-    for (int i = 0; i < owned; ++i) owned_with_tag_.emplace(atom->tag[i], i);
+  if (tags_.size() != static_cast<std::size_t>(owned) || !std::equal(tags_.begin(), tags_.end(), atom->tag)) {
+    tags_.assign(atom->tag, atom->tag + owned);
+    by_tag_.reset(tags_.size());
+    for (int i = 0; i < owned; ++i) by_tag_.find_or_add(atom->tag[i], i);
   }
   owner_.resize(static_cast<std::size_t>(ghosts));
   first_.assign(static_cast<std::size_t>(owned) + 1, 0);
   for (int g = 0; g < ghosts; ++g) {
-    const int i = owner_of(owned + g);
+    const int i = by_tag_.find(atom->tag[owned + g]);
     owner_[static_cast<std::size_t>(g)] = i;
     if (i >= 0) ++first_[static_cast<std::size_t>(i) + 1];
   }
@@ -77,14 +60,15 @@ void GhostImages::list_ghosts() {
   first_.back() = static_cast<int>(ghost_.size());
 }
 
-int GhostImages::within_cutoff(int i, int j) const {
-  const double* at = atom->x[i];
-  const double limit = neighbor->cutneighsq[atom->type[i]][atom->type[j]];
-  if (distance2(at, atom->x[j]) <= limit) return j;
+double GhostImages::limit_of(int i, int j) const {
+  return neighbor->cutneighsq[atom->type[i]][atom->type[j]];
+}
+
+int GhostImages::ghost_within(int i, int j, double limit) const {
   const auto row = static_cast<std::size_t>(j);
   for (int k = first_[row]; k < first_[row + 1]; ++k) {
     const int ghost = ghost_[static_cast<std::size_t>(k)];
-    if (distance2(at, atom->x[ghost]) <= limit) return ghost;
+    if (distance2(i, ghost) <= limit) return ghost;
   }
   return -1;
 }

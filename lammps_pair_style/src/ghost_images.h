@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <lammps_host.h>
-#include <unordered_map>
 #include <vector>
 
 #include <dch/neighbor_list.hpp>
+#include <dch/vec3.hpp>
+
+#include "tag_table.h"
 
 namespace LAMMPS_NS {
 
@@ -22,7 +24,10 @@ class GhostImages : protected Pointers {
 
   /// The image of owned atom j that is within the neighbor cutoff of owned atom i, by the positions that
   /// LAMMPS gave the ghosts; -1 if there is none. At most one is, since the radius is less than half the box.
-  int within_cutoff(int i, int j) const;
+  int within_cutoff(int i, int j) const {
+    const double limit = has_one_limit_ ? limit_ : limit_of(i, j);
+    return distance2(i, j) <= limit ? j : ghost_within(i, j, limit);
+  }
 
   /// Whether all atoms within the radius of owned atom i are near it themselves, not by a ghost.
   bool is_inside(int i) const;
@@ -31,16 +36,25 @@ class GhostImages : protected Pointers {
   double error() const { return error_; }
 
  private:
-  int owner_of(int ghost);
+  double distance2(int i, int j) const {
+    const dch::Vec3 d = positions_[i] - positions_[j];
+    return norm2(d);
+  }
+  double limit_of(int i, int j) const;
+  int ghost_within(int i, int j, double limit) const;
   void list_ghosts();
 
+  const dch::Vec3* positions_ = nullptr;  ///< LAMMPS's own
+  bool has_one_limit_ = false;
+  double limit_ = 0;  ///< squared cutoff of all pairs, if they have one [length^2]
   double error_ = 0;
   std::array<double, 3> low_{},
       high_{};              ///< of the atoms inside, in the coordinates of the box if it is triclinic
   std::vector<int> owner_;  ///< by ghost
   std::vector<int> first_,
-      ghost_;  ///< ghosts of owned atom j: ghost_[first_[j]] .. ghost_[first_[j + 1] - 1]
-  std::unordered_map<std::int64_t, int> owned_with_tag_;  ///< only where LAMMPS keeps no map of its own
+      ghost_;                 ///< ghosts of owned atom j: ghost_[first_[j]] .. ghost_[first_[j + 1] - 1]
+  std::vector<tagint> tags_;  ///< of the owned atoms in the table
+  dch::lammps::TagTable by_tag_;
 };
 
 /// Has LAMMPS's own positions decide about pairs near the cutoff.

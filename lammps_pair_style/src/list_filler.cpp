@@ -52,21 +52,6 @@ bool ListFiller::stored_here(int i, int ghost) const {
   return xj[0] >= xi[0];
 }
 
-// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it never
-// sees.
-int ListFiller::special_kind(int i, int j) const {
-  const tagint* partners = atom->special[i];
-  const int* last = atom->nspecial[i];  // cumulative: ends of the 1-2, 1-3 and 1-4 partners
-  const tagint tag = atom->tag[j];
-  for (int k = 0; k < last[2]; ++k) {
-    if (partners[k] != tag) continue;
-    const int kind = k < last[0] ? 1 : k < last[1] ? 2 : 3;
-    const int flag = neighbor->special_flag[kind];
-    return flag == 0 ? -1 : flag == 1 ? 0 : kind;
-  }
-  return 0;
-}
-
 // The neighbor that a point of row i stands for, -1 if it is none of this row.
 int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const {
   const ServedList& served = scene.served;
@@ -87,15 +72,17 @@ int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool 
 }
 
 int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count) const {
-  const bool molecular = atom->molecular != Atom::ATOMIC && i < atom->nlocal;
+  // In the box the search has left out what the pair style never sees.
+  const bool is_special =
+      i < atom->nlocal && special_.has_partners(i) && (!scene.points.in_box() || special_.any_marked());
   const bool inside = scene.points.in_box() && scene.images.is_inside(i);
   int n = 0;
   for (int k = 0; k < count; ++k) {
     const int j = neighbor_of(scene, i, row[k], inside);
     if (j < 0 || (exclusions_.any() && exclusions_.excluded(i, j))) continue;
     int entry = j;
-    if (molecular) {
-      const int kind = special_kind(i, j);
+    if (is_special) {
+      const int kind = special_.kind(i, j);
       const double *xi = atom->x[i], *xj = atom->x[j];
       // A bonded atom's far image is no bonded atom: LAMMPS stores it as an ordinary neighbor.
       if (kind != 0 && !domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2])) {
@@ -109,18 +96,15 @@ int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count
 }
 
 bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const {
-  if (edits_all_ || scene.served.ghost) return false;
+  if (exclusions_.any() || scene.served.ghost) return false;
   if (scene.points.in_box()) {
     const bool is_halved = !scene.served.full && !scene.served.newton;
-    return !is_halved && scene.images.is_inside(i);
+    const bool is_marked = special_.any_marked() && special_.has_partners(i);
+    return !is_halved && !is_marked && scene.images.is_inside(i);
   }
+  if (neighbor->includegroup || special_.has_partners(i)) return false;
   return !scene.served.newton ||
          std::none_of(row.begin(), row.end(), [&](std::int32_t q) { return q >= scene.points.owned(); });
-}
-
-void ListFiller::copy_settings() {
-  exclusions_.copy_settings();
-  edits_all_ = exclusions_.any() || atom->molecular != Atom::ATOMIC || neighbor->includegroup != 0;
 }
 
 void ListFiller::fill(const AtomPoints& points, const GhostImages& images, ServedList& served,

@@ -9,6 +9,7 @@
 
 #include "atom_points.h"
 #include "ghost_images.h"
+#include "special_pairs.h"
 
 namespace LAMMPS_NS {
 
@@ -53,9 +54,10 @@ struct ServedList {
 /// special bonds.
 class ListFiller : protected Pointers {
  public:
-  explicit ListFiller(LAMMPS* lammps) : Pointers(lammps), exclusions_(lammps) {}
+  ListFiller(LAMMPS* lammps, const SpecialPairs& special)
+      : Pointers(lammps), exclusions_(lammps), special_(special) {}
 
-  void copy_settings();
+  void copy_settings() { exclusions_.copy_settings(); }
 
   /// Fills `list` from served.rows, which it edits in place. They hold the pairs of points within the
   /// cutoffs, those of lists with ghost rows maybe more. In the box each pair stands once, or twice if the
@@ -73,10 +75,9 @@ class ListFiller : protected Pointers {
   int edit_row(const Scene& scene, int i, std::int32_t* row, int count) const;
   int neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const;
   bool stored_here(int i, int ghost) const;
-  int special_kind(int i, int j) const;
 
   ExclusionRules exclusions_;
-  bool edits_all_ = false;  ///< rows of owned atoms, for exclusions or special bonds
+  const SpecialPairs& special_;
 };
 
 }  // namespace LAMMPS_NS

@@ -72,7 +72,8 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
       points_(lmp),
       images_(lmp),
       factory_(factory),
-      filler_(lmp),
+      special_(lmp),
+      filler_(lmp, special_),
       verifier_(lmp) {
   // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
   // nothing.
@@ -291,7 +292,10 @@ void NeighborDCH::build_ours() {
     for (ServedList& served : served_) {
       NeighList& list = *lists[served.index];
       dch::ListParams params = list_params(served);
-      if (points_.in_box()) params.near_cutoff = &by_images;
+      if (points_.in_box()) {
+        params.near_cutoff = &by_images;
+        params.exclusions = special_.never_seen(points_.size());
+      }
       search_->list(params, served.rows);
       run_.rows_seconds += seconds_since(clock);
       list.grow(atom->nlocal, atom->nlocal + atom->nghost);

@@ -99,6 +99,7 @@ class NeighborDCH : public Neighbor {
   GhostImages images_;
   dch::lammps::SearchFactory factory_;
   std::unique_ptr<dch::PairSearch> search_;
+  SpecialPairs special_;
   ListFiller filler_;
   ListVerifier verifier_;
   std::vector<std::vector<dch::lammps::ListEntry>>
