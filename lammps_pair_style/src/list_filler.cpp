@@ -52,73 +52,83 @@ bool ListFiller::stored_here(int i, int ghost) const {
   return xj[0] >= xi[0];
 }
 
-// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it never
-// sees.
-int ListFiller::special_kind(int i, int j) const {
-  const tagint* partners = atom->special[i];
-  const int* last = atom->nspecial[i];  // cumulative: ends of the 1-2, 1-3 and 1-4 partners
-  const tagint tag = atom->tag[j];
-  for (int k = 0; k < last[2]; ++k) {
-    if (partners[k] != tag) continue;
-    const int kind = k < last[0] ? 1 : k < last[1] ? 2 : 3;
-    const int flag = neighbor->special_flag[kind];
-    return flag == 0 ? -1 : flag == 1 ? 0 : kind;
+// The neighbor that a point of row i stands for, -1 if it is none of this row.
+int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const {
+  const ServedList& served = scene.served;
+  if (scene.points.in_box()) {
+    const int j = inside ? point : scene.images.within_cutoff(i, point);
+    // With newton off both rows of a pair have it here, and both keep it if it goes through a ghost.
+    const bool is_twice = !served.full && !served.newton && j < atom->nlocal && j < i;
+    return is_twice ? -1 : j;
   }
-  return 0;
+  const int j = scene.points.atom_of(point);
+  if (served.ghost) {
+    const double* cutsq =
+        (i < atom->nlocal ? neighbor->cutneighsq : neighbor->cutneighghostsq)[atom->type[i]];
+    const double *xi = atom->x[i], *xj = atom->x[j];
+    if (norm2(dch::Vec3{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}) > cutsq[atom->type[j]]) return -1;
+  }
+  return served.newton && j >= atom->nlocal && !stored_here(i, j) ? -1 : j;
 }
 
-int ListFiller::fill_row(std::size_t point, dch::Span<const std::int32_t> candidates,
-                         const AtomPoints& points, bool newton, int* out) const {
-  const int owned = atom->nlocal;
-  const int i = points.atoms()[point];
-  const bool ghost_row = i >= owned;
-  const bool molecular = atom->molecular != Atom::ATOMIC && !ghost_row;
-  const double* cutsq = (ghost_row ? neighbor->cutneighghostsq : neighbor->cutneighsq)[atom->type[i]];
-  const dch::Vec3 xi = points.positions()[point];
+int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count) const {
+  // In the box the search has left out what the pair style never sees.
+  const bool is_special =
+      i < atom->nlocal && special_.has_partners(i) && (!scene.points.in_box() || special_.any_marked());
+  const bool inside = scene.points.in_box() && scene.images.is_inside(i);
   int n = 0;
-  for (const std::int32_t candidate : candidates) {
-    const auto q = static_cast<std::size_t>(candidate);
-    const int j = points.atoms()[q];
-    const dch::Vec3 del = xi - points.positions()[q];
-    if (norm2(del) > cutsq[atom->type[j]]) continue;
-    if (newton && j >= owned && !stored_here(i, j)) continue;
-    if (exclusions_.any() && exclusions_.excluded(i, j)) continue;
+  for (int k = 0; k < count; ++k) {
+    const int j = neighbor_of(scene, i, row[k], inside);
+    if (j < 0 || (exclusions_.any() && exclusions_.excluded(i, j))) continue;
     int entry = j;
-    if (molecular) {
-      const int kind = special_kind(i, j);
+    if (is_special) {
+      const int kind = special_.kind(i, j);
+      const double *xi = atom->x[i], *xj = atom->x[j];
       // A bonded atom's far image is no bonded atom: LAMMPS stores it as an ordinary neighbor.
-      if (kind != 0 && !domain->minimum_image_check(del.x, del.y, del.z)) {
+      if (kind != 0 && !domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2])) {
         if (kind < 0) continue;
         entry ^= kind << SBBITS;
       }
     }
-    out[n++] = entry;
+    row[n++] = entry;
   }
   return n;
 }
 
-void ListFiller::fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
-                      NeighList& list) const {
-  const auto owned = static_cast<std::size_t>(points.owned());
-  const auto bound = static_cast<std::size_t>(candidates.first.back());
-  if (served.storage.size() < bound) served.storage.resize(bound);
-  int* out = served.storage.data();
-  std::size_t rows = owned;
-  for (std::size_t r = 0; r < candidates.size(); ++r) {
-    const std::size_t point =
-        candidates.particle.empty() ? r : static_cast<std::size_t>(candidates.particle[r]);
-    if (point >= owned && !served.ghost) continue;
-    const int i = points.atoms()[point];
-    const int n = fill_row(point, candidates.row(r), points, served.newton, out);
-    list.ilist[point] = i;  // the order of the atoms in memory, whatever the order of the rows
-    rows = std::max(rows, point + 1);
-    list.firstneigh[i] = out;
-    list.numneigh[i] = n;
-    out += n;
+bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const {
+  if (exclusions_.any() || scene.served.ghost) return false;
+  if (scene.points.in_box()) {
+    const bool is_halved = !scene.served.full && !scene.served.newton;
+    const bool is_marked = special_.any_marked() && special_.has_partners(i);
+    return !is_halved && !is_marked && scene.images.is_inside(i);
   }
-  list.inum = static_cast<int>(owned);
-  list.gnum = static_cast<int>(rows - owned);
-  served.pairs = out - served.storage.data();
+  if (neighbor->includegroup || special_.has_partners(i)) return false;
+  return !scene.served.newton ||
+         std::none_of(row.begin(), row.end(), [&](std::int32_t q) { return q >= scene.points.owned(); });
+}
+
+void ListFiller::fill(const AtomPoints& points, const GhostImages& images, ServedList& served,
+                      NeighList& list) const {
+  const Scene scene{points, images, served};
+  const dch::NeighborList& rows = served.rows;
+  int own_rows = 0, ghost_rows = points.owned();
+  served.pairs = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::int32_t point = rows.particle[r];
+    const bool is_owned = point < points.owned();
+    if (!is_owned && !served.ghost) continue;
+    const int i = points.atom_of(point);
+    const dch::Span<const std::int32_t> row = rows.row(r);
+    std::int32_t* const to = served.rows.j.data() + rows.first[r];
+    auto count = static_cast<int>(row.size());
+    if (!stays_as_it_is(scene, i, row)) count = edit_row(scene, i, to, count);
+    list.ilist[is_owned ? own_rows++ : ghost_rows++] = i;  // near in space, near in the list
+    list.firstneigh[i] = to;
+    list.numneigh[i] = count;
+    served.pairs += count;
+  }
+  list.inum = own_rows;
+  list.gnum = ghost_rows - points.owned();
 }
 
 }  // namespace LAMMPS_NS

@@ -8,6 +8,8 @@
 #include <dch/neighbor_list.hpp>
 
 #include "atom_points.h"
+#include "ghost_images.h"
+#include "special_pairs.h"
 
 namespace LAMMPS_NS {
 
@@ -38,36 +40,44 @@ class ExclusionRules : protected Pointers {
   std::vector<Molecules> molecules_;
 };
 
-/// A list of LAMMPS that is filled from ours, with the memory for its neighbors.
+/// A list of LAMMPS that is filled from ours, which holds its neighbors.
 struct ServedList {
   int index = 0;  ///< in Neighbor::lists
   bool full = false;
-  bool newton = false;  ///< half list, each owned-ghost pair on one side only
-  bool ghost = false;   ///< has rows for ghost atoms as well
-  std::vector<int> storage;
+  bool newton = false;     ///< half list, each owned-ghost pair on one side only
+  bool ghost = false;      ///< has rows for ghost atoms as well
+  dch::NeighborList rows;  ///< of points; when LAMMPS's list is filled its pointers lead here
   std::int64_t pairs = 0;  ///< entries at the last build
 };
 
-/// Turns rows of candidate pairs into a NeighList: cutoffs by type, which side stores a pair, exclusions,
+/// Turns rows of points into a NeighList: which image of a neighbor, which side stores a pair, exclusions,
 /// special bonds.
 class ListFiller : protected Pointers {
  public:
-  explicit ListFiller(LAMMPS* lammps) : Pointers(lammps), exclusions_(lammps) {}
+  ListFiller(LAMMPS* lammps, const SpecialPairs& special)
+      : Pointers(lammps), exclusions_(lammps), special_(special) {}
 
   void copy_settings() { exclusions_.copy_settings(); }
 
-  /// Fills `list` from `candidates`, whose particles are the points. They hold all pairs within the cutoffs
-  /// and may hold more; they are half or full, with or without pairs of ghosts, as `served` is.
-  void fill(const dch::NeighborList& candidates, const AtomPoints& points, ServedList& served,
-            NeighList& list) const;
+  /// Fills `list` from served.rows, which it edits in place. They hold the pairs of points within the
+  /// cutoffs, those of lists with ghost rows maybe more. In the box each pair stands once, or twice if the
+  /// list is full or newton is off; in open space they are as ListParams::first_ghost makes them.
+  /// @param images of points in the box; not looked at in open space
+  void fill(const AtomPoints& points, const GhostImages& images, ServedList& served, NeighList& list) const;
 
  private:
-  int fill_row(std::size_t point, dch::Span<const std::int32_t> candidates, const AtomPoints& points,
-               bool newton, int* out) const;
+  struct Scene {
+    const AtomPoints& points;
+    const GhostImages& images;
+    const ServedList& served;
+  };
+  bool stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const;
+  int edit_row(const Scene& scene, int i, std::int32_t* row, int count) const;
+  int neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const;
   bool stored_here(int i, int ghost) const;
-  int special_kind(int i, int j) const;
 
   ExclusionRules exclusions_;
+  const SpecialPairs& special_;
 };
 
 }  // namespace LAMMPS_NS

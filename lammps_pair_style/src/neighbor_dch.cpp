@@ -25,9 +25,8 @@ using namespace NeighConst;
 
 namespace {
 
-// The search radius exceeds the cutoff by more than rounding, and LAMMPS's own test of the squared distance
-// decides.
-constexpr double kRadiusMargin = 1.0 + 1e-12;
+// The search reaches farther than the cutoff, by more than rounding can move an atom.
+constexpr double kRadiusMargin = 1.0 + 1e-6;
 
 // A pair of types without interaction has cutoff 0 in LAMMPS, which still lists coincident atoms.
 constexpr double kSmallestCutoff = 1e-100;
@@ -71,8 +70,10 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
     : Neighbor(*retired),
       retired_(retired),
       points_(lmp),
-      candidates_(factory),
-      filler_(lmp),
+      images_(lmp),
+      factory_(factory),
+      special_(lmp),
+      filler_(lmp, special_),
       verifier_(lmp) {
   // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
   // nothing.
@@ -133,16 +134,23 @@ void NeighborDCH::init() {
   classify_lists();
   announce(before);
   if (served_.empty()) return;
+  prepare_search();
+  before_run_ = search_stats();
+  hide_bins();
+}
+
+void NeighborDCH::prepare_search() {
+  const double radius = cutneighmax * kRadiusMargin;
+  if (search_ && radius == params_.radius && c_ == params_.c) return;
   params_ = {};
-  params_.radius = cutneighmax * kRadiusMargin;
+  params_.radius = radius;
   params_.c = c_;
+  search_.reset();
   try {
-    candidates_.prepare(params_);
+    search_ = factory_(params_);
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
   }
-  before_run_ = candidates_.stats();
-  hide_bins();
 }
 
 void NeighborDCH::classify_lists() {
@@ -164,7 +172,7 @@ void NeighborDCH::classify_lists() {
     ours.ghost = list.ghost != 0;
     const auto old =
         std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
-    if (old != served_.end()) ours.storage = std::move(old->storage);
+    if (old != served_.end()) ours.rows = std::move(old->rows);
     served.push_back(std::move(ours));
     served_plist_.push_back(m);
   }
@@ -274,17 +282,24 @@ void NeighborDCH::build(int topoflag) {
 void NeighborDCH::build_ours() {
   double clock = MPI_Wtime();
   try {
-    points_.gather();
+    points_.gather(may_use_box());
+    if (points_.in_box()) images_.gather(cutneighmax);
     run_.points_seconds += seconds_since(clock);
-    candidates_.update(points_.positions(), points_.keys());
+    search_->update(points_.positions(), points_.box(), points_.keys());
     run_.structure_seconds += seconds_since(clock);
     run_.entries = 0;
+    const ImageTest by_images(images_);
     for (ServedList& served : served_) {
       NeighList& list = *lists[served.index];
-      const dch::NeighborList& rows = candidates_.rows(list_params(served));
+      dch::ListParams params = list_params(served);
+      if (points_.in_box()) {
+        params.near_cutoff = &by_images;
+        params.exclusions = special_.never_seen(points_.size());
+      }
+      search_->list(params, served.rows);
       run_.rows_seconds += seconds_since(clock);
       list.grow(atom->nlocal, atom->nlocal + atom->nghost);
-      filler_.fill(rows, points_, served, list);
+      filler_.fill(points_, images_, served, list);
       run_.entries += served.pairs;
       run_.fill_seconds += seconds_since(clock);
     }
@@ -296,13 +311,22 @@ void NeighborDCH::build_ours() {
   ++run_.builds;
 }
 
-dch::ListParams NeighborDCH::list_params(const ServedList& served) const {
+bool NeighborDCH::may_use_box() const {
+  const bool any_ghost_rows =
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
+  return !any_ghost_rows && points_.may_use_box(params_.radius);
+}
+
+dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   dch::ListParams params;
-  params.kind = served.full ? dch::ListKind::full : dch::ListKind::half;
+  // A pair through a ghost is in both rows if newton is off.
+  const bool in_both_rows = served.full || (points_.in_box() && !served.newton);
+  params.kind = in_both_rows ? dch::ListKind::full : dch::ListKind::half;
   params.order = dch::RowOrder::by_structure;
-  params.first_ghost = served.ghost ? -1 : points_.owned();
-  params.cutoffs = dch::TypeCutoffs(params_.radius);
-  if (!served.ghost && atom->ntypes > 1 && cutneighmin < cutneighmax) {
+  params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
+  params.cutoffs = dch::TypeCutoffs(cutneighmax);
+  if (served.ghost) return params;
+  if (atom->ntypes > 1 && cutneighmin < cutneighmax) {
     params.cutoffs = type_cutoffs();
     params.types = points_.types();
   }
@@ -315,7 +339,7 @@ dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
   for (int a = 1; a <= n; ++a) {
     for (int b = 1; b <= n; ++b) {
       const double cutoff = std::sqrt(std::max(cutneighsq[a][b], cutneighsq[b][a]));
-      matrix.push_back(std::clamp(cutoff * kRadiusMargin, kSmallestCutoff, params_.radius));
+      matrix.push_back(std::clamp(cutoff, kSmallestCutoff, cutneighmax));
     }
   }
   return dch::TypeCutoffs(n, std::move(matrix));
@@ -364,9 +388,11 @@ void NeighborDCH::check_against_native() {
 // Saying what they did
 
 dch::lammps::RunReport NeighborDCH::report() const {
-  const dch::SearchStats& now = candidates_.stats();
+  const dch::SearchStats now = search_stats();
   std::size_t bytes = now.memory_bytes;
-  for (const ServedList& served : served_) bytes += served.storage.capacity() * sizeof(int);
+  for (const ServedList& served : served_)
+    bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
+             served.rows.first.capacity() * sizeof(std::int64_t);
 
   std::array<std::int64_t, 8> sums{run_.entries,
                                    run_.verified_entries,

@@ -7,16 +7,26 @@
 #include <string>
 #include <vector>
 
+#include <dch/hierarchy.hpp>
+#include <dch/pair_search.hpp>
+
 #include "atom_points.h"
-#include "candidate_rows.h"
+#include "ghost_images.h"
 #include "list_filler.h"
 #include "list_verifier.h"
 #include "run_report.h"
 
+namespace dch::lammps {
+
+/// Makes the search structure for some parameters; make_dch_search, but for tests.
+using SearchFactory = std::unique_ptr<PairSearch> (*)(const HierarchyParams&);
+
+}  // namespace dch::lammps
+
 namespace LAMMPS_NS {
 
-/// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy over owned and ghost
-/// atoms.
+/// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy: over the atoms in the
+/// periodic box where one process has it, else over owned and ghost atoms.
 ///
 /// It takes the place of the stock object, so every pair style, fix and compute finds its list where it
 /// always was. Of the perpetual lists it fills those that LAMMPS would build by searching space for a pair
@@ -63,9 +73,12 @@ class NeighborDCH : public Neighbor {
   void hide_bins();
 
   void build_native_reference();
+  void prepare_search();
   void build_ours();
-  dch::ListParams list_params(const ServedList& served) const;
+  bool may_use_box() const;
+  dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
+  dch::SearchStats search_stats() const { return search_ ? search_->stats() : dch::SearchStats(); }
   void check_against_native();
 
   std::unique_ptr<Neighbor> retired_;
@@ -83,7 +96,10 @@ class NeighborDCH : public Neighbor {
   dch::HierarchyParams params_;
 
   AtomPoints points_;
-  dch::lammps::CandidateRows candidates_;
+  GhostImages images_;
+  dch::lammps::SearchFactory factory_;
+  std::unique_ptr<dch::PairSearch> search_;
+  SpecialPairs special_;
   ListFiller filler_;
   ListVerifier verifier_;
   std::vector<std::vector<dch::lammps::ListEntry>>

@@ -17,36 +17,18 @@ std::uint64_t pack(std::int64_t tag, const ImageFlags& cell) {
 
 }  // namespace
 
-void PointKeys::reset_table(std::size_t entries) {
-  std::size_t slots = 16;
-  while (slots < 2 * entries) slots *= 2;
-  slot_tag_.assign(slots, 0);
-  slot_point_.resize(slots);
-}
-
-std::int32_t PointKeys::first_with_tag(std::int64_t tag, std::int32_t candidate) {
-  const std::size_t mask = slot_tag_.size() - 1;
-  std::size_t slot = (static_cast<std::uint64_t>(tag) * 0x9E3779B97F4A7C15u >> 20) & mask;
-  while (slot_tag_[slot] != 0) {
-    if (slot_tag_[slot] == tag) return slot_point_[slot];
-    slot = (slot + 1) & mask;
-  }
-  slot_tag_[slot] = tag;
-  slot_point_[slot] = candidate;
-  return candidate;
-}
-
 Span<const std::uint64_t> PointKeys::assign(Span<const Vec3> points, Span<const std::int64_t> tags,
                                             Span<const ImageFlags> images, const Lattice& lattice) {
   const std::size_t owned = images.size();
   keys_.resize(points.size());
-  reset_table(points.size());
+  by_tag_.reset(points.size());
   for (std::size_t p = 0; p < owned; ++p) {
     keys_[p] = pack(tags[p], images[p]);
-    first_with_tag(tags[p], static_cast<std::int32_t>(p));
+    by_tag_.find_or_add(tags[p], static_cast<std::int32_t>(p));
   }
   for (std::size_t p = owned; p < points.size(); ++p) {
-    const auto reference = static_cast<std::size_t>(first_with_tag(tags[p], static_cast<std::int32_t>(p)));
+    const auto reference =
+        static_cast<std::size_t>(by_tag_.find_or_add(tags[p], static_cast<std::int32_t>(p)));
     const Vec3 offset = lattice.lamda(points[p] - points[reference]);
     const Vec3 place = lattice.lamda(points[reference] - lattice.low);
     ImageFlags cell{};

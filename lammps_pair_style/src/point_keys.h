@@ -8,6 +8,8 @@
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
+#include "tag_table.h"
+
 namespace dch::lammps {
 
 /// How often an atom has crossed the periodic box along x, y, z (LAMMPS's image flags).
@@ -43,13 +45,8 @@ class PointKeys {
                                    Span<const ImageFlags> images, const Lattice& lattice);
 
  private:
-  void reset_table(std::size_t entries);
-  /// Index of the first point seen with this tag, which is `candidate` if there was none.
-  std::int32_t first_with_tag(std::int64_t tag, std::int32_t candidate);
-
   std::vector<std::uint64_t> keys_;
-  std::vector<std::int64_t> slot_tag_;  ///< open addressing, 0 marks a free slot
-  std::vector<std::int32_t> slot_point_;
+  TagTable by_tag_;
 };
 
 }  // namespace dch::lammps

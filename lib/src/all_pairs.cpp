@@ -29,7 +29,7 @@ class Oracle {
  public:
   Oracle(Span<const Vec3> positions, const Box& box, const ListParams& params)
       : positions_(positions), params_(params), types_(params.cutoffs.types()) {
-    detail::check_list_params(params, positions.size(), params.list_radius());
+    detail::check_list_params(params, positions.size(), params.list_radius() + params.cutoff_error());
     detail::check_radius(params.list_radius(), box);
     detail::check_positions(positions, box);
     for (int a = 0; a < types_; ++a) {
@@ -69,7 +69,7 @@ class Oracle {
       largest = std::max(largest, std::abs(g.x * p.x) + std::abs(g.y * p.y) + std::abs(g.z * p.z));
     }
     const double rounding = 1e-9 + 16 * std::numeric_limits<double>::epsilon() * largest;
-    period.reach = params_.list_radius() * std::sqrt(norm2(g)) + rounding;
+    period.reach = (params_.list_radius() + params_.cutoff_error()) * std::sqrt(norm2(g)) + rounding;
     periods_.push_back(std::move(period));
   }
 
@@ -102,18 +102,25 @@ class Oracle {
       high[period.axis] = floor_to_integer(period.reach - f);
       if (low[period.axis] > high[period.axis]) return false;
     }
-    const double limit2 = limit2_of(i, j);
+    double nearest2 = std::numeric_limits<double>::infinity();
     const Vec3 d = positions_[j] - positions_[i];
     for (Integer a = low[0]; a <= high[0]; ++a) {
       for (Integer b = low[1]; b <= high[1]; ++b) {
         for (Integer c = low[2]; c <= high[2]; ++c) {
           const Vec3 image = ((d + static_cast<double>(a) * cell_[0]) + static_cast<double>(b) * cell_[1]) +
                              static_cast<double>(c) * cell_[2];
-          if (norm2(image) <= limit2) return true;
+          nearest2 = std::min(nearest2, norm2(image));
         }
       }
     }
-    return false;
+    return is_within(i, j, nearest2);
+  }
+
+  bool is_within(std::int32_t i, std::int32_t j, double distance2) const {
+    const double limit2 = limit2_of(i, j), error = params_.cutoff_error();
+    if (params_.near_cutoff == nullptr || limit2 < 0) return distance2 <= limit2;
+    const double off = std::sqrt(distance2) - std::sqrt(limit2);
+    return std::abs(off) <= error ? params_.near_cutoff->accepts(i, j) : off < 0;
   }
 
   bool is_excluded(std::int32_t i, std::int32_t j) const {

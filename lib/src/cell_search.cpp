@@ -88,7 +88,7 @@ void CellSearch::update(Span<const Vec3> positions, const Box& box, Span<const s
 void CellSearch::list(const ListParams& params, NeighborList& out) {
   const auto start = std::chrono::steady_clock::now();
   detail::check_list_params(params, positions_.size(), radius_);
-  const detail::PairFilter filter(positions_, box_, params, wrap_error_);
+  const detail::PairFilter filter(positions_, box_, params, wrap_error_ + params.cutoff_error());
   pairs_.clear();
   if (grid_.separates_images(divisions_)) {
     find_pairs_by_shifts(filter);

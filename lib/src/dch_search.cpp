@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dch_search.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -56,6 +57,12 @@ void DchSearch::by_index(Span<const Vec3> positions, const Box& box) {
 }
 
 void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  const bool are_as_before = state_ == State::keyed && keys.size() == positions.size() &&
+                             std::equal(keys.begin(), keys.end(), names_.begin(), names_.end());
+  if (are_as_before) {
+    hierarchy_.update(positions, box);
+    return;
+  }
   fresh_keys_.fill(positions.size(), keys);
   if (state_ == State::keyed && match(positions, keys)) {
     hierarchy_.update(positions, box);
@@ -63,6 +70,7 @@ void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const st
     build(positions, box);
   }
   std::swap(keys_, fresh_keys_);
+  names_.assign(keys.begin(), keys.end());
   state_ = State::keyed;
 }
 

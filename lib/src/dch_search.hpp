@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <dch/hierarchy.hpp>
 
@@ -40,6 +41,7 @@ class DchSearch final : public PairSearch {
   Hierarchy hierarchy_;
   State state_ = State::empty;
   KeyTable keys_, fresh_keys_;
+  std::vector<std::uint64_t> names_;  ///< the keys of the last update, in order
   CostEstimate build_per_point_;
   CostEstimate exchange_;  ///< to insert or remove one particle
   std::int64_t updates_ = 0;

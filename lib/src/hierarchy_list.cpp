@@ -33,12 +33,13 @@ detail::ListSource Hierarchy::Impl::list_source(const detail::ParticleNames& nam
 
 void Hierarchy::Impl::lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
   const auto start = std::chrono::steady_clock::now();
-  double reach = 0;
+  double reach = 0, host_error = 0;
   for (const ListParams& request : requests) {
     detail::check_list_params(request, raw.size(), params.radius);
     reach = std::max(reach, request.list_radius());
+    host_error = std::max(host_error, request.cutoff_error());
   }
-  const double error = prepare_for_lists();
+  const double error = prepare_for_lists() + host_error;
   const detail::ListScene scene{box,   {list_source({})}, {(reach + error) * (1 + 1e-12)},
                                 error, params.executor,   lone_points()};
   list_finder.find(scene, raw, requests, out);

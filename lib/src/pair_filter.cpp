@@ -19,12 +19,12 @@ Vec3 rounded(Vec3 v) { return {std::nearbyint(v.x), std::nearbyint(v.y), std::ne
 
 }  // namespace
 
-PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params,
-                       double wrap_error)
+PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error)
     : positions_(positions),
       box_(box),
       params_(params),
-      wrap_error_(wrap_error),
+      error_(error),
+      near_cutoff_(params.near_cutoff),
       exclusions_(params.exclusions != nullptr && !params.exclusions->empty() ? params.exclusions : nullptr),
       first_ghost_(params.first_ghost),
       by_(!params.radii.empty()         ? By::radii
@@ -74,7 +74,7 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
 }
 
 PairFilter::Band PairFilter::band_within(double reach) const {
-  const double inside = std::max(0.0, reach - wrap_error_), outside = reach + wrap_error_;
+  const double inside = std::max(0.0, reach - error_), outside = reach + error_;
   return {inside * inside * (1 - kRounding), outside * outside * (1 + kRounding), reach * reach};
 }
 
@@ -94,6 +94,7 @@ bool PairFilter::is_wanted(std::int32_t i, std::int32_t j) const {
 }
 
 bool PairFilter::is_within(std::int32_t i, std::int32_t j, double cutoff2) const {
+  if (near_cutoff_ != nullptr) return cutoff2 >= 0 && near_cutoff_->accepts(i, j);
   if (i > j) std::swap(i, j);
   const Vec3 d = positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)];
   if (std::abs(d.x) < clear_half_.x && std::abs(d.y) < clear_half_.y && std::abs(d.z) < clear_half_.z)

@@ -19,8 +19,9 @@ namespace dch::detail {
 class PairFilter {
  public:
   /// @param positions as given to the engine, not wrapped; they and what params points to must outlive this.
-  /// @param wrap_error WrapError::bound for these positions [length].
-  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double wrap_error);
+  /// @param error how far distances of wrapped images may be from what decides: WrapError::bound for these
+  ///   positions, and what params.cutoff_error() adds [length].
+  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error);
 
   /// No pair at a larger squared distance of wrapped images is in the list, whatever its types [length^2].
   double largest_distance2() const { return largest_; }
@@ -73,7 +74,8 @@ class PairFilter {
   Span<const Vec3> positions_;
   const Box& box_;
   ListParams params_;
-  double wrap_error_;
+  double error_;
+  const PairTest* near_cutoff_;
   const Exclusions* exclusions_;
   std::int32_t first_ghost_;
   By by_;

@@ -183,9 +183,14 @@ void check_skin(double skin) {
 void check_list_params(const ListParams& params, std::size_t n, double radius) {
   check_skin(params.skin);
   if (!params.radii.empty()) check_radii(params, n);
-  if (params.list_radius() > radius) {
-    throw InvalidParameter("cutoff + skin = " + describe(params.list_radius()) +
-                           " exceeds the search radius " + describe(radius) +
+  if (!(std::isfinite(params.cutoff_error()) && params.cutoff_error() >= 0)) {
+    throw InvalidParameter("the error of the test near the cutoff is " + describe(params.cutoff_error()) +
+                           "; it must be finite and not negative");
+  }
+  const double reach = params.list_radius() + params.cutoff_error();
+  if (reach > radius) {
+    throw InvalidParameter(std::string("cutoff + skin") + (params.near_cutoff ? " + error" : "") + " = " +
+                           describe(reach) + " exceeds the search radius " + describe(radius) +
                            " that the engine was made for; make it with a larger one");
   }
   if (params.radii.empty()) check_types(params, n);

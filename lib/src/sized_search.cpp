@@ -86,6 +86,8 @@ void SizedSearch::lists(Span<const ListParams> requests, std::vector<NeighborLis
 void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
   if (requests.empty()) return;
   const auto start = Clock::now();
+  host_error_ = 0;
+  for (const ListParams& request : requests) host_error_ = std::max(host_error_, request.cutoff_error());
   classify(requests);
   bring_up_to_date();
   maintain_seconds_ += seconds_since(start);
@@ -99,6 +101,7 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
     sources.push_back(hierarchy.list_source({group.particle, names_version_}));
   }
   error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
+  error += host_error_;
   ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
   for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
   list_finder_.find(scene, positions_, requests, out);
@@ -109,9 +112,9 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
 void SizedSearch::classify(Span<const ListParams> requests) {
   // One class where two images of a particle may tie at the cutoff, up to rounding.
   constexpr double kTie = 1e-6;
-  const double farthest = box_.any_periodic()
-                              ? box_.max_cutoff() * (1 - kTie) - 4 * WrapError(box_).bound(largest_reach_)
-                              : std::numeric_limits<double>::infinity();
+  const double farthest = box_.any_periodic() ? box_.max_cutoff() * (1 - kTie) -
+                                                    4 * (WrapError(box_).bound(largest_reach_) + host_error_)
+                                              : std::numeric_limits<double>::infinity();
   for (const ListParams& request : requests) check_list_params(request, positions_.size(), params_.radius);
   const bool are_known = classes_.of.size() == positions_.size() && sizes_.says_the_same(requests);
   if (!are_known) {
@@ -156,7 +159,8 @@ void SizedSearch::bring_up_to_date() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const double reach = own_reach(classes_, g);
-    const double wanted = reach > 0 ? reach : params_.radius;  // any will do where there are no pairs
+    const double wanted =
+        reach > 0 ? reach + host_error_ : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
     if (!group.search || !fits || (group.is_new && keys_.empty())) {

@@ -60,6 +60,7 @@ class SizedSearch final : public PairSearch {
   bool stale_ = false;  ///< whether positions have come that the groups do not have
   SizeRecord sizes_;    ///< that the classes were made from
   double largest_radius_ = 0;
+  double host_error_ = 0;            ///< largest ListParams::cutoff_error() of the requests [length]
   bool told_apart_ = false;          ///< whether there may be several classes
   std::uint64_t names_version_ = 0;  ///< see ParticleNames
   SizeClasses classes_;

@@ -19,6 +19,30 @@
 
 namespace dch {
 
+/// A host that lists just some of the pairs that are near their cutoffs.
+class SomeNearCutoff : public PairTest {
+ public:
+  SomeNearCutoff(double error, const std::vector<Vec3>& points, const Box& box, const ListParams& request)
+      : PairTest(error), points_(points), box_(box), request_(request) {}
+
+  bool accepts(std::int32_t i, std::int32_t j) const override {
+    const double off = std::sqrt(box_.distance2(points_[i], points_[j])) - cutoff(i, j) - request_.skin;
+    if (std::abs(off) > error()) return off < 0;
+    return (i + j) % 3 == 0;
+  }
+
+ private:
+  double cutoff(std::int32_t i, std::int32_t j) const {
+    if (!request_.radii.empty()) return request_.radii[i] + request_.radii[j];
+    return request_.types.empty() ? request_.cutoffs(0, 0)
+                                  : request_.cutoffs(request_.types[i], request_.types[j]);
+  }
+
+  const std::vector<Vec3>& points_;
+  const Box& box_;
+  const ListParams& request_;
+};
+
 /// A scene in which nothing is chosen by hand: the box, the points, their sizes, what is asked for and how.
 class RandomScene {
  public:
@@ -121,10 +145,15 @@ class RandomScene {
       what_ += ", ghosts from " + std::to_string(request_.first_ghost);
     }
     if (request_.kind == ListKind::half && coin()) request_.order = RowOrder::by_structure;
+    if (random_.below(4) == 0) {
+      near_cutoff_ = std::make_unique<SomeNearCutoff>(0.01 * reach_, points_, box_.box, request_);
+      request_.near_cutoff = near_cutoff_.get();
+      what_ += ", a test near the cutoff";
+    }
   }
 
   void choose_search() {
-    hierarchy_.radius = reach_ * (1 + 1e-12);
+    hierarchy_.radius = reach_ * (1 + 1e-12) + request_.cutoff_error();
     hierarchy_.size_classes = coin();
     if (coin()) hierarchy_.base_radius = reach_ * random_.uniform(0.2, 2);
     hierarchy_.policy =
@@ -143,6 +172,7 @@ class RandomScene {
   std::vector<std::int32_t> types_;
   Exclusions exclusions_;
   ListParams request_;
+  std::unique_ptr<PairTest> near_cutoff_;
   HierarchyParams hierarchy_;
   std::unique_ptr<Executor> threads_;
   std::string what_;

@@ -67,6 +67,28 @@ class TypeCutoffs {
   double largest_ = 0;
 };
 
+/// A host's own decision about pairs that are as far apart as their cutoff, to within rounding: for hosts
+/// that compute distances otherwise than ListParams says, from images of particles that they made themselves.
+class PairTest {
+ public:
+  /// @param error how far the distance of the host may be from the pair distance at most [length]
+  explicit PairTest(double error) : error_(error) {}
+  virtual ~PairTest() = default;
+
+  /// Whether the pair of these particles is within its cutoff + skin. Asked from all threads of a list's
+  /// executor, about pairs whose pair distance is within error() of that, and maybe about others nearby,
+  /// where the answer has to be that of the pair distance.
+  virtual bool accepts(std::int32_t i, std::int32_t j) const = 0;
+  double error() const { return error_; }
+
+ protected:
+  PairTest(const PairTest&) = default;
+  PairTest& operator=(const PairTest&) = default;
+
+ private:
+  double error_;
+};
+
 /// What a list has to hold.
 ///
 /// The pair distance of i < j is |(x_j - x_i) + n_a a + n_b b + n_c c| with the integers of the nearest
@@ -91,6 +113,13 @@ struct ListParams {
   /// Whether pairs a little farther apart than their cutoff + skin may be listed too, none being left out:
   /// cheaper, for callers that test the distance anyway. NeighborList::margin says how much farther.
   bool superset = false;
+
+  /// Decides in place of the pair distance where the cutoff is near; not owned, may be null. Its error counts
+  /// with list_radius() as to what radius an engine has to be made for.
+  const PairTest* near_cutoff = nullptr;
+
+  /// Error of near_cutoff, 0 if there is none [length].
+  double cutoff_error() const { return near_cutoff != nullptr ? near_cutoff->error() : 0; }
 
   /// Largest cutoff plus skin: r_list. O(n) where there are radii.
   double list_radius() const;

@@ -34,7 +34,8 @@ class FaultySearch : public dch::PairSearch {
     good_->list(params, out);
     if (++lists_ < 3) return;
     if (fault == Fault::none) return;
-    const auto [row, k] = first_two_owned(out, params.first_ghost);
+    const auto [row, k] = first_two_owned(
+        out, params.first_ghost < 0 ? static_cast<std::int32_t>(out.size()) : params.first_ghost);
     if (fault == Fault::repeat) {
       out.j[k] = out.j[k + 1];
       return;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "special_pairs.h"
+
+#include <algorithm>
+#include <atom.h>
+#include <neighbor.h>
+
+namespace LAMMPS_NS {
+
+bool SpecialPairs::any_marked() const {
+  const int* flag = neighbor->special_flag;
+  return atom->molecular != Atom::ATOMIC && (flag[1] == 2 || flag[2] == 2 || flag[3] == 2);
+}
+
+int SpecialPairs::kind(int i, int j) const {
+  const tagint* partners = atom->special[i];
+  const int* last = atom->nspecial[i];  // cumulative: ends of the 1-2, 1-3 and 1-4 partners
+  const tagint tag = atom->tag[j];
+  for (int k = 0; k < last[2]; ++k) {
+    if (partners[k] != tag) continue;
+    const int kind = k < last[0] ? 1 : k < last[1] ? 2 : 3;
+    const int flag = neighbor->special_flag[kind];
+    return flag == 0 ? -1 : flag == 1 ? 0 : kind;
+  }
+  return 0;
+}
+
+/// Compares the topology with the one that is kept, and keeps it.
+bool SpecialPairs::are_as_before(int count) {
+  bool same = tags_.size() == static_cast<std::size_t>(count) &&
+              std::equal(tags_.begin(), tags_.end(), atom->tag) &&
+              std::equal(std::begin(flags_), std::end(flags_), neighbor->special_flag);
+  std::size_t at = 0;
+  for (int i = 0; same && i < count; ++i) {
+    const int* ends = atom->nspecial[i];
+    same = std::equal(ends, ends + 3, ends_.begin() + 3 * std::ptrdiff_t{i}) &&
+           std::equal(atom->special[i], atom->special[i] + ends[2],
+                      partners_.begin() + static_cast<std::ptrdiff_t>(at));
+    at += static_cast<std::size_t>(ends[2]);
+  }
+  if (same) return true;
+  tags_.assign(atom->tag, atom->tag + count);
+  std::copy_n(neighbor->special_flag, 4, flags_);
+  partners_.clear();
+  ends_.clear();
+  for (int i = 0; i < count; ++i) {
+    ends_.insert(ends_.end(), atom->nspecial[i], atom->nspecial[i] + 3);
+    partners_.insert(partners_.end(), atom->special[i], atom->special[i] + atom->nspecial[i][2]);
+  }
+  return false;
+}
+
+const dch::Exclusions* SpecialPairs::never_seen(int count) {
+  const int* flag = neighbor->special_flag;
+  if (atom->molecular == Atom::ATOMIC || (flag[1] != 0 && flag[2] != 0 && flag[3] != 0)) return nullptr;
+  if (!are_as_before(count)) {
+    std::vector<dch::IndexPair> pairs;
+    for (int i = 0; i < count; ++i) {
+      const int* last = atom->nspecial[i];
+      for (int k = 0; k < last[2]; ++k) {
+        if (flag[k < last[0] ? 1 : k < last[1] ? 2 : 3] != 0) continue;
+        const int j = atom->map(atom->special[i][k]);
+        if (j > i && j < count) pairs.push_back({i, j});
+      }
+    }
+    exclusions_ = dch::Exclusions::from_pairs(static_cast<std::size_t>(count), pairs);
+  }
+  return &exclusions_;
+}
+
+}  // namespace LAMMPS_NS
