@@ -2,6 +2,7 @@
 #include "ghost_images.h"
 
 #include <algorithm>
+#include <array>
 #include <atom.h>
 #include <cmath>
 #include <domain.h>
@@ -9,30 +10,65 @@
 #include <neighbor.h>
 
 namespace LAMMPS_NS {
-void GhostImages::gather(double radius) {
-  double largest = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest += std::abs(domain->boxlo_bound[axis]) + std::abs(domain->boxhi_bound[axis]);
-  // Half an ulp for each of the additions that make a ghost or wrap a point, along three axes, and room.
-  error_ = 16 * std::numeric_limits<double>::epsilon() * (largest + radius);
-  const double reach = radius * (1 + 1e-9) + error_;
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// In two dimensions LAMMPS makes no ghosts along z.
+bool has_ghosts_along(const Domain& domain, int axis) {
+  return domain.periodicity[axis] != 0 && (axis < 2 || domain.dimension == 3);
+}
+
+}  // namespace
+
+/// Half an ulp for each of the additions that make a ghost or wrap a point, along three axes, and room.
+double GhostImages::error_within(double radius) const {
+  double largest = radius;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const bool open = !domain->periodicity[axis] || (axis == 2 && domain->dimension == 2);
-    const double infinity = std::numeric_limits<double>::infinity();
-    // The height of the cell is the inverse of the length of a row of the inverse matrix.
-    const double* inverse = domain->h_inv;
-    const double rows[3] = {std::hypot(inverse[0], inverse[5], inverse[4]),
-                            std::hypot(inverse[1], inverse[3]), inverse[2]};
-    const double below = domain->triclinic ? reach * rows[axis] : domain->boxlo[axis] + reach;
-    const double above = domain->triclinic ? 1 - reach * rows[axis] : domain->boxhi[axis] - reach;
-    low_[a] = open ? -infinity : below;
-    high_[a] = open ? infinity : above;
+    if (domain->triclinic) {
+      largest += std::abs(domain->boxlo_bound[axis]) + std::abs(domain->boxhi_bound[axis]);
+    } else if (has_ghosts_along(*domain, axis)) {
+      largest += std::abs(domain->boxlo[axis]) + std::abs(domain->boxhi[axis]);
+    }
   }
+  return 16 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+void GhostImages::gather(double radius) {
+  error_ = error_within(radius);
   positions_ = atom->nlocal > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
   has_one_limit_ = neighbor->cutneighmin == neighbor->cutneighmax;
   limit_ = neighbor->cutneighsq[1][1];
+  set_inside(radius * (1 + 1e-9) + 2 * error_);
   list_ghosts();
+}
+
+/// Atoms are inside if they are farther than `reach` from all faces through which there are ghosts.
+void GhostImages::set_inside(double reach) {
+  // The height of the cell along an axis is the inverse of the length of that row of the inverse matrix.
+  const double* h = domain->h_inv;
+  const std::array<double, 3> in_lamda{std::hypot(h[0], h[5], h[4]), std::hypot(h[1], h[3]), h[2]};
+  dch::Vec3 low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool open = !has_ghosts_along(*domain, axis);
+    low[axis] = open ? -kInfinity : domain->triclinic ? 0 : domain->boxlo[axis];
+    high[axis] = open ? kInfinity : domain->triclinic ? 1 : domain->boxhi[axis];
+  }
+  const auto widen = [&](double length) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double by = domain->triclinic ? length * in_lamda[static_cast<std::size_t>(axis)] : length;
+      low_[axis] = low[axis] - by;
+      high_[axis] = high[axis] + by;
+    }
+  };
+  // LAMMPS wraps atoms into the box before it makes ghosts. Were one outside, others might be near its image.
+  widen(error_);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (is_inside(i)) continue;
+    low_ = {kInfinity, kInfinity, kInfinity};
+    return;
+  }
+  widen(-reach);
 }
 
 void GhostImages::list_ghosts() {
@@ -74,15 +110,14 @@ int GhostImages::ghost_within(int i, int j, double limit) const {
 }
 
 bool GhostImages::is_inside(int i) const {
-  const double* at = atom->x[i];
-  double lamda[3];
+  dch::Vec3 at = positions_[i];
   if (domain->triclinic) {
+    double lamda[3];
     domain->x2lamda(atom->x[i], lamda);
-    at = lamda;
+    at = {lamda[0], lamda[1], lamda[2]};
   }
-  bool inside = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) inside &= at[axis] >= low_[axis] && at[axis] <= high_[axis];
-  return inside;
+  return at.x >= low_.x && at.x <= high_.x && at.y >= low_.y && at.y <= high_.y && at.z >= low_.z &&
+         at.z <= high_.z;
 }
 
 }  // namespace LAMMPS_NS

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <lammps_host.h>
 #include <vector>
@@ -32,14 +31,17 @@ class GhostImages : protected Pointers {
   /// Whether all atoms within the radius of owned atom i are near it themselves, not by a ghost.
   bool is_inside(int i) const;
 
-  /// How far a distance to a ghost may be from that to the nearest image in the box, by rounding [length].
-  double error() const { return error_; }
+  /// How far a distance to a ghost, up to `radius`, may be from that to the nearest image in the box, by
+  /// rounding [length].
+  double error_within(double radius) const;
+  double error() const { return error_; }  ///< at the last gather() [length]
 
  private:
   double distance2(int i, int j) const {
     const dch::Vec3 d = positions_[i] - positions_[j];
     return norm2(d);
   }
+  void set_inside(double reach);
   double limit_of(int i, int j) const;
   int ghost_within(int i, int j, double limit) const;
   void list_ghosts();
@@ -48,8 +50,7 @@ class GhostImages : protected Pointers {
   bool has_one_limit_ = false;
   double limit_ = 0;  ///< squared cutoff of all pairs, if they have one [length^2]
   double error_ = 0;
-  std::array<double, 3> low_{},
-      high_{};              ///< of the atoms inside, in the coordinates of the box if it is triclinic
+  dch::Vec3 low_, high_;    ///< of the atoms inside, in the coordinates of the box if it is triclinic
   std::vector<int> owner_;  ///< by ghost
   std::vector<int> first_,
       ghost_;                 ///< ghosts of owned atom j: ghost_[first_[j]] .. ghost_[first_[j + 1] - 1]

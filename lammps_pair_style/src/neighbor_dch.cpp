@@ -314,7 +314,8 @@ void NeighborDCH::build_ours() {
 bool NeighborDCH::may_use_box() const {
   const bool any_ghost_rows =
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
-  return !any_ghost_rows && points_.may_use_box(params_.radius);
+  const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
+  return !any_ghost_rows && is_exact && points_.may_use_box(params_.radius);
 }
 
 dch::ListParams NeighborDCH::list_params(const ServedList& served) {
@@ -415,6 +416,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.verify_every = verify_every_;
   report.processes = comm->nprocs;
   report.radius = params_.radius;
+  report.in_box = points_.in_box();
   report.c = params_.c;
   report.counters = run_;
   report.counters.entries = sums[0];

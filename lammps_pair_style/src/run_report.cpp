@@ -47,6 +47,8 @@ std::string work_table(const RunReport& r) {
       "neither %lld times",
       r.radius, r.c, r.levels, static_cast<long long>(r.structures_built), static_cast<long long>(r.repairs),
       static_cast<long long>(r.refreshes));
+  text += std::string("  points                  ") +
+          (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";
   text += line("  promotions, demotions   %lld, %lld", static_cast<long long>(r.promotions),
                static_cast<long long>(r.demotions));
   text += line("  points added, removed   %lld, %lld", static_cast<long long>(r.inserted),

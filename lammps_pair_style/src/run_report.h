@@ -40,6 +40,8 @@ struct RunReport {
   int verify_every = 0;
   int processes = 1;
   double radius = 0;  ///< of the search [length]
+  bool in_box =
+      false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
   double c = 0;
   RunCounters counters;  ///< entries summed, builds and times the largest of any process
   std::int64_t atoms = 0;

@@ -71,7 +71,7 @@ def check_lists_at_start(host, case, ranks, variables):
     return sum(native.values())
 
 
-def check_run(host, case, ranks, variables, expected_list):
+def check_run(host, case, ranks, variables, expected_list, rounding):
     outputs = []
     for lists, load in (("stock", "/dev/null"), ("dch", host.loader)):
         code, output = host.run(ranks, [host.lmp, "-in", case], {**variables, "lists": lists, "load": load})
@@ -80,8 +80,8 @@ def check_run(host, case, ranks, variables, expected_list):
     native, ours = (thermo_tables(output)[-1] for output in outputs)
     first = largest_relative_difference(native[0], ours[0])
     last = largest_relative_difference(native[-1], ours[-1])
-    require(first <= STEP_0_TOLERANCE, f"thermo output at step 0 differs by {first:.3g}", outputs[1])
-    require(last <= LAST_STEP_TOLERANCE, f"thermo output after the run differs by {last:.3g}", outputs[1])
+    require(first <= STEP_0_TOLERANCE + 10 * rounding, f"thermo output at step 0 differs by {first:.3g}", outputs[1])
+    require(last <= LAST_STEP_TOLERANCE + 1e5 * rounding, f"thermo output after the run differs by {last:.3g}", outputs[1])
 
     builds = [int(re.findall(r"Neighbor list builds = (\d+)", output)[-1]) for output in outputs]
     require(builds[0] == builds[1], f"{builds[0]} native builds but {builds[1]} with DCH lists", outputs[1])
@@ -100,13 +100,16 @@ def main():
     parser.add_argument("--case", required=True)
     parser.add_argument("--ranks", type=int, required=True)
     parser.add_argument("--list", required=True, help="the list that dch stats has to show as ours")
+    parser.add_argument("--rounding", type=float, default=0,
+                        help="by how much ghosts are rounded in a wide box: energies depend on the side of a pair")
     parser.add_argument("--var", nargs=2, action="append", default=[])
     arguments = parser.parse_args()
     host = Host(arguments)
     case = SCRIPTS / f"in.{arguments.case}"
     variables = dict(arguments.var)
     pairs = check_lists_at_start(host, case, arguments.ranks, variables)
-    difference, verified = check_run(host, case, arguments.ranks, variables, arguments.list)
+    difference, verified = check_run(host, case, arguments.ranks, variables, arguments.list,
+                                     arguments.rounding)
     print(f"{pairs} pairs equal at step 0, energies to {difference:.2g}; {verified[0]}")
 
 

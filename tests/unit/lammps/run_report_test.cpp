@@ -42,9 +42,16 @@ TEST(RunReport, GivesCountsAndMeans) {
   const std::string text = format_report(example());
   EXPECT_THAT(text, HasSubstr("built 1 times, repaired 3 times, neither 5 times"));
   EXPECT_THAT(text, HasSubstr("promotions, demotions   17, 19"));
+  EXPECT_THAT(text, HasSubstr("owned atoms and ghosts in open space"));
   EXPECT_THAT(text, HasSubstr("3000 (30 an atom)"));
   EXPECT_THAT(text, HasSubstr("3 ms: points 0, structure 2, rows 0, lists 1"));
   EXPECT_THAT(text, HasSubstr("3 Mbytes"));
+}
+
+TEST(RunReport, SaysWhatThePointsAre) {
+  dch::lammps::RunReport report = example();
+  report.in_box = true;
+  EXPECT_THAT(format_report(report), HasSubstr("points                  the atoms in the box"));
 }
 
 TEST(RunReport, GivesTheRatioToNativeWhereBuildsWereVerified) {
