@@ -31,6 +31,8 @@ dch::lammps::Lattice lattice_of(const Domain& domain) {
   return lattice;
 }
 
+}  // namespace
+
 // In two dimensions LAMMPS makes no ghosts along z, however thin the box.
 dch::Box box_of(const Domain& domain) {
   const std::array<bool, 3> periodic{domain.xperiodic != 0, domain.yperiodic != 0,
@@ -40,8 +42,6 @@ dch::Box box_of(const Domain& domain) {
   if (!domain.triclinic) return dch::Box::orthorhombic({edge[0], edge[1], edge[2]}, periodic);
   return dch::Box::triclinic({h[0], 0, 0}, {h[5], h[1], 0}, {h[4], h[3], h[2]}, periodic);
 }
-
-}  // namespace
 
 bool AtomPoints::may_use_box(double radius) const {
   if (comm->nprocs != 1) return false;

@@ -11,6 +11,12 @@
 
 namespace LAMMPS_NS {
 
+class Domain;
+
+/// LAMMPS's box as the search sees it.
+/// @throws dch::InvalidBox
+dch::Box box_of(const Domain& domain);
+
 /// The atoms of this process as the search sees them: either its own atoms in the periodic box, where it has
 /// that box to itself, or its own atoms and ghosts in open space, since ghosts stand where the images are.
 class AtomPoints : protected Pointers {

@@ -7,20 +7,11 @@
 #include <vector>
 
 #include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
 
 #include "dch_options.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
-namespace {
-
-std::unique_ptr<dch::PairSearch> make_search(const dch::HierarchyParams& params) {
-  return dch::make_dch_search(params);
-}
-
-}  // namespace
-
 void DchCommand::command(int narg, char** arg) {
   using dch::lammps::Request;
   Request request;
@@ -29,7 +20,7 @@ void DchCommand::command(int narg, char** arg) {
   } catch (const dch::InvalidParameter& e) {
     error->all(FLERR, std::string(e.what()));
   }
-  NeighborDCH* neighbor_dch = NeighborDCH::install(lmp, make_search);
+  NeighborDCH* neighbor_dch = NeighborDCH::install(lmp);
   switch (request.action) {
     case Request::Action::on:
       neighbor_dch->enable(request.c);
@@ -39,6 +30,9 @@ void DchCommand::command(int narg, char** arg) {
       break;
     case Request::Action::verify:
       neighbor_dch->set_verify(request.verify_every);
+      break;
+    case Request::Action::precision:
+      neighbor_dch->set_precision(request.precision);
       break;
     case Request::Action::stats: {
       const dch::lammps::RunReport report = neighbor_dch->report();

@@ -69,13 +69,28 @@ Request parse_verify(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_precision(const std::vector<std::string>& words) {
+  Request request;
+  request.action = Request::Action::precision;
+  if (words.size() == 1 || (words[1] != "double" && words[1] != "mixed")) {
+    refuse((words.size() == 1 ? "'dch precision' lacks its value"
+                              : "'dch precision' does not know '" + words[1] + "'") +
+           std::string("; give 'dch precision double' or 'dch precision mixed'"));
+  }
+  request.precision = words[1] == "mixed" ? ForcePrecision::mixed : ForcePrecision::full;
+  expect_no_more(words, 2);
+  return request;
+}
+
 }  // namespace
 
 Request parse_request(const std::vector<std::string>& words) {
-  const std::string remedy = "; give 'dch on', 'dch off', 'dch stats' or 'dch verify yes|no|every N'";
+  const std::string remedy =
+      "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N' or 'dch precision double|mixed'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);
   if (words[0] == "verify") return parse_verify(words);
+  if (words[0] == "precision") return parse_precision(words);
   if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);
   expect_no_more(words, 1);
   Request request;

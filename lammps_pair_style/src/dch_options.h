@@ -4,14 +4,17 @@
 #include <string>
 #include <vector>
 
+#include <dch/lennard_jones.hpp>
+
 namespace dch::lammps {
 
 /// What one `dch ...` line of an input script asks for.
 struct Request {
-  enum class Action { on, off, stats, verify };
+  enum class Action { on, off, stats, verify, precision };
   Action action = Action::on;
   double c = 1.05;       ///< `on c`: conflict graph parameter of the hierarchy
   int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
+  ForcePrecision precision = ForcePrecision::full;  ///< `precision`: of force styles of ours
 };
 
 /// Parses the words after `dch`.

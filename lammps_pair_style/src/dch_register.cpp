@@ -2,15 +2,19 @@
 #include "dch_register.h"
 
 #include <cstdio>
+#include <force.h>
 #include <input.h>
 #include <lammps_host.h>
 #include <library.h>
 
 #include "dch_command.h"
+#include "pair_dch.h"
 
 namespace {
 
 LAMMPS_NS::Command* create_command(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::DchCommand(lmp); }
+
+LAMMPS_NS::Pair* create_lj_cut(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::PairLJCutDCH(lmp); }
 
 void complain(const char* format, int wanted, int found) {
   int rank = 0, initialized = 0;
@@ -33,5 +37,6 @@ int dch_register(void* handle) {
   }
   auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   lmp->input->command_map->emplace("dch", &create_command);
+  lmp->force->pair_map->emplace("lj/cut/dch", &create_lj_cut);
   return 0;
 }

@@ -45,6 +45,13 @@ std::string derivation(const NeighList& list) {
 }
 
 }  // namespace
+}  // namespace LAMMPS_NS
+
+std::unique_ptr<dch::PairSearch> dch::lammps::make_search(const HierarchyParams& params) {
+  return make_dch_search(params);
+}
+
+namespace LAMMPS_NS {
 
 /// Restricts what Neighbor::build() builds to some of the perpetual lists while it lives.
 class NeighborDCH::OnlyTheseLists {
@@ -73,7 +80,9 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
       images_(lmp),
       factory_(factory),
       special_(lmp),
-      filler_(lmp, special_),
+      rules_(lmp),
+      filler_(lmp, special_, rules_),
+      cluster_filler_(lmp, special_, rules_),
       verifier_(lmp) {
   // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
   // nothing.
@@ -126,14 +135,17 @@ void NeighborDCH::init() {
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};
   before_run_ = {};
+  clusters_ = std::exchange(requested_clusters_, {});
+  notes_ = std::exchange(requested_notes_, {});
   if (!enabled_) {
     served_.clear();
-    return;
+    served_plist_.clear();
+    if (clusters_.empty()) return;
   }
-  filler_.copy_settings();
-  classify_lists();
+  rules_.copy_settings();
+  if (enabled_) classify_lists();
   announce(before);
-  if (served_.empty()) return;
+  if (served_.empty() && clusters_.empty()) return;
   prepare_search();
   before_run_ = search_stats();
   hide_bins();
@@ -237,9 +249,24 @@ std::string NeighborDCH::native_reason(const NeighList& list) const {
   return {};
 }
 
+std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const std::string& style_name,
+                                                           const std::string& obstacle) {
+  const std::string owner = "pair " + style_name;
+  if (!obstacle.empty()) {
+    requested_notes_.push_back({0, owner + " without cluster pairs", obstacle});
+    return nullptr;
+  }
+  auto clusters = std::make_shared<ClusterList>();
+  const auto n = static_cast<std::size_t>(atom->ntypes);
+  clusters->interacts.assign(n * n, 0);
+  requested_clusters_.push_back(clusters);
+  requested_notes_.push_back({0, owner + ", cluster pairs", {}});
+  return clusters;
+}
+
 void NeighborDCH::announce(const std::vector<dch::lammps::ListNote>& before) const {
   if (notes_ == before || comm->me != 0) return;
-  utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size()) + " of " +
+  utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size() + clusters_.size()) + " of " +
                           std::to_string(notes_.size()) + " lists; 'dch stats' says which\n");
 }
 
@@ -267,7 +294,8 @@ void NeighborDCH::show_bins() {
 // Building them
 
 void NeighborDCH::build(int topoflag) {
-  if (!enabled_ || served_.empty()) {
+  if (!fills_lists()) {
+    if (!clusters_.empty()) build_ours();
     Neighbor::build(topoflag);
     return;
   }
@@ -283,26 +311,13 @@ void NeighborDCH::build_ours() {
   double clock = MPI_Wtime();
   try {
     points_.gather(may_use_box());
-    if (points_.in_box()) images_.gather(cutneighmax);
+    if (points_.in_box() && fills_lists()) images_.gather(cutneighmax);
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
     run_.structure_seconds += seconds_since(clock);
     run_.entries = 0;
-    const ImageTest by_images(images_);
-    for (ServedList& served : served_) {
-      NeighList& list = *lists[served.index];
-      dch::ListParams params = list_params(served);
-      if (points_.in_box()) {
-        params.near_cutoff = &by_images;
-        params.exclusions = special_.never_seen(points_.size());
-      }
-      search_->list(params, served.rows);
-      run_.rows_seconds += seconds_since(clock);
-      list.grow(atom->nlocal, atom->nlocal + atom->nghost);
-      filler_.fill(points_, images_, served, list);
-      run_.entries += served.pairs;
-      run_.fill_seconds += seconds_since(clock);
-    }
+    if (fills_lists()) fill_lists();
+    fill_clusters();
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
   } catch (const std::bad_alloc&) {
@@ -311,8 +326,37 @@ void NeighborDCH::build_ours() {
   ++run_.builds;
 }
 
+void NeighborDCH::fill_lists() {
+  double clock = MPI_Wtime();
+  const ImageTest by_images(images_);
+  for (ServedList& served : served_) {
+    NeighList& list = *lists[served.index];
+    dch::ListParams params = list_params(served);
+    if (points_.in_box()) {
+      params.near_cutoff = &by_images;
+      params.exclusions = special_.never_seen(points_.size());
+    }
+    search_->list(params, served.rows);
+    run_.rows_seconds += seconds_since(clock);
+    list.grow(atom->nlocal, atom->nlocal + atom->nghost);
+    filler_.fill(points_, images_, served, list);
+    run_.entries += served.pairs;
+    run_.fill_seconds += seconds_since(clock);
+  }
+}
+
+void NeighborDCH::fill_clusters() {
+  double clock = MPI_Wtime();
+  for (const std::shared_ptr<ClusterList>& clusters : clusters_) {
+    cluster_filler_.fill(points_, *dch::hierarchy_of(*search_), *clusters);
+    run_.entries += clusters->pairs.slot_pairs();
+    run_.clusters_seconds += seconds_since(clock);
+  }
+}
+
 bool NeighborDCH::may_use_box() const {
   const bool any_ghost_rows =
+      fills_lists() &&
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
   const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
   return !any_ghost_rows && is_exact && points_.may_use_box(params_.radius);
@@ -394,6 +438,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   for (const ServedList& served : served_)
     bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
              served.rows.first.capacity() * sizeof(std::int64_t);
+  for (const std::shared_ptr<ClusterList>& clusters : clusters_) bytes += clusters->pairs.memory_bytes();
 
   std::array<std::int64_t, 8> sums{run_.entries,
                                    run_.verified_entries,
@@ -407,8 +452,9 @@ dch::lammps::RunReport NeighborDCH::report() const {
   std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
                                       now.levels, now.refreshes - before_run_.refreshes};
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_INT64_T, MPI_MAX, world);
-  std::array<double, 6> times{run_.points_seconds, run_.structure_seconds,       run_.rows_seconds,
-                              run_.fill_seconds,   run_.verified_native_seconds, run_.verified_dch_seconds};
+  std::array<double, 7> times{run_.points_seconds,  run_.structure_seconds,       run_.rows_seconds,
+                              run_.fill_seconds,    run_.verified_native_seconds, run_.verified_dch_seconds,
+                              run_.clusters_seconds};
   MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
 
   dch::lammps::RunReport report;
@@ -427,6 +473,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.counters.fill_seconds = times[3];
   report.counters.verified_native_seconds = times[4];
   report.counters.verified_dch_seconds = times[5];
+  report.counters.clusters_seconds = times[6];
   report.promotions = sums[2];
   report.demotions = sums[3];
   report.inserted = sums[4];

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include <dch/hierarchy.hpp>
+#include <dch/lennard_jones.hpp>
 #include <dch/pair_search.hpp>
 
 #include "atom_points.h"
+#include "cluster_list.h"
 #include "ghost_images.h"
 #include "list_filler.h"
 #include "list_verifier.h"
@@ -20,6 +22,8 @@ namespace dch::lammps {
 
 /// Makes the search structure for some parameters; make_dch_search, but for tests.
 using SearchFactory = std::unique_ptr<PairSearch> (*)(const HierarchyParams&);
+
+std::unique_ptr<PairSearch> make_search(const HierarchyParams& params);
 
 }  // namespace dch::lammps
 
@@ -31,9 +35,9 @@ namespace LAMMPS_NS {
 /// It takes the place of the stock object, so every pair style, fix and compute finds its list where it
 /// always was. Of the perpetual lists it fills those that LAMMPS would build by searching space for a pair
 /// style; LAMMPS goes on to derive skip, copy and half-from-full lists from them, and builds all others
-/// itself. The displacement test, the topology lists and all settings stay the base class's. Each process
-/// keeps a hierarchy of its own; atoms are named by PointKeys, so that it is repaired, not built anew, when
-/// atoms are re-sorted, migrate or cross the box.
+/// itself. Force styles of ours ask for cluster pairs in place of a list. The displacement test, the topology
+/// lists and all settings stay the base class's. Each process keeps a hierarchy of its own; atoms are named
+/// by PointKeys, so that it is repaired, not built anew, when atoms are re-sorted, migrate or cross the box.
 class NeighborDCH : public Neighbor {
  public:
   /// Takes over the state of `retired`, which is kept, emptied, until this object goes: parts of LAMMPS point
@@ -45,7 +49,7 @@ class NeighborDCH : public Neighbor {
 
   /// The NeighborDCH of this LAMMPS, put in the place of its stock Neighbor if there is none yet. Stops
   /// LAMMPS with a message if another class has taken that place.
-  static NeighborDCH* install(LAMMPS* lammps, dch::lammps::SearchFactory factory);
+  static NeighborDCH* install(LAMMPS* lammps, dch::lammps::SearchFactory factory = dch::lammps::make_search);
 
   /// From the next run on, lists come from a hierarchy with this c (dch::HierarchyParams::c, at least 1.05).
   void enable(double c);
@@ -54,6 +58,13 @@ class NeighborDCH : public Neighbor {
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
   /// compared.
   void set_verify(int interval) { verify_every_ = interval; }
+  void set_precision(dch::ForcePrecision precision) { precision_ = precision; }
+  dch::ForcePrecision precision() const { return precision_; }  ///< of force styles of ours
+
+  /// Cluster pairs for the run that is about to begin, kept up at every build of lists from then on; whether
+  /// lists come from the hierarchy too or not. From a pair style's init_style().
+  /// @param obstacle why the style cannot use them, for dch stats; then there are none and null is returned
+  std::shared_ptr<ClusterList> request_clusters(const std::string& style_name, const std::string& obstacle);
 
   /// What the lists of the last run did, over all processes. Every process has to call it.
   dch::lammps::RunReport report() const;
@@ -74,7 +85,10 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  bool fills_lists() const { return enabled_ && !served_.empty(); }
   void build_ours();
+  void fill_lists();
+  void fill_clusters();
   bool may_use_box() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
@@ -93,6 +107,9 @@ class NeighborDCH : public Neighbor {
   std::vector<int> served_plist_;  ///< perpetual lists that are ours
   std::vector<int> native_plist_;  ///< and those that are not, in LAMMPS's order of building
   std::vector<dch::lammps::ListNote> notes_;
+  std::vector<std::shared_ptr<ClusterList>> clusters_, requested_clusters_;  ///< of this run, of the next
+  std::vector<dch::lammps::ListNote> requested_notes_;
+  dch::ForcePrecision precision_ = dch::ForcePrecision::full;
   dch::HierarchyParams params_;
 
   AtomPoints points_;
@@ -100,7 +117,9 @@ class NeighborDCH : public Neighbor {
   dch::lammps::SearchFactory factory_;
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;
+  PairRules rules_;
   ListFiller filler_;
+  ClusterListFiller cluster_filler_;
   ListVerifier verifier_;
   std::vector<std::vector<dch::lammps::ListEntry>>
       native_entries_;  ///< by served list, while one build is verified

@@ -32,7 +32,7 @@ std::string settings(const RunReport& r) {
 std::string list_table(const RunReport& r) {
   std::string text;
   for (const ListNote& note : r.lists) {
-    text += "  list " + std::to_string(note.number) + ", " + note.name + ": " +
+    text += "  " + (note.number > 0 ? "list " + std::to_string(note.number) + ", " : "") + note.name + ": " +
             (note.reason.empty() ? "DCH" : "native, " + note.reason) + "\n";
   }
   return text.empty() ? "  no lists: they are assigned when a run begins\n" : text;
@@ -55,10 +55,12 @@ std::string work_table(const RunReport& r) {
                static_cast<long long>(r.removed));
   text += line("  pairs at the last build %lld (%g an atom)", static_cast<long long>(n.entries),
                per(static_cast<double>(n.entries), r.atoms));
-  text += line("  time a build            %.4g ms: points %.3g, structure %.3g, rows %.3g, lists %.3g",
-               per(1e3 * n.seconds(), n.builds), per(1e3 * n.points_seconds, n.builds),
-               per(1e3 * n.structure_seconds, n.builds), per(1e3 * n.rows_seconds, n.builds),
-               per(1e3 * n.fill_seconds, n.builds));
+  text += line(
+      "  time a build            %.4g ms: points %.3g, structure %.3g, rows %.3g, lists %.3g, cluster pairs "
+      "%.3g",
+      per(1e3 * n.seconds(), n.builds), per(1e3 * n.points_seconds, n.builds),
+      per(1e3 * n.structure_seconds, n.builds), per(1e3 * n.rows_seconds, n.builds),
+      per(1e3 * n.fill_seconds, n.builds), per(1e3 * n.clusters_seconds, n.builds));
   text +=
       line("  memory                  %.4g Mbytes", static_cast<double>(r.memory_bytes) / (1024.0 * 1024.0));
   return text;

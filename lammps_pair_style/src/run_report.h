@@ -7,9 +7,9 @@
 
 namespace dch::lammps {
 
-/// One neighbor list of LAMMPS: who fills it.
+/// One neighbor list of LAMMPS, or the cluster pairs in place of one: who fills it.
 struct ListNote {
-  int number = 0;      ///< from 1, as LAMMPS prints them
+  int number = 0;      ///< from 1, as LAMMPS prints them; 0 for cluster pairs
   std::string name;    ///< who asked for it, and what kind it is
   std::string reason;  ///< why it is native; empty if it is ours
 
@@ -28,10 +28,13 @@ struct RunCounters {
   double structure_seconds = 0;        ///< building and repairing the hierarchy
   double rows_seconds = 0;             ///< candidate rows from it
   double fill_seconds = 0;             ///< LAMMPS's lists from those
+  double clusters_seconds = 0;         ///< cluster pairs
   double verified_native_seconds = 0;  ///< native builds of our lists, at verified builds
   double verified_dch_seconds = 0;     ///< our builds at the same times
 
-  double seconds() const { return points_seconds + structure_seconds + rows_seconds + fill_seconds; }
+  double seconds() const {
+    return points_seconds + structure_seconds + rows_seconds + fill_seconds + clusters_seconds;
+  }
 };
 
 /// The same over all processes, with what their search structures did.

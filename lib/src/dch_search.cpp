@@ -127,4 +127,9 @@ const Hierarchy* hierarchy_of(const PairSearch& search) {
   return engine ? &engine->hierarchy() : nullptr;
 }
 
+Hierarchy* hierarchy_of(PairSearch& search) {
+  auto* engine = dynamic_cast<detail::DchSearch*>(&search);
+  return engine ? &engine->hierarchy() : nullptr;
+}
+
 }  // namespace dch

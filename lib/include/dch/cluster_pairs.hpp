@@ -58,8 +58,8 @@ struct ClusterPairs {
     std::uint16_t mask;   ///< bit 4 a + b: slot a of I and slot b of J are a pair; never 0
     std::uint16_t shift;  ///< counted from the row's first one
   };
-  /// Entries entries[first] .. entries[(next row's first) - 1] of cluster I. A cluster has one row or none;
-  /// more only where one row cannot name all its shifts.
+  /// Entries entries[first] .. entries[(next row's first) - 1] of cluster I, one at least. A cluster has one
+  /// row or none; more only where one row cannot name all its shifts.
   struct Row {
     std::int64_t first;
     std::int32_t cluster;
@@ -94,6 +94,26 @@ struct ClusterPairs {
   std::int32_t clusters() const { return static_cast<std::int32_t>(origin_of.size()); }
   /// Number of pairs of slots in all masks.
   std::int64_t slot_pairs() const;
+
+  /// Calls f(i, j, displacement from i to j) for every pair in the masks, in double.
+  template <class F>
+  void for_each(const F& f) const {
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+      const auto i = static_cast<std::size_t>(rows[r].cluster);
+      for (std::int64_t e = rows[r].first; e < rows[r + 1].first; ++e) {
+        const Entry& entry = entries[static_cast<std::size_t>(e)];
+        const auto j = static_cast<std::size_t>(entry.cluster);
+        const auto& by = shift_vector[static_cast<std::size_t>(rows[r].first_shift) + entry.shift].whole;
+        for (std::size_t bit = 0; bit < kSlots * kSlots; ++bit) {
+          if ((entry.mask >> bit & 1) == 0) continue;
+          const std::size_t a = bit / kSlots, b = bit % kSlots;
+          f(particle[kSlots * i + a], particle[kSlots * j + b],
+            Vec3{at[j].x[b] + by.x[b] - at[i].x[a], at[j].y[b] + by.y[b] - at[i].y[a],
+                 at[j].z[b] + by.z[b] - at[i].z[a]});
+        }
+      }
+    }
+  }
 
   /// Takes new positions of the same particles, indexed as before, without a new search. They may be wrapped
   /// into the cell or not, and the cell may have changed its shape (not its periodicity); each particle is

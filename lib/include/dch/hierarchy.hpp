@@ -186,5 +186,8 @@ std::unique_ptr<PairSearch> make_dch_search(double radius);
 /// The hierarchy that an engine of make_dch_search() keeps, for statistics and validate(); null for other
 /// engines. It lives as long as the engine; after a successful update() ids are indices.
 const Hierarchy* hierarchy_of(const PairSearch& search);
+/// The same, to be asked for cluster pairs. Whatever adds, removes or renumbers points is for the engine
+/// alone.
+Hierarchy* hierarchy_of(PairSearch& search);
 
 }  // namespace dch

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cluster_list.h"
+
+#include <algorithm>
+#include <atom.h>
+#include <cmath>
+#include <domain.h>
+#include <force.h>
+#include <neighbor.h>
+#include <utility>
+
+namespace LAMMPS_NS {
+namespace {
+
+double distance2(const double* a, const double* b) {
+  return norm2(dch::Vec3{a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+}
+
+}  // namespace
+
+dch::TypeCutoffs ClusterListFiller::cutoffs(const ClusterList& list) const {
+  const int n = atom->ntypes;
+  std::vector<double> matrix;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      const bool wanted = list.interacts[static_cast<std::size_t>(a * n + b)] != 0;
+      const double cutoff2 = std::max(neighbor->cutneighsq[a + 1][b + 1], neighbor->cutneighsq[b + 1][a + 1]);
+      matrix.push_back(wanted ? std::min(std::sqrt(cutoff2), neighbor->cutneighmax) : 0.0);
+    }
+  }
+  return dch::TypeCutoffs(n, std::move(matrix));
+}
+
+/// One image of a partner of owned atom i.
+void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int image, int kind,
+                                          ClusterList& list) {
+  const bool is_ghost = image >= atom->nlocal;
+  const int owner = points.in_box() && is_ghost ? atom->map(atom->tag[image]) : image;
+  excluded_.push_back({i, owner});
+  const bool twice =
+      !is_ghost || points.in_box() ? owner < i : force->newton_pair && !rules_.stored_here(i, image);
+  if (kind < 0 || twice) return;
+  const int a = atom->type[i], b = atom->type[image];
+  const bool wanted = list.interacts[static_cast<std::size_t>((a - 1) * atom->ntypes + b - 1)] != 0;
+  if (wanted && !rules_.excluded(i, image) &&
+      distance2(atom->x[i], atom->x[image]) <= neighbor->cutneighsq[a][b])
+    list.special.push_back({i, owner, image, kind});
+}
+
+/// Bonded pairs leave the cluster pairs; those to be weighted go into a list of their own. A bonded atom's
+/// far image is no bonded atom, as in LAMMPS's lists.
+void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList& list) {
+  excluded_.clear();
+  if (atom->molecular == Atom::ATOMIC) return;
+  for (int i = 0; i < points.owned(); ++i) {
+    for (int k = 0; k < atom->nspecial[i][2]; ++k) {
+      for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j]) {
+        const double *xi = atom->x[i], *xj = atom->x[j];
+        if (domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2])) continue;
+        if (const int kind = special_.kind(i, j); kind != 0) take_special_pair(points, i, j, kind, list);
+      }
+    }
+  }
+}
+
+/// Pairs that `neigh_modify exclude` leaves out, and those with a ghost that another process takes.
+void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const {
+  constexpr int kSlots = dch::ClusterPairs::kSlots;
+  const bool takes_turns = !points.in_box() && force->newton_pair;
+  if (!takes_turns && !rules_.excludes_any()) return;
+  const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
+    if (rules_.excludes_any() && rules_.excluded(i, j)) return true;
+    if (!takes_turns || (i < points.owned() && j < points.owned())) return false;
+    return i < points.owned() ? !rules_.stored_here(i, j) : !rules_.stored_here(j, i);
+  };
+  std::int64_t from = 0, to = 0;
+  std::size_t rows = 0;
+  for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
+    const std::int32_t* const own = &pairs.particle[kSlots * static_cast<std::size_t>(pairs.rows[r].cluster)];
+    const std::int64_t row_begins = to;
+    for (; from < pairs.rows[r + 1].first; ++from) {
+      dch::ClusterPairs::Entry entry = pairs.entries[static_cast<std::size_t>(from)];
+      const std::int32_t* const other = &pairs.particle[kSlots * static_cast<std::size_t>(entry.cluster)];
+      for (int bit = 0; bit < kSlots * kSlots; ++bit) {
+        if ((entry.mask >> bit & 1) != 0 && is_left_out(own[bit / kSlots], other[bit % kSlots]))
+          entry.mask = static_cast<std::uint16_t>(entry.mask & ~(1 << bit));
+      }
+      if (entry.mask != 0) pairs.entries[static_cast<std::size_t>(to++)] = entry;
+    }
+    if (to > row_begins) pairs.rows[rows++] = {row_begins, pairs.rows[r].cluster, pairs.rows[r].first_shift};
+  }
+  pairs.rows.resize(rows);
+  pairs.rows.push_back({to, 0, 0});
+  pairs.entries.resize(static_cast<std::size_t>(to));
+}
+
+void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list) {
+  list.in_box = points.in_box();
+  dch::ListParams params;
+  params.cutoffs = cutoffs(list);
+  params.first_ghost = points.in_box() ? -1 : points.owned();
+  if (atom->ntypes > 1) params.types = points.types();
+  list.special.clear();
+  dch::Exclusions exclusions;
+  if (points.in_box() && !special_.any_marked()) {
+    params.exclusions = special_.never_seen(points.owned());
+  } else if (take_special_pairs(points, list); !excluded_.empty()) {
+    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
+    params.exclusions = &exclusions;
+  }
+  hierarchy.cluster_pairs(params, list.pairs);
+  leave_out(points, list.pairs);
+}
+
+}  // namespace LAMMPS_NS

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <lammps_host.h>
+#include <string>
+#include <vector>
+
+#include <dch/cluster_pairs.hpp>
+#include <dch/exclusions.hpp>
+#include <dch/hierarchy.hpp>
+
+#include "atom_points.h"
+#include "pair_rules.h"
+#include "special_pairs.h"
+
+namespace LAMMPS_NS {
+
+/// Pairs of clusters that a force style of ours asks for in place of a neighbor list. NeighborDCH fills it
+/// when it builds lists.
+struct ClusterList {
+  /// A bonded pair that the style has to weight. No cluster pair holds it.
+  struct Special {
+    int i;     ///< owned
+    int j;     ///< the atom that the force acts on: owned, or a ghost whose force LAMMPS sends home
+    int at;    ///< the image of j that is meant, for positions
+    int kind;  ///< 1 to 3: 1-2, 1-3, 1-4
+  };
+
+  std::string owner;            ///< the style, for dch stats
+  std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
+
+  dch::ClusterPairs pairs;  ///< of points: LAMMPS's indices
+  std::vector<Special> special;
+  bool in_box = false;  ///< points are the atoms in the periodic box, else owned atoms and ghosts
+};
+
+/// Fills a ClusterList: types, exclusions, bonded pairs, and which process takes a pair with a ghost.
+class ClusterListFiller : protected Pointers {
+ public:
+  ClusterListFiller(LAMMPS* lammps, SpecialPairs& special, const PairRules& rules)
+      : Pointers(lammps), special_(special), rules_(rules) {}
+
+  /// @param hierarchy brought up to date with the points
+  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list);
+
+ private:
+  dch::TypeCutoffs cutoffs(const ClusterList& list) const;
+  void take_special_pairs(const AtomPoints& points, ClusterList& list);
+  void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
+  void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
+
+  SpecialPairs& special_;
+  const PairRules& rules_;
+  std::vector<dch::IndexPair> excluded_;
+};
+
+}  // namespace LAMMPS_NS

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_rules.h"
+
+#include <algorithm>
+#include <atom.h>
+#include <neighbor.h>
+
+namespace LAMMPS_NS {
+
+void PairRules::copy_settings() {
+  excludes_any_ = neighbor->exclude != 0;
+  stride_ = atom->ntypes + 1;
+  types_.assign(neighbor->nex_type > 0 ? static_cast<std::size_t>(stride_) * stride_ : 0, 0);
+  for (int a = 1; a < stride_ && !types_.empty(); ++a) {
+    for (int b = 1; b < stride_; ++b) {
+      types_[static_cast<std::size_t>(a) * stride_ + b] = neighbor->ex_type[a][b] != 0 ? 1 : 0;
+    }
+  }
+  groups_.clear();
+  for (int m = 0; m < neighbor->nex_group; ++m)
+    groups_.push_back({neighbor->ex1_bit[m], neighbor->ex2_bit[m]});
+  molecules_.clear();
+  for (int m = 0; m < neighbor->nex_mol; ++m) {
+    molecules_.push_back({neighbor->ex_mol_bit[m], neighbor->ex_mol_intra[m] != 0});
+  }
+}
+
+bool PairRules::excluded(int i, int j) const {
+  if (!types_.empty() && types_[static_cast<std::size_t>(atom->type[i]) * stride_ + atom->type[j]])
+    return true;
+  const int mask_i = atom->mask[i], mask_j = atom->mask[j];
+  for (const GroupPair& g : groups_) {
+    if ((mask_i & g.bit1 && mask_j & g.bit2) || (mask_i & g.bit2 && mask_j & g.bit1)) return true;
+  }
+  return std::any_of(molecules_.begin(), molecules_.end(), [&](const Molecules& m) {
+    return mask_i & m.bit && mask_j & m.bit && (atom->molecule[i] == atom->molecule[j]) == m.intra;
+  });
+}
+
+// The parity of the IDs decides, which every process sees alike; an atom and its own image are told apart by
+// their coordinates, of which equal ones are equal bit by bit, since ghosts are made by adding whole box
+// vectors.
+bool PairRules::stored_here(int i, int ghost) const {
+  const tagint tag_i = atom->tag[i], tag_j = atom->tag[ghost];
+  const bool even_sum = ((tag_i ^ tag_j) & 1) == 0;
+  if (tag_i != tag_j) return (tag_i < tag_j) == even_sum;
+  const double *xi = atom->x[i], *xj = atom->x[ghost];
+  if (xj[2] != xi[2]) return xj[2] > xi[2];
+  if (xj[1] != xi[1]) return xj[1] > xi[1];
+  return xj[0] >= xi[0];
+}
+
+}  // namespace LAMMPS_NS
