@@ -9,6 +9,7 @@
 #include <dch/error.hpp>
 
 #include "dch_options.h"
+#include "dch_register.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -20,6 +21,7 @@ void DchCommand::command(int narg, char** arg) {
   } catch (const dch::InvalidParameter& e) {
     error->all(FLERR, std::string(e.what()));
   }
+  dch::lammps::register_styles(*lmp);  // again after `clear`, which forgets them
   NeighborDCH* neighbor_dch = NeighborDCH::install(lmp);
   switch (request.action) {
     case Request::Action::on:

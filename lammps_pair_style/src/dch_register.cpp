@@ -37,6 +37,10 @@ int dch_register(void* handle) {
   }
   auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   lmp->input->command_map->emplace("dch", &create_command);
-  lmp->force->pair_map->emplace("lj/cut/dch", &create_lj_cut);
+  dch::lammps::register_styles(*lmp);
   return 0;
+}
+
+void dch::lammps::register_styles(LAMMPS_NS::LAMMPS& lmp) {
+  lmp.force->pair_map->emplace("lj/cut/dch", &create_lj_cut);
 }

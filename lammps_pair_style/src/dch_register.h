@@ -7,8 +7,18 @@
 #define DCH_EXPORT
 #endif
 
-/// Gives the LAMMPS instance behind this handle the command `dch`. Lists stay native until a script says `dch
-/// on`. Returns 0, also if it has the command already. Otherwise the instance is left as it was, a message on
-/// stderr says what is wrong, and the result is 1: libraries for another LAMMPS version, whose classes are
-/// laid out differently although its file has the same name.
+/// Gives the LAMMPS instance behind this handle the command `dch` and the styles with the suffix dch. Lists
+/// stay native until a script says `dch on`. Returns 0, also if it has the command already. Otherwise the
+/// instance is left as it was, a message on stderr says what is wrong, and the result is 1: libraries for
+/// another LAMMPS version, whose classes are laid out differently although its file has the same name.
 extern "C" DCH_EXPORT int dch_register(void* lammps);
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+namespace dch::lammps {
+
+/// Makes the styles with the suffix dch known, if they are not yet.
+void register_styles(LAMMPS_NS::LAMMPS& lmp);
+
+}  // namespace dch::lammps

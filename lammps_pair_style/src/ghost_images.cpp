@@ -37,6 +37,7 @@ double GhostImages::error_within(double radius) const {
 void GhostImages::gather(double radius) {
   error_ = error_within(radius);
   positions_ = atom->nlocal > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
+  is_skewed_ = domain->triclinic != 0;
   has_one_limit_ = neighbor->cutneighmin == neighbor->cutneighmax;
   limit_ = neighbor->cutneighsq[1][1];
   set_inside(radius * (1 + 1e-9) + 2 * error_);
@@ -109,15 +110,11 @@ int GhostImages::ghost_within(int i, int j, double limit) const {
   return -1;
 }
 
-bool GhostImages::is_inside(int i) const {
-  dch::Vec3 at = positions_[i];
-  if (domain->triclinic) {
-    double lamda[3];
-    domain->x2lamda(atom->x[i], lamda);
-    at = {lamda[0], lamda[1], lamda[2]};
-  }
-  return at.x >= low_.x && at.x <= high_.x && at.y >= low_.y && at.y <= high_.y && at.z >= low_.z &&
-         at.z <= high_.z;
+/// In the coordinates of the box.
+dch::Vec3 GhostImages::lamda(int i) const {
+  double at[3];
+  domain->x2lamda(atom->x[i], at);
+  return {at[0], at[1], at[2]};
 }
 
 }  // namespace LAMMPS_NS

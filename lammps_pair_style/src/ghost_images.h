@@ -29,7 +29,7 @@ class GhostImages : protected Pointers {
   }
 
   /// Whether all atoms within the radius of owned atom i are near it themselves, not by a ghost.
-  bool is_inside(int i) const;
+  bool is_inside(int i) const { return is_inside(is_skewed_ ? lamda(i) : positions_[i]); }
 
   /// How far a distance to a ghost, up to `radius`, may be from that to the nearest image in the box, by
   /// rounding [length].
@@ -37,6 +37,11 @@ class GhostImages : protected Pointers {
   double error() const { return error_; }  ///< at the last gather() [length]
 
  private:
+  bool is_inside(dch::Vec3 at) const {
+    return at.x >= low_.x && at.x <= high_.x && at.y >= low_.y && at.y <= high_.y && at.z >= low_.z &&
+           at.z <= high_.z;
+  }
+  dch::Vec3 lamda(int i) const;
   double distance2(int i, int j) const {
     const dch::Vec3 d = positions_[i] - positions_[j];
     return norm2(d);
@@ -50,6 +55,7 @@ class GhostImages : protected Pointers {
   bool has_one_limit_ = false;
   double limit_ = 0;  ///< squared cutoff of all pairs, if they have one [length^2]
   double error_ = 0;
+  bool is_skewed_ = false;
   dch::Vec3 low_, high_;    ///< of the atoms inside, in the coordinates of the box if it is triclinic
   std::vector<int> owner_;  ///< by ghost
   std::vector<int> first_,

@@ -68,24 +68,23 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
                       NeighList& list) const {
   const Scene scene{points, images, served};
   const dch::NeighborList& rows = served.rows;
-  int own_rows = 0, ghost_rows = points.owned();
   served.pairs = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::int32_t point = rows.particle[r];
-    const bool is_owned = point < points.owned();
-    if (!is_owned && !served.ghost) continue;
+    if (point >= points.owned() && !served.ghost) continue;
     const int i = points.atom_of(point);
     const dch::Span<const std::int32_t> row = rows.row(r);
     std::int32_t* const to = served.rows.j.data() + rows.first[r];
     auto count = static_cast<int>(row.size());
     if (!stays_as_it_is(scene, i, row)) count = edit_row(scene, i, to, count);
-    list.ilist[is_owned ? own_rows++ : ghost_rows++] = i;  // near in space, near in the list
     list.firstneigh[i] = to;
     list.numneigh[i] = count;
     served.pairs += count;
   }
-  list.inum = own_rows;
-  list.gnum = ghost_rows - points.owned();
+  list.inum = points.owned();
+  list.gnum = served.ghost ? points.size() - points.owned() : 0;
+  // LAMMPS keeps its atoms sorted: pair styles are fastest in that order, wherever the rows are.
+  for (int point = 0; point < list.inum + list.gnum; ++point) list.ilist[point] = points.atom_of(point);
 }
 
 }  // namespace LAMMPS_NS

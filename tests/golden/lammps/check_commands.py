@@ -67,7 +67,8 @@ class Loading(unittest.TestCase):
 
 class Errors(unittest.TestCase):
     def test_words_that_mean_nothing(self):
-        for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats' or 'dch verify yes|no|every N'"),
+        for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats', 'dch verify"),
+                              ("precision half", "does not know 'half'"),
                               ("of", "unknown keyword 'of'"),
                               ("off now", "'now' after 'dch off' has no meaning"),
                               ("on c", "for example 'dch on c 1.2'"),
@@ -255,6 +256,103 @@ fix 1 all nve/sphere
 dch on
 run 10
 """, "native, granular: cutoffs by radius")
+
+
+class ForceStyles(unittest.TestCase):
+    """What check_forces.py does not see: other ways to set a style, to change it, to read it back."""
+
+    def compare(self, script, **options):
+        plain = thermo_tables(run("include ${load}\n" + script, **options))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + script, **options))
+        self.assertEqual(len(plain), len(ours))
+        for first, second in zip(plain, ours):
+            for columns in zip(first, second):
+                self.assertLess(largest_relative_difference(*columns), 1e-9)
+        return plain
+
+    def test_named_without_the_suffix(self):
+        output = run("include ${load}\n" + MELT.replace("lj/cut", "lj/cut/dch") + "run 20\ndch stats\n")
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+        self.assertIn("DCH neighbor lists: off", output)
+
+    def test_with_lists_for_another_style(self):
+        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 2.0")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 morse 0.1 5 1.1")
+        self.compare(script + "run 20\n")
+        output = run("include ${load}\nsuffix dch\ndch on\ndch verify yes\n" + script + "run 20\ndch stats\n")
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+        self.assertIn("pair morse, half, newton on: DCH", output)
+        self.assertIn("all equal", output)
+
+    def test_tail_corrections_and_compute_pair(self):
+        script = MELT.replace("neighbor 0.3", "pair_modify tail yes\nneighbor 0.3")
+        script += "compute lj all pair lj/cut${end}\nthermo_style custom step temp epair etail press c_lj\nrun 20\n"
+        plain = thermo_tables(run("include ${load}\n" + script, variables={"end": ""}))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + script, variables={"end": "/dch"}))
+        self.assertLess(largest_relative_difference(plain[0][-1], ours[0][-1]), 1e-9)
+        self.assertNotEqual(ours[0][-1]["E_tail"], 0)
+
+    def test_restart_and_data_file(self):
+        script = MELT.replace("1.0 1.0\n", "1.1 0.9 2.3\npair_modify shift yes\n") + f"""
+run 20
+write_restart {host.work}/melt.restart
+write_data {host.work}/melt.data pair ij
+clear
+dch precision double
+read_restart {host.work}/melt.restart
+fix 1 all nve
+neighbor 0.3 bin
+run 0
+clear
+dch precision double
+units lj
+pair_style lj/cut 2.5
+pair_modify shift yes
+read_data {host.work}/melt.data
+neighbor 0.3 bin
+run 0
+"""
+        tables = self.compare(script)
+        self.assertEqual(len(tables), 3)
+        self.assertLess(abs(tables[2][0]["E_pair"] - tables[1][0]["E_pair"]), 1e-6)
+
+    def test_coefficients_that_change_in_a_run(self):
+        self.compare(MELT + "variable e equal ramp(1.0,1.5)\nfix 2 all adapt 5 pair lj/cut epsilon 1 1 v_e\nrun 20\n"
+                     "unfix 2\npair_coeff 1 1 0.7 1.0 2.2\nrun 10\nrun 10 pre no\n")
+
+    def test_minimization(self):
+        self.compare(MELT + "displace_atoms all random 0.1 0.1 0.1 4711\nminimize 0 1e-3 20 200\n")
+
+    def test_a_cluster_in_open_space(self):
+        self.compare(MELT.replace("units lj", "units lj\nboundary s s s") + "run 40\n")
+
+    def test_atoms_that_come_and_go(self):
+        self.compare(MELT + "run 10\ngroup some id 1:100:7\ndelete_atoms group some compress no\nrun 10\n"
+                     "create_atoms 1 single 0.4 0.4 0.4\nrun 0\n")
+
+    def test_wrong_arguments_are_the_plain_styles_errors(self):
+        code, output = host.run_text("include ${load}\nsuffix dch\n" + MELT.replace("lj/cut 2.5", "lj/cut"))
+        self.assertNotEqual(code, 0)
+        self.assertIn("Illegal pair_style command", output)
+
+    def test_single_precision_cannot_hold_si_units(self):
+        script = """
+include ${load}
+units si
+atom_style atomic
+region box block 0 4e-9 0 4e-9 0 4e-9
+create_box 1 box
+create_atoms 1 single 1e-9 1e-9 1e-9
+mass 1 6.6e-26
+pair_style lj/cut/dch 1.1e-9
+pair_coeff 1 1 1.65e-21 3.4e-10
+neighbor 1e-10 bin
+dch precision mixed
+run 0
+"""
+        code, output = host.run_text(script)
+        self.assertNotEqual(code, 0)
+        self.assertIn("the range of single precision; use other units", output)
 
 
 class Faults(unittest.TestCase):

@@ -42,8 +42,15 @@ TEST(DchOptions, Verify) {
   EXPECT_EQ(parse_request({"verify", "every", "25"}).verify_every, 25);
 }
 
+TEST(DchOptions, Precision) {
+  EXPECT_EQ(parse_request({"precision", "mixed"}).action, Request::Action::precision);
+  EXPECT_EQ(parse_request({"precision", "mixed"}).precision, ForcePrecision::mixed);
+  EXPECT_EQ(parse_request({"precision", "double"}).precision, ForcePrecision::full);
+}
+
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
-  const std::string grammar = "give 'dch on', 'dch off', 'dch stats' or 'dch verify yes|no|every N'";
+  const std::string grammar =
+      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N' or 'dch precision double|mixed'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
@@ -64,6 +71,9 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
       {{"verify", "every", "0"}, "the interval is '0' but has to be a whole number from 1 up"},
       {{"verify", "every", "2.5"}, "the interval is '2.5'"},
       {{"verify", "every", "99999999999999999999"}, "the interval is '99999999999999999999'"},
+      {{"precision"}, "lacks its value; give 'dch precision double' or 'dch precision mixed'"},
+      {{"precision", "single"}, "does not know 'single'; give 'dch precision double'"},
+      {{"precision", "mixed", "up"}, "'up' after 'dch mixed'"},
   };
   for (const auto& [words, message] : cases) {
     EXPECT_THAT(message_of(words), testing::StartsWith("Illegal dch command: "));
