@@ -23,7 +23,7 @@ dch::TypeCutoffs ClusterListFiller::cutoffs(const ClusterList& list) const {
   std::vector<double> matrix;
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
-      const bool wanted = list.interacts[static_cast<std::size_t>(a * n + b)] != 0;
+      const bool wanted = list.pairs_interact(a + 1, b + 1, n);
       const double cutoff2 = std::max(neighbor->cutneighsq[a + 1][b + 1], neighbor->cutneighsq[b + 1][a + 1]);
       matrix.push_back(wanted ? std::min(std::sqrt(cutoff2), neighbor->cutneighmax) : 0.0);
     }
@@ -41,7 +41,7 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
       !is_ghost || points.in_box() ? owner < i : force->newton_pair && !rules_.stored_here(i, image);
   if (kind < 0 || twice) return;
   const int a = atom->type[i], b = atom->type[image];
-  const bool wanted = list.interacts[static_cast<std::size_t>((a - 1) * atom->ntypes + b - 1)] != 0;
+  const bool wanted = list.pairs_interact(a, b, atom->ntypes);
   if (wanted && !rules_.excluded(i, image) &&
       distance2(atom->x[i], atom->x[image]) <= neighbor->cutneighsq[a][b])
     list.special.push_back({i, owner, image, kind});

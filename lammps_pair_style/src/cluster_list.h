@@ -31,6 +31,12 @@ struct ClusterList {
 
   dch::ClusterPairs pairs;  ///< of points: LAMMPS's indices
   std::vector<Special> special;
+  /// Whether pairs of these types, from 1, are wanted.
+  bool pairs_interact(int a, int b, int types) const {
+    return interacts[static_cast<std::size_t>(a - 1) * static_cast<std::size_t>(types) +
+                     static_cast<std::size_t>(b - 1)] != 0;
+  }
+
   bool in_box = false;  ///< points are the atoms in the periodic box, else owned atoms and ghosts
 };
 

@@ -33,7 +33,7 @@ class PairDCH : public Pair {
   void settings(int narg, char** arg) override;
   void coeff(int narg, char** arg) override;
   void init_style() override;
-  void init_list(int id, NeighList* list) override;
+  void init_list(int id, NeighList* neighbors) override;
   double init_one(int i, int j) override;
   void modify_params(int narg, char** arg) override;
   void write_restart(FILE* file) override;

@@ -24,6 +24,17 @@ void put(Vec3 at, int slot, ClusterOfFour<double>& cluster) {
   cluster.z[slot] = at.z;
 }
 
+/// Whether no slot has moved by more than a distance; false too if a number is not finite.
+bool all_within(double distance2, const ClusterOfFour<double>& a, const ClusterOfFour<double>& b) {
+  bool all = true;
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+    const double x = b.x[slot] - a.x[slot], y = b.y[slot] - a.y[slot], z = b.z[slot] - a.z[slot];
+    const double moved2 = x * x + y * y + z * z;
+    all &= moved2 < distance2;
+  }
+  return all;
+}
+
 void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, float& center) {
   const double middle = grid(0.25 * ((from[0] + from[1]) + (from[2] + from[3])));
   center = static_cast<float>(middle);
@@ -53,31 +64,33 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
   const detail::CellImages images(now);
   const detail::BinaryGrid grid(list_radius);
   const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
-  for (std::int32_t c = 0; c < clusters(); ++c) {
-    const Vec3 center = origin[static_cast<std::size_t>(origin_of[static_cast<std::size_t>(c)])];
-    ClusterOfFour<double>& cluster = at[static_cast<std::size_t>(c)];
-    ClusterOfFour<float>& rounded = at_float[static_cast<std::size_t>(c)];
+  for (std::size_t c = 0; c < at.size(); ++c) {
+    const Vec3 center = origin[static_cast<std::size_t>(origin_of[c])];
+    const std::int32_t* const particles_of = &particle[c * kSlots];
+    ClusterOfFour<double>& cluster = at[c];
+    // Taken straight from the new positions, so that rounding does not add up.
+    const ClusterOfFour<double> before = cluster;
     for (int slot = 0; slot < kSlots; ++slot) {
-      const std::int32_t i = particle[static_cast<std::size_t>(c * kSlots + slot)];
-      if (i == kPadding) {
-        put(slot_of(cluster, 0), slot, cluster);
-        continue;
-      }
-      // Taken straight from the new position, so that rounding does not add up; the image is that nearest to
-      // where the particle was.
-      Vec3 d = positions[static_cast<std::size_t>(i)] - center;
-      const Vec3 moved = d - slot_of(cluster, slot);
-      if (!(norm2(moved) < safe2)) {
+      const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
+      put(positions[static_cast<std::size_t>(i)] - center, slot, cluster);
+    }
+    if (!all_within(safe2, before, cluster)) {
+      for (int slot = 0; slot < kSlots; ++slot) {
+        const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
+        const Vec3 moved = slot_of(cluster, slot) - slot_of(before, slot);
         if (!std::isfinite(norm2(moved)))
           throw InvalidPosition("position " + std::to_string(i) + " = " +
                                 detail::describe(positions[static_cast<std::size_t>(i)]) +
                                 " is not finite; check the coordinates of this step");
-        // The origin, which has few digits, is first moved to the particle's image: that does not round.
-        d = positions[static_cast<std::size_t>(i)] -
-            (center - images.vector(images.integers(now.nearest_image(moved) - moved)));
+        if (norm2(moved) < safe2) continue;
+        // The image is that nearest to where the particle was. The origin, which has few digits, is first
+        // moved to it: that does not round.
+        put(positions[static_cast<std::size_t>(i)] -
+                (center - images.vector(images.integers(now.nearest_image(moved) - moved))),
+            slot, cluster);
       }
-      put(d, slot, cluster);
     }
+    ClusterOfFour<float>& rounded = at_float[c];
     round_axis(grid, cluster.x, rounded.x, rounded.center[0]);
     round_axis(grid, cluster.y, rounded.y, rounded.center[1]);
     round_axis(grid, cluster.z, rounded.z, rounded.center[2]);

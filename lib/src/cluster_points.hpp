@@ -122,13 +122,13 @@ struct ClusterPoints {
     bool operator==(const Naming&) const = default;
   } naming_;
 
-  void lay_out(const Level& centers, const PointBlocks& points);
+  void lay_out(const Level& centers, const PointBlocks& from);
   template <class Metric>
-  void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& points,
+  void measure_all(const Metric& metric, const Level& centers, const Vec3* positions, PointBlocks& from,
                    double covered2, Executor* executor);
   template <class Meter>
   void measure_cluster(const Meter& meter, Vec3 center, Cluster& cluster);
-  void name_block(std::int32_t block, const PointBlocks& points, Span<const std::int32_t> particle_of_id,
+  void name_block(std::int32_t b, const PointBlocks& from, Span<const std::int32_t> particle_of_id,
                   const PairFilter& filter);
   void quantize_block(std::int32_t block);
 };
