@@ -112,6 +112,12 @@ void AtomPoints::gather(bool in_box) {
   }
 }
 
+dch::Span<const double> AtomPoints::radii() {
+  radii_.resize(static_cast<std::size_t>(count_));
+  for (int p = 0; p < count_; ++p) radii_[static_cast<std::size_t>(p)] = atom->radius[atom_of(p)];
+  return radii_;
+}
+
 dch::Span<const std::int32_t> AtomPoints::types() {
   types_.resize(static_cast<std::size_t>(count_));
   for (int p = 0; p < count_; ++p) types_[static_cast<std::size_t>(p)] = atom->type[atom_of(p)] - 1;

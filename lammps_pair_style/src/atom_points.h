@@ -36,6 +36,7 @@ class AtomPoints : protected Pointers {
   dch::Span<const dch::Vec3> positions() const { return positions_; }
   dch::Span<const std::uint64_t> keys() const { return keys_; }  ///< empty if the points have no names
   dch::Span<const std::int32_t> types();                         ///< from 0
+  dch::Span<const double> radii();                               ///< of spheres [length]
   int size() const { return static_cast<int>(positions_.size()); }
   int owned() const { return owned_; }  ///< the first so many points are owned atoms
   /// LAMMPS's index of a point.
@@ -55,6 +56,7 @@ class AtomPoints : protected Pointers {
   std::vector<dch::Vec3> gathered_;
   dch::Span<const dch::Vec3> positions_;
   std::vector<std::int32_t> types_;
+  std::vector<double> radii_;
   std::vector<std::int64_t> tags_;
   std::vector<std::uint64_t> own_keys_;
   std::vector<dch::lammps::ImageFlags> images_;

@@ -38,10 +38,14 @@ void GhostImages::gather(double radius) {
   error_ = error_within(radius);
   positions_ = atom->nlocal > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
   is_skewed_ = domain->triclinic != 0;
-  has_one_limit_ = neighbor->cutneighmin == neighbor->cutneighmax;
-  limit_ = neighbor->cutneighsq[1][1];
   set_inside(radius * (1 + 1e-9) + 2 * error_);
   list_ghosts();
+}
+
+void GhostImages::set_cutoffs(bool by_radius) {
+  by_radius_ = by_radius;
+  has_one_limit_ = !by_radius && neighbor->cutneighmin == neighbor->cutneighmax;
+  limit_ = neighbor->cutneighsq[1][1];
 }
 
 /// Atoms are inside if they are farther than `reach` from all faces through which there are ghosts.
@@ -98,6 +102,10 @@ void GhostImages::list_ghosts() {
 }
 
 double GhostImages::limit_of(int i, int j) const {
+  if (by_radius_) {
+    const double reach = atom->radius[i] + atom->radius[j] + neighbor->skin;
+    return reach * reach;
+  }
   return neighbor->cutneighsq[atom->type[i]][atom->type[j]];
 }
 

@@ -20,6 +20,8 @@ class GhostImages : protected Pointers {
 
   /// Takes the ghosts as they are now, for pairs within `radius`. O(owned atoms + ghosts).
   void gather(double radius);
+  /// Whether the neighbor cutoff of a pair is the sum of the radii and the skin, else that of the types.
+  void set_cutoffs(bool by_radius);
 
   /// The image of owned atom j that is within the neighbor cutoff of owned atom i, by the positions that
   /// LAMMPS gave the ghosts; -1 if there is none. At most one is, since the radius is less than half the box.
@@ -52,7 +54,7 @@ class GhostImages : protected Pointers {
   void list_ghosts();
 
   const dch::Vec3* positions_ = nullptr;  ///< LAMMPS's own
-  bool has_one_limit_ = false;
+  bool has_one_limit_ = false, by_radius_ = false;
   double limit_ = 0;  ///< squared cutoff of all pairs, if they have one [length^2]
   double error_ = 0;
   bool is_skewed_ = false;

@@ -4,10 +4,22 @@
 #include <algorithm>
 #include <atom.h>
 #include <domain.h>
+#include <error.h>
 #include <neigh_list.h>
 #include <neighbor.h>
+#include <string>
 
 namespace LAMMPS_NS {
+namespace {
+
+// FixNeighHistory's mark of a pair that touches; it has a bit of its own in later versions.
+#ifdef HISTBITS
+constexpr int kTouching = 1 << HISTBITS;
+#else
+constexpr int kTouching = static_cast<int>(3u << SBBITS);
+#endif
+
+}  // namespace
 
 // The neighbor that a point of row i stands for, -1 if it is none of this row.
 int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const {
@@ -28,6 +40,13 @@ int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool 
   return served.newton && j >= atom->nlocal && !rules_.stored_here(i, j) ? -1 : j;
 }
 
+/// What an entry's special bits say beside the neighbor.
+int ListFiller::mark_of(const ServedList& served, int i, int j) const {
+  if (!served.history) return 0;
+  const double *xi = atom->x[i], *xj = atom->x[j], reach = atom->radius[i] + atom->radius[j];
+  return norm2(dch::Vec3{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}) < reach * reach ? kTouching : 0;
+}
+
 int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count) const {
   // In the box the search has left out what the pair style never sees.
   const bool is_special =
@@ -37,7 +56,7 @@ int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count
   for (int k = 0; k < count; ++k) {
     const int j = neighbor_of(scene, i, row[k], inside);
     if (j < 0 || (rules_.excludes_any() && rules_.excluded(i, j))) continue;
-    int entry = j;
+    int entry = j ^ mark_of(scene.served, i, j);
     if (is_special) {
       const int kind = special_.kind(i, j);
       const double *xi = atom->x[i], *xj = atom->x[j];
@@ -53,7 +72,7 @@ int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count
 }
 
 bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const {
-  if (rules_.excludes_any() || scene.served.ghost) return false;
+  if (rules_.excludes_any() || scene.served.ghost || scene.served.history) return false;
   if (scene.points.in_box()) {
     const bool is_halved = !scene.served.full && !scene.served.newton;
     const bool is_marked = special_.any_marked() && special_.has_partners(i);
@@ -62,6 +81,13 @@ bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::
   if (neighbor->includegroup || special_.has_partners(i)) return false;
   return !scene.served.newton ||
          std::none_of(row.begin(), row.end(), [&](std::int32_t q) { return q >= scene.points.owned(); });
+}
+
+/// FixNeighHistory keeps what it knows of an atom in pages that hold no more.
+void ListFiller::refuse_history(int i, int count) const {
+  error->one(FLERR, "Atom " + std::to_string(atom->tag[i]) + " has " + std::to_string(count) +
+                        " neighbors, but the history of contacts holds " + std::to_string(neighbor->oneatom) +
+                        "; raise it with 'neigh_modify one'");
 }
 
 void ListFiller::fill(const AtomPoints& points, const GhostImages& images, ServedList& served,
@@ -77,6 +103,7 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
     std::int32_t* const to = served.rows.j.data() + rows.first[r];
     auto count = static_cast<int>(row.size());
     if (!stays_as_it_is(scene, i, row)) count = edit_row(scene, i, to, count);
+    if (served.history && count > neighbor->oneatom) refuse_history(i, count);
     list.firstneigh[i] = to;
     list.numneigh[i] = count;
     served.pairs += count;

@@ -22,6 +22,8 @@ struct ServedList {
   bool full = false;
   bool newton = false;     ///< half list, each owned-ghost pair on one side only
   bool ghost = false;      ///< has rows for ghost atoms as well
+  bool by_radius = false;  ///< granular: the cutoff of a pair is the sum of the radii
+  bool history = false;    ///< of those that touch, entries are marked for FixNeighHistory
   dch::NeighborList rows;  ///< of points; when LAMMPS's list is filled its pointers lead here
   std::int64_t pairs = 0;  ///< entries at the last build
 };
@@ -47,6 +49,8 @@ class ListFiller : protected Pointers {
   };
   bool stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const;
   int edit_row(const Scene& scene, int i, std::int32_t* row, int count) const;
+  void refuse_history(int i, int count) const;
+  int mark_of(const ServedList& served, int i, int j) const;
   int neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const;
 
   const SpecialPairs& special_;

@@ -25,10 +25,15 @@ class ListVerifier : protected Pointers {
   /// With newton on a list holds a pair of an owned atom and a ghost on one side only, and the two builders
   /// choose the side by different rules: such pairs are sent to a process chosen by their atoms and compared
   /// there.
+  ///
+  /// Pairs at their very cutoff, to within `rounding`, may be in either list: in crystals there are many, and
+  /// which of them LAMMPS lists depends on the image that it looks at, and so on the number of processes
+  /// [length].
   std::string compare(std::vector<dch::lammps::ListEntry> native, std::vector<dch::lammps::ListEntry> ours,
-                      const ServedList& served) const;
+                      const ServedList& served, double rounding) const;
 
  private:
+  bool is_at_cutoff(const dch::lammps::ListEntry& entry, const ServedList& served, double rounding) const;
   void append_pairs(const std::vector<dch::lammps::ListEntry>& entries, bool native,
                     std::vector<dch::lammps::AtomPair>& out) const;
   std::vector<dch::lammps::AtomPair> exchange(const std::vector<dch::lammps::AtomPair>& pairs) const;

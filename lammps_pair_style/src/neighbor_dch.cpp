@@ -151,12 +151,24 @@ void NeighborDCH::init() {
   hide_bins();
 }
 
+/// Whether a hierarchy for each class of sizes is worth its while. Cluster pairs come from a single one.
+bool NeighborDCH::sizes_differ_much() const {
+  constexpr double kRatio = 2;
+  const bool any_by_radius =
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+  if (!any_by_radius || !clusters_.empty() || atom->nlocal == 0) return false;
+  const auto [least, most] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
+  return *most > kRatio * *least;
+}
+
 void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
-  if (search_ && radius == params_.radius && c_ == params_.c) return;
+  const bool by_size = sizes_differ_much();
+  if (search_ && radius == params_.radius && c_ == params_.c && by_size == params_.size_classes) return;
   params_ = {};
   params_.radius = radius;
   params_.c = c_;
+  params_.size_classes = by_size;
   search_.reset();
   try {
     search_ = factory_(params_);
@@ -182,6 +194,8 @@ void NeighborDCH::classify_lists() {
     ours.full = (mask & NP_FULL) != 0;
     ours.newton = !ours.full && !(mask & NP_NEWTOFF);
     ours.ghost = list.ghost != 0;
+    ours.by_radius = (mask & NP_SIZE) != 0;
+    ours.history = ours.by_radius && list.history != 0;
     const auto old =
         std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
     if (old != served_.end()) ours.rows = std::move(old->rows);
@@ -214,7 +228,7 @@ std::string NeighborDCH::list_name(const NeighList& list) const {
 
 std::string NeighborDCH::reason_of_style(const NeighList& list) const {
   const int mask = pairmasks[list.pair_method - 1];
-  if (mask & NP_SIZE) return "granular: cutoffs by radius";
+  if (mask & NP_SIZE && !atom->radius_flag) return "cutoffs by radius, but atoms have none";
   if (mask & NP_RESPA) return "inner and middle levels of r-RESPA";
   if (mask & (NP_ONESIDE | NP_OFF2ON)) return "one-sided";
   if (mask & NP_BOND) return "bonds in the list";
@@ -333,6 +347,7 @@ void NeighborDCH::fill_lists() {
     NeighList& list = *lists[served.index];
     dch::ListParams params = list_params(served);
     if (points_.in_box()) {
+      images_.set_cutoffs(served.by_radius);
       params.near_cutoff = &by_images;
       params.exclusions = special_.never_seen(points_.size());
     }
@@ -371,6 +386,12 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
   params.cutoffs = dch::TypeCutoffs(cutneighmax);
   if (served.ghost) return params;
+  if (served.by_radius) {
+    params.radii = points_.radii();
+    params.skin = skin;
+    if (params.radii.empty()) params.cutoffs = dch::TypeCutoffs(kSmallestCutoff);  // the box is still empty
+    return params;
+  }
   if (atom->ntypes > 1 && cutneighmin < cutneighmax) {
     params.cutoffs = type_cutoffs();
     params.types = points_.types();
@@ -417,8 +438,8 @@ void NeighborDCH::check_against_native() {
   for (std::size_t k = 0; k < served_.size(); ++k) {
     const NeighList& list = *lists[served_[k].index];
     std::vector<dch::lammps::ListEntry> ours = ListVerifier::entries(list, served_[k]);
-    const std::string difference =
-        verifier_.compare(std::move(native_entries_[k]), std::move(ours), served_[k]);
+    const std::string difference = verifier_.compare(std::move(native_entries_[k]), std::move(ours),
+                                                     served_[k], images_.error_within(cutneighmax));
     if (difference.empty()) continue;
     error->all(FLERR, "dch verify: at step " + std::to_string(update->ntimestep) +
                           " the native and the DCH list (" + list_name(list) +

@@ -85,6 +85,7 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  bool sizes_differ_much() const;
   bool fills_lists() const { return enabled_ && !served_.empty(); }
   void build_ours();
   void fill_lists();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atom.h>
+#include <comm.h>
 #include <neighbor.h>
 
 namespace LAMMPS_NS {
@@ -37,10 +38,19 @@ bool PairRules::excluded(int i, int j) const {
   });
 }
 
-// The parity of the IDs decides, which every process sees alike; an atom and its own image are told apart by
-// their coordinates, of which equal ones are equal bit by bit, since ghosts are made by adding whole box
-// vectors.
+// With comm_modify mode multi and reduce/multi a process may have no ghost of a smaller atom where the larger
+// one's owner has: the owner of the smaller takes the pair. Else the parity of the IDs decides, which every
+// process sees alike; an atom and its own image are told apart by their coordinates, of which equal ones are
+// equal bit by bit, since ghosts are made by adding whole box vectors.
 bool PairRules::stored_here(int i, int ghost) const {
+  if (comm->mode == Comm::MULTI) {
+    const auto own_cutoff2 = [&](int k) {
+      const int c = neighbor->collection[k];
+      return neighbor->cutcollectionsq[c][c];
+    };
+    const double at_i = own_cutoff2(i), at_ghost = own_cutoff2(ghost);
+    if (at_i != at_ghost) return at_i < at_ghost;
+  }
   const tagint tag_i = atom->tag[i], tag_j = atom->tag[ghost];
   const bool even_sum = ((tag_i ^ tag_j) & 1) == 0;
   if (tag_i != tag_j) return (tag_i < tag_j) == even_sum;

@@ -238,25 +238,6 @@ class NativeLists(unittest.TestCase):
                           "thermo_style custom step temp c_most\ndch on\ndch verify yes\nrun 20\n",
                           "compute coord/atom, full: native, built on demand only")
 
-    def test_granular_lists(self):
-        self.check_reason("""
-units si
-atom_style sphere
-comm_modify vel yes
-region box block 0 10 0 10 0 10
-create_box 1 box
-lattice sc 1.0
-create_atoms 1 box
-set type 1 diameter 1.0
-set type 1 density 1.0
-pair_style gran/hooke 2000 NULL 50 NULL 0.5 0
-pair_coeff * *
-timestep 0.001
-fix 1 all nve/sphere
-dch on
-run 10
-""", "native, granular: cutoffs by radius")
-
 
 class ForceStyles(unittest.TestCase):
     """What check_forces.py does not see: other ways to set a style, to change it, to read it back."""

@@ -17,7 +17,7 @@ from pathlib import Path
 from lammps_run import Host
 
 STEPS = 100
-SECONDS = 100  # for one run
+SECONDS = 200  # for one run
 ENOUGH = 40  # scripts with equal lists on 1 and 2 processes
 TURN_ON = ["dch on", "dch verify yes"]
 WORD = r"(\S+)"
