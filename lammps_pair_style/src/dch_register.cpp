@@ -25,16 +25,19 @@ void complain(const char* format, int wanted, int found) {
 
 }  // namespace
 
-int dch_register(void* handle) {
+bool dch::lammps::fits_version(void* handle) {
   // Only the C function may be trusted before the versions are known to agree.
   const int version = handle ? lammps_version(handle) : 0;
-  if (version != DCH_LAMMPS_VERSION) {
-    complain(
-        "ERROR: the DCH neighbor lists were built for LAMMPS version %d, but this is version %d; build them "
-        "against the headers of this LAMMPS\n",
-        DCH_LAMMPS_VERSION, version);
-    return 1;
-  }
+  if (version == DCH_LAMMPS_VERSION) return true;
+  complain(
+      "ERROR: the DCH neighbor lists were built for LAMMPS version %d, but this is version %d; build them "
+      "against the headers of this LAMMPS\n",
+      DCH_LAMMPS_VERSION, version);
+  return false;
+}
+
+int dch_register(void* handle) {
+  if (!dch::lammps::fits_version(handle)) return 1;
   auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   lmp->input->command_map->emplace("dch", &create_command);
   dch::lammps::register_styles(*lmp);

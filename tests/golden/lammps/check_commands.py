@@ -52,6 +52,16 @@ class Loading(unittest.TestCase):
         launched = run(MELT + "dch on\nrun 20\n", executable=host.lmp_dch)
         self.assertEqual(thermo_tables(loaded), thermo_tables(launched))
 
+    def test_as_a_plugin(self):
+        code, output = host.run_text("suffix dch\n" + MELT + "dch on\nrun 20\ndch stats\nclear\n" + MELT + "run 20\n",
+                                     executable=[host.tools / "plugin_host", host.loader.parent / "libdch_lammps.so"])
+        self.assertEqual(code, 0, output)
+        self.assertIn("entered command dch\nentered pair lj/cut/dch\n", output)
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+        stock = thermo_tables(run(MELT + "run 20\n"))
+        for table in thermo_tables(output):
+            self.assertLess(largest_relative_difference(stock[0][-1], table[-1]), 1e-9)
+
     def test_without_the_include_the_command_is_unknown(self):
         code, output = host.run_text("dch on\n")
         self.assertNotEqual(code, 0)

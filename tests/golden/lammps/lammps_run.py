@@ -50,10 +50,14 @@ class Host:
         return done.returncode, done.stdout
 
     def run_text(self, text, ranks=1, executable=None, variables=()):
-        """Runs the lines as a script, by default in stock LAMMPS with the loader's path in `load`."""
+        """Runs the lines as a script, by default in stock LAMMPS with the loader's path in `load`.
+
+        executable: another one, or a list of it and its first arguments.
+        """
         script = self.work / "in.text"
         script.write_text(text)
-        return self.run(ranks, [executable or self.lmp, "-in", script], {"load": self.loader, **dict(variables)})
+        words = executable if isinstance(executable, list) else [executable or self.lmp]
+        return self.run(ranks, words + ["-in", script], {"load": self.loader, **dict(variables)})
 
 
 def thermo_tables(output):
