@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// What LAMMPS's command `plugin load` looks for in a library (LAMMPS manual, "Writing plugins"). The
+// declarations stand here because LAMMPS's packages do not install lammpsplugin.h.
+#include <lammps_host.h>
+
+#include "dch_command.h"
+#include "dch_register.h"
+#include "pair_dch.h"
+
+namespace {
+
+extern "C" {
+using Factory = void*(void* lammps);
+using FactoryWithArguments = void*(void* lammps, int count, char** arguments);
+
+/// One command or style.
+struct PluginEntry {
+  const char* version;  ///< of LAMMPS, that the plugin was built for
+  const char* style;    ///< kind: "command", "pair", ...
+  const char* name;
+  const char* info;
+  const char* author;
+  union {
+    Factory* v1;
+    FactoryWithArguments* v2;
+  } creator;
+  void* handle;  ///< of the library
+};
+using RegisterFunction = void(PluginEntry* entry, void* lammps);
+
+// LAMMPS takes the pointers for those to its base classes.
+void* create_command(void* lammps) {
+  LAMMPS_NS::Command* const made = new LAMMPS_NS::DchCommand(static_cast<LAMMPS_NS::LAMMPS*>(lammps));
+  return made;
+}
+void* create_lj_cut(void* lammps) {
+  LAMMPS_NS::Pair* const made = new LAMMPS_NS::PairLJCutDCH(static_cast<LAMMPS_NS::LAMMPS*>(lammps));
+  return made;
+}
+}
+
+}  // namespace
+
+void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
+  if (!dch::lammps::fits_version(lammps)) return;
+  auto* const enter = reinterpret_cast<RegisterFunction*>(register_function);
+  PluginEntry entry{};
+  entry.version = static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version;
+  entry.author = "the authors of DCH";
+  entry.handle = handle;
+  entry.style = "command";
+  entry.name = "dch";
+  entry.info = "neighbor lists from a discrete center hierarchy";
+  entry.creator.v1 = &create_command;
+  enter(&entry, lammps);
+  entry.style = "pair";
+  entry.name = "lj/cut/dch";
+  entry.info = "lj/cut on cluster pairs of a discrete center hierarchy";
+  entry.creator.v1 = &create_lj_cut;
+  enter(&entry, lammps);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Stock LAMMPS with a library loaded as its command `plugin load` would, which Debian's builds lack: the
+// library's lammpsplugin_init() is called with a function that enters what it offers into LAMMPS's tables,
+// again after `clear`.
+//
+//   plugin_host LIBRARY [LAMMPS's own arguments ...]
+#include <cstdio>
+#include <cstring>
+#include <dlfcn.h>
+#include <force.h>
+#include <input.h>
+#include <lammps.h>
+#include <library.h>
+#include <memory>
+#include <mpi.h>
+
+namespace {
+
+struct Entry {  // as the LAMMPS manual says
+  const char *version, *style, *name, *info, *author;
+  void* (*create)(void*);
+  void* handle;
+};
+
+void* (*create_pair)(void*) = nullptr;
+void* (*create_command)(void*) = nullptr;
+
+LAMMPS_NS::Pair* new_pair(LAMMPS_NS::LAMMPS* lammps) {
+  return static_cast<LAMMPS_NS::Pair*>(create_pair(lammps));
+}
+LAMMPS_NS::Command* new_command(LAMMPS_NS::LAMMPS* lammps) {
+  return static_cast<LAMMPS_NS::Command*>(create_command(lammps));
+}
+
+void enter(Entry* entry, void* handle) {
+  auto* const lammps = static_cast<LAMMPS_NS::LAMMPS*>(handle);
+  if (std::strcmp(entry->version, lammps->version) != 0) return;
+  if (std::strcmp(entry->style, "pair") == 0) {
+    create_pair = entry->create;
+    (*lammps->force->pair_map)[entry->name] = &new_pair;
+  } else if (std::strcmp(entry->style, "command") == 0) {
+    create_command = entry->create;
+    (*lammps->input->command_map)[entry->name] = &new_command;
+  } else {
+    return;
+  }
+  std::printf("entered %s %s\n", entry->style, entry->name);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: plugin_host LIBRARY [arguments of LAMMPS ...]\n");
+    return 2;
+  }
+  MPI_Init(&argc, &argv);
+  auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(argc - 1, argv + 1, MPI_COMM_WORLD);
+  void* const library = dlopen(argv[1], RTLD_NOW);
+  void* const symbol = library ? dlsym(library, "lammpsplugin_init") : nullptr;
+  if (!symbol) {
+    std::fprintf(stderr, "plugin_host: %s\n", dlerror());
+    return 1;
+  }
+  using Init = void(void* lammps, void* handle, void* register_function);
+  reinterpret_cast<Init*>(symbol)(lammps.get(), library, reinterpret_cast<void*>(&enter));
+  lammps->input->file();
+  lammps.reset();
+  dlclose(library);
+  MPI_Finalize();
+  return 0;
+}
