@@ -36,6 +36,9 @@ void DchCommand::command(int narg, char** arg) {
     case Request::Action::precision:
       neighbor_dch->set_precision(request.precision);
       break;
+    case Request::Action::threads:
+      neighbor_dch->set_threads(request.threads);
+      break;
     case Request::Action::stats: {
       const dch::lammps::RunReport report = neighbor_dch->report();
       if (comm->me == 0) utils::logmesg(lmp, dch::lammps::format_report(report));

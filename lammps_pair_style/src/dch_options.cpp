@@ -69,6 +69,22 @@ Request parse_verify(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_threads(const std::vector<std::string>& words) {
+  constexpr long kMost = 1024;
+  Request request;
+  request.action = Request::Action::threads;
+  if (words.size() == 1) refuse("'dch threads' lacks its number; for example 'dch threads 4'");
+  char* end = nullptr;
+  const long n = std::strtol(words[1].c_str(), &end, 10);
+  if (words[1].empty() || *end != '\0' || n < 1 || n > kMost) {
+    refuse("the number of threads is '" + words[1] +
+           "' but has to be a whole number from 1 to 1024; for example 'dch threads 4'");
+  }
+  request.threads = static_cast<int>(n);
+  expect_no_more(words, 2);
+  return request;
+}
+
 Request parse_precision(const std::vector<std::string>& words) {
   Request request;
   request.action = Request::Action::precision;
@@ -86,10 +102,12 @@ Request parse_precision(const std::vector<std::string>& words) {
 
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
-      "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N' or 'dch precision double|mixed'";
+      "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
+      "'dch precision double|mixed' or 'dch threads N'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);
   if (words[0] == "verify") return parse_verify(words);
+  if (words[0] == "threads") return parse_threads(words);
   if (words[0] == "precision") return parse_precision(words);
   if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);
   expect_no_more(words, 1);

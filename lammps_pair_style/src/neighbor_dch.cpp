@@ -164,13 +164,18 @@ bool NeighborDCH::sizes_differ_much() const {
 void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
   const bool by_size = sizes_differ_much();
-  if (search_ && radius == params_.radius && c_ == params_.c && by_size == params_.size_classes) return;
+  const int threads = pool_ ? pool_->threads() : 1;
+  if (search_ && radius == params_.radius && c_ == params_.c && by_size == params_.size_classes &&
+      threads == threads_)
+    return;
   params_ = {};
   params_.radius = radius;
   params_.c = c_;
   params_.size_classes = by_size;
   search_.reset();
   try {
+    if (threads != threads_) pool_ = threads_ > 1 ? dch::make_thread_pool(threads_) : nullptr;
+    params_.executor = pool_.get();
     search_ = factory_(params_);
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());

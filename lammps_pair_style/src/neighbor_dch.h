@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <dch/executor.hpp>
 #include <dch/hierarchy.hpp>
 #include <dch/lennard_jones.hpp>
 #include <dch/pair_search.hpp>
@@ -58,6 +59,8 @@ class NeighborDCH : public Neighbor {
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
   /// compared.
   void set_verify(int interval) { verify_every_ = interval; }
+  /// Threads that each process searches with, from the next run on.
+  void set_threads(int threads) { threads_ = threads; }
   void set_precision(dch::ForcePrecision precision) { precision_ = precision; }
   dch::ForcePrecision precision() const { return precision_; }  ///< of force styles of ours
 
@@ -116,6 +119,8 @@ class NeighborDCH : public Neighbor {
   AtomPoints points_;
   GhostImages images_;
   dch::lammps::SearchFactory factory_;
+  int threads_ = 1;
+  std::unique_ptr<dch::Executor> pool_;  ///< null for one thread
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;
   PairRules rules_;

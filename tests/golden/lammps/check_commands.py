@@ -78,6 +78,7 @@ class Loading(unittest.TestCase):
 class Errors(unittest.TestCase):
     def test_words_that_mean_nothing(self):
         for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats', 'dch verify"),
+                              ("threads none", "the number of threads is 'none'"),
                               ("precision half", "does not know 'half'"),
                               ("of", "unknown keyword 'of'"),
                               ("off now", "'now' after 'dch off' has no meaning"),
@@ -173,6 +174,17 @@ dch stats
 """)
         self.assertEqual(output.count("builds in the last run  5"), 2)
         self.assertIn("builds in the last run  9", output)
+
+    def test_threads_change_nothing(self):
+        for styles in ("dch on\n", "suffix dch\n"):
+            tables = [thermo_tables(run(f"include ${{load}}\n{styles}dch threads {n}\n" + MELT + "run 40\n"))
+                      for n in (1, 3)]
+            self.assertEqual(tables[0], tables[1])
+
+    def test_threads_change_between_runs(self):
+        output = run("include ${load}\n" + MELT + "dch on\ndch verify yes\nrun 10\ndch threads 2\nrun 10\n"
+                     "dch threads 1\nrun 10\ndch stats\n")
+        self.assertIn("all equal", output)
 
     def test_verify_at_every_nth_build(self):
         output = run("include ${load}\n" + MELT + "dch on\ndch verify every 3\nrun 40\ndch stats\n")

@@ -48,9 +48,15 @@ TEST(DchOptions, Precision) {
   EXPECT_EQ(parse_request({"precision", "double"}).precision, ForcePrecision::full);
 }
 
+TEST(DchOptions, Threads) {
+  EXPECT_EQ(parse_request({"threads", "3"}).action, Request::Action::threads);
+  EXPECT_EQ(parse_request({"threads", "3"}).threads, 3);
+}
+
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
-      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N' or 'dch precision double|mixed'";
+      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', 'dch precision double|mixed' or "
+      "'dch threads N'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
@@ -71,6 +77,11 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
       {{"verify", "every", "0"}, "the interval is '0' but has to be a whole number from 1 up"},
       {{"verify", "every", "2.5"}, "the interval is '2.5'"},
       {{"verify", "every", "99999999999999999999"}, "the interval is '99999999999999999999'"},
+      {{"threads"}, "lacks its number; for example 'dch threads 4'"},
+      {{"threads", "0"}, "the number of threads is '0' but has to be a whole number from 1 to 1024"},
+      {{"threads", "two"}, "the number of threads is 'two'"},
+      {{"threads", "1025"}, "the number of threads is '1025'"},
+      {{"threads", "2", "3"}, "'3' after"},
       {{"precision"}, "lacks its value; give 'dch precision double' or 'dch precision mixed'"},
       {{"precision", "single"}, "does not know 'single'; give 'dch precision double'"},
       {{"precision", "mixed", "up"}, "'up' after 'dch mixed'"},
