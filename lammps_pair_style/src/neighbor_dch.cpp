@@ -156,7 +156,15 @@ bool NeighborDCH::sizes_differ_much() const {
   constexpr double kRatio = 2;
   const bool any_by_radius =
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
-  if (!any_by_radius || !clusters_.empty() || atom->nlocal == 0) return false;
+  if (!clusters_.empty()) return false;
+  if (!any_by_radius) {
+    for (int a = 1; a <= atom->ntypes; ++a) {
+      const double own = std::sqrt(cutneighsq[a][a]);
+      if (own > skin && cutneighmax > kRatio * own) return true;
+    }
+    return false;
+  }
+  if (atom->nlocal == 0) return false;
   const auto [least, most] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
   return *most > kRatio * *least;
 }
@@ -298,14 +306,16 @@ void NeighborDCH::hide_bins() {
   }
   bins_hidden_ = true;
   all_bins_ = std::exchange(nbin, 0);
-  all_stencils_ = std::exchange(nstencil_perpetual, 0);
+  stencils_in_use_ = std::exchange(nstencil_perpetual, 0);
+  all_stencils_ = std::exchange(nstencil, 0);  // whose memory LAMMPS counts, though they are not set up
 }
 
 void NeighborDCH::show_bins() {
   if (!bins_hidden_) return;
   bins_hidden_ = false;
   nbin = all_bins_;
-  nstencil_perpetual = all_stencils_;
+  nstencil = all_stencils_;
+  nstencil_perpetual = stencils_in_use_;
   last_setup_bins = -1;  // makes the next native build size them first
 }
 

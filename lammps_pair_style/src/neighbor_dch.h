@@ -105,7 +105,8 @@ class NeighborDCH : public Neighbor {
   int verify_every_ = 0;
 
   bool bins_hidden_ = false;
-  int all_bins_ = 0, all_stencils_ = 0;  ///< nbin and nstencil_perpetual while they are hidden
+  int all_bins_ = 0, all_stencils_ = 0,
+      stencils_in_use_ = 0;  ///< nbin, nstencil, nstencil_perpetual while hidden
 
   std::vector<ServedList> served_;
   std::vector<int> served_plist_;  ///< perpetual lists that are ours

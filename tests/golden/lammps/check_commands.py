@@ -247,6 +247,20 @@ fix 1 all nve
         self.assertIn("builds in the last run  5", output)
 
 
+class SearchStyles(unittest.TestCase):
+    """Bins and stencils that are hidden from LAMMPS must not be missed by it, so without `dch verify`."""
+
+    TWO_TYPES = MELT.replace("create_box 1", "create_box 2").replace("mass 1", "mass *") \
+        .replace("pair_coeff 1 1 1.0 1.0", "set type 1 type/fraction 2 0.2 4711\npair_coeff 1 1 1 0.8 1.0\n"
+                 "pair_coeff 1 2 1 0.9 1.7\npair_coeff 2 2 1.0 1.0 2.5")
+
+    def test_same_energies(self):
+        for style in ("bin", "nsq", "multi", "multi/old"):
+            script = self.TWO_TYPES.replace("neighbor 0.3 bin", f"neighbor 0.3 {style}") + "run 40\n"
+            stock, ours = (thermo_tables(run("include ${load}\n" + on + script)) for on in ("", "dch on\n"))
+            self.assertLess(largest_relative_difference(stock[0][-1], ours[0][-1]), 1e-9)
+
+
 class NativeLists(unittest.TestCase):
     def check_reason(self, script, reason):
         self.assertIn(reason, run("include ${load}\n" + script + "dch stats\n"))

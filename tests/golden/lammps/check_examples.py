@@ -39,6 +39,19 @@ class Scripts(unittest.TestCase):
         self.assertEqual(re.findall(r"Neighbors per atom .* (\S+)", done.stdout), ["1.000"])
         self.assertIn("Largest relative difference", done.stdout)
 
+    def test_colloid(self):
+        self.compare_lists("in.colloid", steps=40)
+
+    def test_granular(self):
+        for ranks in (1, 2):
+            self.compare_lists("in.granular", ranks, steps=400, cells=3)
+
+    def test_cluster(self):
+        self.compare_lists("in.cluster", steps=200, radius=6, far=30)
+
+    def test_shear(self):
+        self.compare_lists("in.shear", steps=300, cells=6)
+
     def test_melt(self):
         for ranks in (1, 2):
             self.compare_lists("in.melt", ranks, cells=8)
