@@ -36,6 +36,9 @@ void DchCommand::command(int narg, char** arg) {
     case Request::Action::precision:
       neighbor_dch->set_precision(request.precision);
       break;
+    case Request::Action::skin:
+      neighbor_dch->set_skin_tuning(request.tunes_skin);
+      break;
     case Request::Action::threads:
       neighbor_dch->set_threads(request.threads);
       break;

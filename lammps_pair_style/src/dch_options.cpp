@@ -69,6 +69,19 @@ Request parse_verify(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_skin(const std::vector<std::string>& words) {
+  Request request;
+  request.action = Request::Action::skin;
+  if (words.size() == 1 || (words[1] != "auto" && words[1] != "fixed")) {
+    refuse(
+        (words.size() == 1 ? "'dch skin' lacks its value" : "'dch skin' does not know '" + words[1] + "'") +
+        std::string("; give 'dch skin auto' or 'dch skin fixed'"));
+  }
+  request.tunes_skin = words[1] == "auto";
+  expect_no_more(words, 2);
+  return request;
+}
+
 Request parse_threads(const std::vector<std::string>& words) {
   constexpr long kMost = 1024;
   Request request;
@@ -103,10 +116,11 @@ Request parse_precision(const std::vector<std::string>& words) {
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
       "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
-      "'dch precision double|mixed' or 'dch threads N'";
+      "'dch precision double|mixed', 'dch threads N' or 'dch skin auto|fixed'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);
   if (words[0] == "verify") return parse_verify(words);
+  if (words[0] == "skin") return parse_skin(words);
   if (words[0] == "threads") return parse_threads(words);
   if (words[0] == "precision") return parse_precision(words);
   if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);

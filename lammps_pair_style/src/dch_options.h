@@ -10,11 +10,12 @@ namespace dch::lammps {
 
 /// What one `dch ...` line of an input script asks for.
 struct Request {
-  enum class Action { on, off, stats, verify, precision, threads };
+  enum class Action { on, off, stats, verify, precision, threads, skin };
   Action action = Action::on;
   double c = 1.05;       ///< `on c`: conflict graph parameter of the hierarchy
   int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
   ForcePrecision precision = ForcePrecision::full;  ///< `precision`: of force styles of ours
+  bool tunes_skin = false;                          ///< `skin`: auto, not fixed
   int threads = 1;                                  ///< `threads`: of each process
 };
 

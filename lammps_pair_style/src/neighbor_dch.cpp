@@ -140,13 +140,20 @@ void NeighborDCH::init() {
   if (!enabled_) {
     served_.clear();
     served_plist_.clear();
-    if (clusters_.empty()) return;
+    if (clusters_.empty()) {
+      tuner_.reset();
+      return;
+    }
   }
   rules_.copy_settings();
   if (enabled_) classify_lists();
   announce(before);
-  if (served_.empty() && clusters_.empty()) return;
+  if (served_.empty() && clusters_.empty()) {
+    tuner_.reset();
+    return;
+  }
   prepare_search();
+  prepare_skin();
   before_run_ = search_stats();
   hide_bins();
 }
@@ -188,6 +195,68 @@ void NeighborDCH::prepare_search() {
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
   }
+}
+
+// A smaller skin is as safe as a larger one only if every step asks whether atoms have moved by half of it.
+// Native lists with cutoffs by radius know the script's skin only.
+void NeighborDCH::prepare_skin() {
+  const bool any_by_radius =
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+  std::string obstacle;
+  if (!dist_check) obstacle = "lists are rebuilt without a check (neigh_modify check no)";
+  if (build_once) obstacle = "lists are built once (neigh_modify once yes)";
+  if (any_by_radius) obstacle = "a granular list is in use";
+  if (!native_plist_.empty()) obstacle = "a native list is in use";
+  if (!(skin > 0)) obstacle = "it is 0";
+  if (!tunes_skin_ || !obstacle.empty()) {
+    if (tunes_skin_ && comm->me == 0) utils::logmesg(lmp, "DCH: the skin stays as it is: " + obstacle + "\n");
+    tuner_.reset();
+    return;
+  }
+  every = 1;
+  delay = 0;
+  if (!tuner_ || tuner_->largest() != skin) tuner_.emplace(skin);
+  const auto n = static_cast<std::size_t>(atom->ntypes) + 1;
+  script_cutoffs_.assign(n * n, 0);
+  for (std::size_t a = 1; a < n; ++a)
+    for (std::size_t b = 1; b < n; ++b) script_cutoffs_[a * n + b] = std::sqrt(cutneighsq[a][b]);
+  last_build_time_ = 0;
+  apply_skin();
+}
+
+/// Tells the tuner what the last list has cost, by the slowest process, and takes its next proposal.
+void NeighborDCH::choose_skin() {
+  const double now = MPI_Wtime();
+  if (!tuner_->settled() && last_build_time_ > 0) {
+    double seconds = now - last_build_time_;
+    MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, world);
+    tuner_->observe(seconds, update->ntimestep - last_build_step_);
+    apply_skin();
+  }
+  last_build_time_ = now;
+  last_build_step_ = update->ntimestep;
+}
+
+/// The largest cutoff, by which ghosts are made, stays that of the script's skin.
+void NeighborDCH::apply_skin() {
+  const double less = skin - tuner_->skin();
+  triggersq = 0.25 * tuner_->skin() * tuner_->skin();
+  const auto n = static_cast<std::size_t>(atom->ntypes) + 1;
+  for (std::size_t a = 1; a < n; ++a) {
+    for (std::size_t b = 1; b < n; ++b) {
+      const double cutoff = script_cutoffs_[a * n + b];
+      if (cutoff > 0) cutneighsq[a][b] = (cutoff - less) * (cutoff - less);
+    }
+  }
+}
+
+// The base class takes what the box has changed by from `skin`.
+int NeighborDCH::check_distance() {
+  if (!tuner_) return Neighbor::check_distance();
+  const double of_script = std::exchange(skin, tuner_->skin());
+  const int moved = Neighbor::check_distance();
+  skin = of_script;
+  return moved;
 }
 
 void NeighborDCH::classify_lists() {
@@ -323,6 +392,7 @@ void NeighborDCH::show_bins() {
 // Building them
 
 void NeighborDCH::build(int topoflag) {
+  if (tuner_) choose_skin();
   if (!fills_lists()) {
     if (!clusters_.empty()) build_ours();
     Neighbor::build(topoflag);
@@ -401,6 +471,7 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
   params.cutoffs = dch::TypeCutoffs(cutneighmax);
   if (served.ghost) return params;
+  if (cutneighmin == cutneighmax) params.cutoffs = dch::TypeCutoffs(std::sqrt(cutneighsq[1][1]));
   if (served.by_radius) {
     params.radii = points_.radii();
     params.skin = skin;
@@ -495,6 +566,8 @@ dch::lammps::RunReport NeighborDCH::report() const {
 
   dch::lammps::RunReport report;
   report.enabled = enabled_;
+  if (tuner_) report.skin = tuner_->skin();
+  report.skin_settled = tuner_ && tuner_->settled();
   report.verify_every = verify_every_;
   report.processes = comm->nprocs;
   report.radius = params_.radius;

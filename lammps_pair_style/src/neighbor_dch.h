@@ -4,6 +4,7 @@
 #include <lammps_host.h>
 #include <memory>
 #include <neighbor.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "list_filler.h"
 #include "list_verifier.h"
 #include "run_report.h"
+#include "skin_tuner.h"
 
 namespace dch::lammps {
 
@@ -61,6 +63,8 @@ class NeighborDCH : public Neighbor {
   void set_verify(int interval) { verify_every_ = interval; }
   /// Threads that each process searches with, from the next run on.
   void set_threads(int threads) { threads_ = threads; }
+  /// Whether runs from now on look for the skin with the least time a step, up to that of the script.
+  void set_skin_tuning(bool on) { tunes_skin_ = on; }
   void set_precision(dch::ForcePrecision precision) { precision_ = precision; }
   dch::ForcePrecision precision() const { return precision_; }  ///< of force styles of ours
 
@@ -74,6 +78,7 @@ class NeighborDCH : public Neighbor {
 
   void init() override;
   void build(int topoflag) override;
+  int check_distance() override;
 
  private:
   class OnlyTheseLists;
@@ -88,6 +93,9 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  void prepare_skin();
+  void choose_skin();
+  void apply_skin();
   bool sizes_differ_much() const;
   bool fills_lists() const { return enabled_ && !served_.empty(); }
   void build_ours();
@@ -121,6 +129,11 @@ class NeighborDCH : public Neighbor {
   GhostImages images_;
   dch::lammps::SearchFactory factory_;
   int threads_ = 1;
+  bool tunes_skin_ = false;
+  std::optional<dch::lammps::SkinTuner> tuner_;  ///< in runs with a skin that is looked for
+  std::vector<double> script_cutoffs_;  ///< neighbor cutoffs by types with the skin of the script [length]
+  double last_build_time_ = 0;
+  bigint last_build_step_ = 0;
   std::unique_ptr<dch::Executor> pool_;  ///< null for one thread
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;

@@ -43,6 +43,8 @@ struct RunReport {
   int verify_every = 0;
   int processes = 1;
   double radius = 0;  ///< of the search [length]
+  double skin = 0;    ///< that was found or is being tried; 0 if it is the script's [length]
+  bool skin_settled = false;
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
   double c = 0;

@@ -175,6 +175,23 @@ dch stats
         self.assertEqual(output.count("builds in the last run  5"), 2)
         self.assertIn("builds in the last run  9", output)
 
+    def test_a_tuned_skin_loses_no_pair(self):
+        script = MELT.replace("every 5 check no", "every 2 check yes").replace("neighbor 0.3", "neighbor 0.6")
+        for extra in ("", "fix 2 all deform 1 x scale 1.2\n"):
+            output = run("include ${load}\ndch on\ndch skin auto\ndch verify yes\n" + script + extra +
+                         "run 600\ndch stats\n")
+            self.assertIn("all equal", output)
+            self.assertRegex(output, r"skin +0\.\d+, ")
+            self.assertIn("Dangerous builds = 0", output)
+            fixed = thermo_tables(run(script.replace("neighbor 0.6", "neighbor 1.0") + extra + "run 40\n"))
+            tuned = thermo_tables(run("include ${load}\ndch on\ndch skin auto\n" + script + extra + "run 40\n"))
+            self.assertLess(largest_relative_difference(fixed[0][-1], tuned[0][-1]), 1e-8)
+
+    def test_a_skin_that_may_not_change(self):
+        output = run("include ${load}\ndch on\ndch skin auto\n" + MELT + "run 10\ndch stats\n")
+        self.assertIn("the skin stays as it is: lists are rebuilt without a check", output)
+        self.assertNotRegex(output, r"skin +0\.\d+, ")
+
     def test_threads_change_nothing(self):
         for styles in ("dch on\n", "suffix dch\n"):
             tables = [thermo_tables(run(f"include ${{load}}\n{styles}dch threads {n}\n" + MELT + "run 40\n"))

@@ -48,6 +48,12 @@ TEST(DchOptions, Precision) {
   EXPECT_EQ(parse_request({"precision", "double"}).precision, ForcePrecision::full);
 }
 
+TEST(DchOptions, Skin) {
+  EXPECT_EQ(parse_request({"skin", "auto"}).action, Request::Action::skin);
+  EXPECT_TRUE(parse_request({"skin", "auto"}).tunes_skin);
+  EXPECT_FALSE(parse_request({"skin", "fixed"}).tunes_skin);
+}
+
 TEST(DchOptions, Threads) {
   EXPECT_EQ(parse_request({"threads", "3"}).action, Request::Action::threads);
   EXPECT_EQ(parse_request({"threads", "3"}).threads, 3);
@@ -55,8 +61,8 @@ TEST(DchOptions, Threads) {
 
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
-      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', 'dch precision double|mixed' or "
-      "'dch threads N'";
+      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', 'dch precision double|mixed', "
+      "'dch threads N' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
@@ -77,6 +83,9 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
       {{"verify", "every", "0"}, "the interval is '0' but has to be a whole number from 1 up"},
       {{"verify", "every", "2.5"}, "the interval is '2.5'"},
       {{"verify", "every", "99999999999999999999"}, "the interval is '99999999999999999999'"},
+      {{"skin"}, "lacks its value; give 'dch skin auto' or 'dch skin fixed'"},
+      {{"skin", "0.3"}, "does not know '0.3'"},
+      {{"skin", "auto", "on"}, "'on' after"},
       {{"threads"}, "lacks its number; for example 'dch threads 4'"},
       {{"threads", "0"}, "the number of threads is '0' but has to be a whole number from 1 to 1024"},
       {{"threads", "two"}, "the number of threads is 'two'"},
