@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "atom_points.h"
 
+#include <algorithm>
 #include <array>
 #include <atom.h>
 #include <comm.h>
@@ -43,8 +44,20 @@ dch::Box box_of(const Domain& domain) {
   return dch::Box::triclinic({h[0], 0, 0}, {h[5], h[1], 0}, {h[4], h[3], h[2]}, periodic);
 }
 
+/// In two dimensions LAMMPS looks for images of bonded atoms along z nevertheless
+/// (Domain::minimum_image_check), and takes those more than half the box's thickness apart for strangers.
+bool AtomPoints::is_flat() const {
+  if (domain->dimension == 3 || !domain->zperiodic) return true;
+  double low = 0, high = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    low = i == 0 ? atom->x[i][2] : std::min(low, atom->x[i][2]);
+    high = i == 0 ? atom->x[i][2] : std::max(high, atom->x[i][2]);
+  }
+  return high - low <= domain->zprd_half;
+}
+
 bool AtomPoints::may_use_box(double radius) const {
-  if (comm->nprocs != 1) return false;
+  if (comm->nprocs != 1 || !is_flat()) return false;
   try {
     const dch::Box box = box_of(*domain);
     return !box.any_periodic() || radius < box.max_cutoff() * (1 - 1e-9);

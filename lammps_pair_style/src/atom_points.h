@@ -45,6 +45,7 @@ class AtomPoints : protected Pointers {
   }
 
  private:
+  bool is_flat() const;
   void select_atoms();
   void take_positions();
   void name_in_box();

@@ -17,7 +17,6 @@ from pathlib import Path
 from lammps_run import Host
 
 STEPS = 100
-SECONDS = 200  # for one run
 ENOUGH = 40  # scripts with equal lists on 1 and 2 processes
 TURN_ON = ["dch on", "dch verify yes"]
 WORD = r"(\S+)"
@@ -68,7 +67,7 @@ class Outcome:
         return (found[0][0] or found[0][1]).split(" (src/")[0] if found else "no message"
 
 
-def run(host, script, ranks, with_dch):
+def run(host, script, ranks, with_dch, seconds):
     folder = host.work / script.parent.name
     if not folder.exists():
         shutil.copytree(script.parent, folder)
@@ -78,7 +77,7 @@ def run(host, script, ranks, with_dch):
     if ranks > 1:
         words = [host.mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)] + words
     try:
-        done = subprocess.run(words, cwd=folder, env=host.environment, timeout=SECONDS, check=False,
+        done = subprocess.run(words, cwd=folder, env=host.environment, timeout=seconds, check=False,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     except subprocess.TimeoutExpired as expired:
         return Outcome(0, (expired.stdout or b"").decode(errors="replace"))
@@ -88,16 +87,16 @@ def run(host, script, ranks, with_dch):
 class Row:
     """A line of the table."""
 
-    def __init__(self, host, script):
+    def __init__(self, host, script, seconds):
         self.name = f"{script.parent.name}/{script.name}"
-        self.outcomes = [run(host, script, ranks, True) for ranks in (1, 2)]
+        self.outcomes = [run(host, script, ranks, True, seconds) for ranks in (1, 2)]
         self.faults = []
         self.remark = ""
         for ranks, outcome in enumerate(self.outcomes, 1):
             if outcome.differs:
                 self.faults.append(f"{self.name}, {ranks} processes: lists differ")
             elif outcome.failed:
-                stock = run(host, script, ranks, False)
+                stock = run(host, script, ranks, False, seconds)
                 if stock.failed:
                     self.remark = f"stock LAMMPS stops as well: {stock.error()}"
                 else:
@@ -119,6 +118,7 @@ def main():
     Host.add_arguments(parser)
     parser.add_argument("--table", type=Path, help="file to write the table to")
     parser.add_argument("--only", help="regular expression for names of scripts")
+    parser.add_argument("--seconds", type=float, default=200, help="for one run (default 200); what is done by then counts")
     arguments = parser.parse_args()
     host = Host(arguments)
     rows = []
@@ -126,7 +126,7 @@ def main():
         name = f"{script.parent.name}/{script.name}"
         if script.parent.name in NOT_SIMULATIONS or (arguments.only and not re.search(arguments.only, name)):
             continue
-        rows.append(Row(host, script))
+        rows.append(Row(host, script, arguments.seconds))
         print(rows[-1].text(), flush=True)
     faults = [fault for row in rows for fault in row.faults]
     equal = sum(row.is_equal for row in rows)
