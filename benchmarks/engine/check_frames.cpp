@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "list_check.hpp"
+#ifdef DCH_BENCH_HAS_LAMMPS
+#include "lammps_scene.hpp"
+#endif
 
 namespace dch::bench {
 namespace {
@@ -18,12 +21,21 @@ struct Options {
   std::vector<std::string> scenes;
   SceneOptions scene;
   int frames = 2000, structures = 10;
+  bool lammps = false;
 };
 
-void check_scene(const std::string& name, const Options& options) {
+std::unique_ptr<Scene> scene_of(const std::string& name, const Options& options) {
+#ifdef DCH_BENCH_HAS_LAMMPS
+  if (options.lammps) return make_lammps_scene(name);
+#endif
   SceneOptions scene_options = options.scene;
   scene_options.most_frames = static_cast<std::size_t>(options.frames);
-  const std::unique_ptr<Scene> scene = make_scene(name, scene_options);
+  scene_options.streamed = true;
+  return make_scene(name, scene_options);
+}
+
+void check_scene(const std::string& name, const Options& options) {
+  const std::unique_ptr<Scene> scene = scene_of(name, options);
   Contenders contenders;
   for (const char* kind : {"dch", "dch, superset"})
     for (auto& contender : make_contenders(*scene, nullptr, kind)) contenders.push_back(std::move(contender));
@@ -51,6 +63,11 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--structures", options.structures,
                  "Compare the structure with all pairs at so many of them; 0: never")
       ->check(CLI::NonNegativeNumber);
+#ifdef DCH_BENCH_HAS_LAMMPS
+  app.add_flag(
+      "--lammps", options.lammps,
+      "Take the melts from a LAMMPS that runs beside the check, for more frames than files can hold");
+#endif
   app.add_option("--scale", options.scene.scale,
                  "Particles of artificial scenes, relative to the usual number")
       ->check(CLI::PositiveNumber);

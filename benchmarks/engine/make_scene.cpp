@@ -13,18 +13,27 @@
 namespace dch::bench {
 namespace {
 
-/// The frames of a file, read before anything is timed.
+/// The frames of a file.
 class TrajectoryScene : public Scene {
  public:
-  TrajectoryScene(const std::string& path, std::size_t most_frames) {
+  explicit TrajectoryScene(const std::string& path) {
+    origin = std::filesystem::path(path).filename().string();
+  }
+
+  std::vector<std::int64_t> ids;  ///< of the first frame's atoms
+};
+
+/// Read before anything is timed.
+class HeldTrajectory : public TrajectoryScene {
+ public:
+  HeldTrajectory(const std::string& path, std::size_t most_frames) : TrajectoryScene(path) {
     const auto reader = trajectory::open_trajectory(path);
     trajectory::Frame frame;
     while (frames_.size() < most_frames && reader->read(frame)) {
       if (frames_.empty()) ids = frame.ids;
       frames_.push_back({std::move(frame.positions), frame.box});
     }
-    origin = std::filesystem::path(path).filename().string();
-    TrajectoryScene::restart();
+    HeldTrajectory::restart();
   }
   bool step() override {
     if (next_ == frames_.size()) return false;
@@ -38,8 +47,6 @@ class TrajectoryScene : public Scene {
     step();
   }
 
-  std::vector<std::int64_t> ids;  ///< of the first frame's atoms
-
  private:
   struct Configuration {
     std::vector<Vec3> positions;
@@ -49,10 +56,39 @@ class TrajectoryScene : public Scene {
   std::size_t next_ = 0;
 };
 
+/// Read frame by frame, so that a file of any length will do.
+class StreamedTrajectory : public TrajectoryScene {
+ public:
+  StreamedTrajectory(const std::string& path, std::size_t most_frames)
+      : TrajectoryScene(path), path_(path), most_frames_(most_frames) {
+    StreamedTrajectory::restart();
+    ids = frame_.ids;
+  }
+  bool step() override {
+    if (read_ == most_frames_ || !reader_->read(frame_)) return false;
+    ++read_;
+    positions.swap(frame_.positions);
+    box = frame_.box;
+    return true;
+  }
+  void restart() override {
+    reader_ = trajectory::open_trajectory(path_);
+    read_ = 0;
+    step();
+  }
+
+ private:
+  std::string path_;
+  std::size_t most_frames_, read_ = 0;
+  std::unique_ptr<trajectory::TrajectoryReader> reader_;
+  trajectory::Frame frame_;
+};
+
 std::unique_ptr<TrajectoryScene> read_if_there(const SceneOptions& options, const std::string& file) {
   const std::filesystem::path path = std::filesystem::path(options.trajectories) / file;
   if (options.trajectories.empty() || !std::filesystem::exists(path)) return nullptr;
-  return std::make_unique<TrajectoryScene>(path.string(), options.most_frames);
+  if (options.streamed) return std::make_unique<StreamedTrajectory>(path.string(), options.most_frames);
+  return std::make_unique<HeldTrajectory>(path.string(), options.most_frames);
 }
 
 std::unique_ptr<Scene> make_melt(const SceneOptions& options, const std::string& file, double atoms,

@@ -79,6 +79,7 @@ struct SceneOptions {
   std::string trajectories;     ///< folder that make_trajectories filled
   double scale = 1;             ///< of the number of particles in artificial scenes
   std::size_t most_frames = 0;  ///< configurations to read of a file
+  bool streamed = false;        ///< read when they are wanted, not all before the first
 };
 
 /// A scene by its name. A melt or chain melt without its trajectory becomes a shaken lattice, and says so in

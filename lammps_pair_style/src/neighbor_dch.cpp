@@ -2,17 +2,12 @@
 #include "neighbor_dch.h"
 
 #include <algorithm>
-#include <array>
 #include <atom.h>
 #include <cmath>
 #include <comm.h>
-#include <compute.h>
 #include <error.h>
-#include <fix.h>
-#include <force.h>
 #include <neigh_list.h>
 #include <new>
-#include <pair.h>
 #include <typeinfo>
 #include <update.h>
 #include <utility>
@@ -34,14 +29,6 @@ constexpr double kSmallestCutoff = 1e-100;
 double seconds_since(double& start) {
   const double now = MPI_Wtime();
   return now - std::exchange(start, now);
-}
-
-// Which list LAMMPS makes this one from; empty if from none.
-std::string derivation(const NeighList& list) {
-  if (list.listcopy) return "a copy of list " + std::to_string(list.listcopy->index + 1);
-  if (list.listfull) return "the half of list " + std::to_string(list.listfull->index + 1);
-  if (list.listskip) return "a part of list " + std::to_string(list.listskip->index + 1);
-  return {};
 }
 
 }  // namespace
@@ -140,6 +127,7 @@ void NeighborDCH::init() {
   if (!enabled_) {
     served_.clear();
     served_plist_.clear();
+    native_plist_.clear();
     if (clusters_.empty()) {
       tuner_.reset();
       return;
@@ -195,175 +183,6 @@ void NeighborDCH::prepare_search() {
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
   }
-}
-
-// A smaller skin is as safe as a larger one only if every step asks whether atoms have moved by half of it.
-// Native lists with cutoffs by radius know the script's skin only.
-void NeighborDCH::prepare_skin() {
-  const bool any_by_radius =
-      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
-  std::string obstacle;
-  if (!dist_check) obstacle = "lists are rebuilt without a check (neigh_modify check no)";
-  if (build_once) obstacle = "lists are built once (neigh_modify once yes)";
-  if (any_by_radius) obstacle = "a granular list is in use";
-  if (!native_plist_.empty()) obstacle = "a native list is in use";
-  if (!(skin > 0)) obstacle = "it is 0";
-  if (!tunes_skin_ || !obstacle.empty()) {
-    if (tunes_skin_ && comm->me == 0) utils::logmesg(lmp, "DCH: the skin stays as it is: " + obstacle + "\n");
-    tuner_.reset();
-    return;
-  }
-  every = 1;
-  delay = 0;
-  if (!tuner_ || tuner_->largest() != skin) tuner_.emplace(skin);
-  const auto n = static_cast<std::size_t>(atom->ntypes) + 1;
-  script_cutoffs_.assign(n * n, 0);
-  for (std::size_t a = 1; a < n; ++a)
-    for (std::size_t b = 1; b < n; ++b) script_cutoffs_[a * n + b] = std::sqrt(cutneighsq[a][b]);
-  last_build_time_ = 0;
-  apply_skin();
-}
-
-/// Tells the tuner what the last list has cost, by the slowest process, and takes its next proposal.
-void NeighborDCH::choose_skin() {
-  const double now = MPI_Wtime();
-  if (!tuner_->settled() && last_build_time_ > 0) {
-    double seconds = now - last_build_time_;
-    MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, world);
-    tuner_->observe(seconds, update->ntimestep - last_build_step_);
-    apply_skin();
-  }
-  last_build_time_ = now;
-  last_build_step_ = update->ntimestep;
-}
-
-/// The largest cutoff, by which ghosts are made, stays that of the script's skin.
-void NeighborDCH::apply_skin() {
-  const double less = skin - tuner_->skin();
-  triggersq = 0.25 * tuner_->skin() * tuner_->skin();
-  const auto n = static_cast<std::size_t>(atom->ntypes) + 1;
-  for (std::size_t a = 1; a < n; ++a) {
-    for (std::size_t b = 1; b < n; ++b) {
-      const double cutoff = script_cutoffs_[a * n + b];
-      if (cutoff > 0) cutneighsq[a][b] = (cutoff - less) * (cutoff - less);
-    }
-  }
-}
-
-// The base class takes what the box has changed by from `skin`.
-int NeighborDCH::check_distance() {
-  if (!tuner_) return Neighbor::check_distance();
-  const double of_script = std::exchange(skin, tuner_->skin());
-  const int moved = Neighbor::check_distance();
-  skin = of_script;
-  return moved;
-}
-
-void NeighborDCH::classify_lists() {
-  served_plist_.clear();
-  native_plist_.clear();
-  std::vector<ServedList> served;
-  for (int k = 0; k < npair_perpetual; ++k) {
-    const int m = plist[k];
-    const NeighList& list = *lists[m];
-    if (!native_reason(list).empty()) {
-      native_plist_.push_back(m);
-      continue;
-    }
-    const int mask = pairmasks[list.pair_method - 1];
-    ServedList ours;
-    ours.index = m;
-    ours.full = (mask & NP_FULL) != 0;
-    ours.newton = !ours.full && !(mask & NP_NEWTOFF);
-    ours.ghost = list.ghost != 0;
-    ours.by_radius = (mask & NP_SIZE) != 0;
-    ours.history = ours.by_radius && list.history != 0;
-    const auto old =
-        std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
-    if (old != served_.end()) ours.rows = std::move(old->rows);
-    served.push_back(std::move(ours));
-    served_plist_.push_back(m);
-  }
-  served_ = std::move(served);
-  for (int m = 0; m < nlist; ++m) {
-    if (lists[m]->pair_method == 0) continue;
-    notes_.push_back({m + 1, list_name(*lists[m]), native_reason(*lists[m])});
-  }
-}
-
-std::string NeighborDCH::list_name(const NeighList& list) const {
-  std::string owner = "parent of skip lists";
-  if (list.requestor_type == NeighList::PAIR) {
-    const char* keyword = force->pair_match_ptr(static_cast<Pair*>(list.requestor));
-    owner = std::string("pair ") + (keyword ? keyword : "?");
-  } else if (list.requestor_type == NeighList::FIX) {
-    owner = std::string("fix ") + static_cast<Fix*>(list.requestor)->style;
-  } else if (list.requestor_type == NeighList::COMPUTE) {
-    owner = std::string("compute ") + static_cast<Compute*>(list.requestor)->style;
-  }
-  const int mask = pairmasks[list.pair_method - 1];
-  const bool full = (mask & NP_FULL) != 0;
-  if (full && (mask & NP_HALF)) return owner;  // a builder of derived lists, which takes either kind
-  const std::string kind = full ? ", full" : mask & NP_NEWTOFF ? ", half, newton off" : ", half, newton on";
-  return owner + kind + (list.ghost ? ", with ghost rows" : "");
-}
-
-std::string NeighborDCH::reason_of_style(const NeighList& list) const {
-  const int mask = pairmasks[list.pair_method - 1];
-  if (mask & NP_SIZE && !atom->radius_flag) return "cutoffs by radius, but atoms have none";
-  if (mask & NP_RESPA) return "inner and middle levels of r-RESPA";
-  if (mask & (NP_ONESIDE | NP_OFF2ON)) return "one-sided";
-  if (mask & NP_BOND) return "bonds in the list";
-  if (mask & (NP_SSA | NP_INTEL | NP_KOKKOS_DEVICE | NP_KOKKOS_HOST))
-    return "layout of an accelerator package";
-  if (mask & (NP_COPY | NP_SKIP | NP_HALF_FULL)) return "derived from another list";
-  return {};
-}
-
-std::string NeighborDCH::native_reason(const NeighList& list) const {
-  if (list.occasional) return "built on demand only";
-  if (std::string from = derivation(list); !from.empty()) return from;
-  if (std::string kind = reason_of_style(list); !kind.empty()) return kind;
-  if (list.requestor_type == NeighList::FIX || list.requestor_type == NeighList::COMPUTE) {
-    return "asked for by a " + std::string(list.requestor_type == NeighList::FIX ? "fix" : "compute") +
-           ", maybe with a cutoff of its own";
-  }
-  if (force->pair_match("kim", 0) || force->pair_match("kim", 0, 1))
-    return "pair kim sets cutoffs of its own";
-  if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
-  if (!(cutneighmax > 0)) return "no cutoff";
-  if (list.ghost && includegroup) return "ghost rows with neigh_modify include";
-  // No style of the packages that the adapter is tested with asks for one.
-  if (list.ghost && !(pairmasks[list.pair_method - 1] & NP_FULL)) return "half list with ghost rows";
-  if (list.ghost) {
-    for (int a = 1; a <= atom->ntypes; ++a) {
-      for (int b = 1; b <= atom->ntypes; ++b) {
-        if (cutneighghostsq[a][b] > cutneighmaxsq) return "ghost cutoff beyond the largest cutoff";
-      }
-    }
-  }
-  return {};
-}
-
-std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const std::string& style_name,
-                                                           const std::string& obstacle) {
-  const std::string owner = "pair " + style_name;
-  if (!obstacle.empty()) {
-    requested_notes_.push_back({0, owner + " without cluster pairs", obstacle});
-    return nullptr;
-  }
-  auto clusters = std::make_shared<ClusterList>();
-  const auto n = static_cast<std::size_t>(atom->ntypes);
-  clusters->interacts.assign(n * n, 0);
-  requested_clusters_.push_back(clusters);
-  requested_notes_.push_back({0, owner + ", cluster pairs", {}});
-  return clusters;
-}
-
-void NeighborDCH::announce(const std::vector<dch::lammps::ListNote>& before) const {
-  if (notes_ == before || comm->me != 0) return;
-  utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size() + clusters_.size()) + " of " +
-                          std::to_string(notes_.size()) + " lists; 'dch stats' says which\n");
 }
 
 // setup_bins() is not virtual and runs outside build(): where bins are in sight stock code sizes them, and
@@ -534,67 +353,6 @@ void NeighborDCH::check_against_native() {
   }
   ++run_.verified_builds;
   run_.verified_entries += run_.entries;
-}
-
-// --------------------------------------------------------------------------------------------------------------------
-// Saying what they did
-
-dch::lammps::RunReport NeighborDCH::report() const {
-  const dch::SearchStats now = search_stats();
-  std::size_t bytes = now.memory_bytes;
-  for (const ServedList& served : served_)
-    bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
-             served.rows.first.capacity() * sizeof(std::int64_t);
-  for (const std::shared_ptr<ClusterList>& clusters : clusters_) bytes += clusters->pairs.memory_bytes();
-
-  std::array<std::int64_t, 8> sums{run_.entries,
-                                   run_.verified_entries,
-                                   now.promotions - before_run_.promotions,
-                                   now.demotions - before_run_.demotions,
-                                   now.inserted - before_run_.inserted,
-                                   now.removed - before_run_.removed,
-                                   static_cast<std::int64_t>(bytes),
-                                   atom->nlocal};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T, MPI_SUM, world);
-  std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
-                                      now.levels, now.refreshes - before_run_.refreshes};
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_INT64_T, MPI_MAX, world);
-  std::array<double, 7> times{run_.points_seconds,  run_.structure_seconds,       run_.rows_seconds,
-                              run_.fill_seconds,    run_.verified_native_seconds, run_.verified_dch_seconds,
-                              run_.clusters_seconds};
-  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
-
-  dch::lammps::RunReport report;
-  report.enabled = enabled_;
-  if (tuner_) report.skin = tuner_->skin();
-  report.skin_settled = tuner_ && tuner_->settled();
-  report.verify_every = verify_every_;
-  report.processes = comm->nprocs;
-  report.radius = params_.radius;
-  report.in_box = points_.in_box();
-  report.c = params_.c;
-  report.counters = run_;
-  report.counters.entries = sums[0];
-  report.counters.verified_entries = sums[1];
-  report.counters.points_seconds = times[0];
-  report.counters.structure_seconds = times[1];
-  report.counters.rows_seconds = times[2];
-  report.counters.fill_seconds = times[3];
-  report.counters.verified_native_seconds = times[4];
-  report.counters.verified_dch_seconds = times[5];
-  report.counters.clusters_seconds = times[6];
-  report.promotions = sums[2];
-  report.demotions = sums[3];
-  report.inserted = sums[4];
-  report.removed = sums[5];
-  report.memory_bytes = sums[6];
-  report.atoms = sums[7];
-  report.structures_built = largest[0];
-  report.repairs = largest[1];
-  report.levels = static_cast<int>(largest[2]);
-  report.refreshes = largest[3];
-  report.lists = notes_;
-  return report;
 }
 
 }  // namespace LAMMPS_NS

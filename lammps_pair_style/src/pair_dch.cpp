@@ -58,14 +58,16 @@ void PairDCH::coeff(int narg, char** arg) {
 
 void PairDCH::read_restart(FILE* file) {
   plain_->read_restart(file);
-  offset_flag = plain().*(&PairDCH::offset_flag);
-  mix_flag = plain().*(&PairDCH::mix_flag);
-  tail_flag = plain_->tail_flag;
+  take_flags();
   take_coefficients();
 }
 
 void PairDCH::read_restart_settings(FILE* file) {
   plain_->read_restart_settings(file);
+  take_flags();
+}
+
+void PairDCH::take_flags() {
   offset_flag = plain().*(&PairDCH::offset_flag);
   mix_flag = plain().*(&PairDCH::mix_flag);
   tail_flag = plain_->tail_flag;
@@ -218,6 +220,7 @@ void PairDCH::prepare_kernel() {
   has_kernel_ = true;
 }
 
+/// With newton off the forces on ghosts are of no use: LAMMPS neither sends nor reads them.
 void PairDCH::compute_clusters(bool with_sums) {
   prepare_kernel();
   const std::size_t points = clusters_->pairs.particles;

@@ -58,7 +58,7 @@ class PairDCH : public Pair {
 
   /// Makes the kernel for these pairs of types.
   virtual void make_kernel(const std::vector<PairOfTypes>& pairs) = 0;
-  /// Adds forces and, if `sums` is not null, eng_vdwl, eng_coul and virial.
+  /// Adds forces and, if wanted, adds to eng_vdwl, eng_coul and virial.
   virtual void add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision,
                           dch::Span<dch::Vec3> forces, bool with_sums) = 0;
 
@@ -67,6 +67,7 @@ class PairDCH : public Pair {
 
  private:
   std::string reason_for_plain() const;
+  void take_flags();
   void take_coefficients();
   void prepare_kernel();
   void refresh();

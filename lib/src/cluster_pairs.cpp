@@ -24,7 +24,7 @@ void put(Vec3 at, int slot, ClusterOfFour<double>& cluster) {
   cluster.z[slot] = at.z;
 }
 
-/// Whether no slot has moved by more than a distance; false too if a number is not finite.
+/// Whether every slot has moved by less than a distance; false too if a number is not finite.
 bool all_within(double distance2, const ClusterOfFour<double>& a, const ClusterOfFour<double>& b) {
   bool all = true;
   for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
@@ -67,17 +67,16 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
   for (std::size_t c = 0; c < at.size(); ++c) {
     const Vec3 center = origin[static_cast<std::size_t>(origin_of[c])];
     const std::int32_t* const particles_of = &particle[c * kSlots];
-    ClusterOfFour<double>& cluster = at[c];
-    // Taken straight from the new positions, so that rounding does not add up.
-    const ClusterOfFour<double> before = cluster;
+    const ClusterOfFour<double>& before = at[c];
+    ClusterOfFour<double> now_at;  // taken straight from the new positions, so that rounding does not add up
     for (int slot = 0; slot < kSlots; ++slot) {
       const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
-      put(positions[static_cast<std::size_t>(i)] - center, slot, cluster);
+      put(positions[static_cast<std::size_t>(i)] - center, slot, now_at);
     }
-    if (!all_within(safe2, before, cluster)) {
+    if (!all_within(safe2, before, now_at)) {
       for (int slot = 0; slot < kSlots; ++slot) {
         const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
-        const Vec3 moved = slot_of(cluster, slot) - slot_of(before, slot);
+        const Vec3 moved = slot_of(now_at, slot) - slot_of(before, slot);
         if (!std::isfinite(norm2(moved)))
           throw InvalidPosition("position " + std::to_string(i) + " = " +
                                 detail::describe(positions[static_cast<std::size_t>(i)]) +
@@ -87,13 +86,14 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
         // moved to it: that does not round.
         put(positions[static_cast<std::size_t>(i)] -
                 (center - images.vector(images.integers(now.nearest_image(moved) - moved))),
-            slot, cluster);
+            slot, now_at);
       }
     }
+    at[c] = now_at;
     ClusterOfFour<float>& rounded = at_float[c];
-    round_axis(grid, cluster.x, rounded.x, rounded.center[0]);
-    round_axis(grid, cluster.y, rounded.y, rounded.center[1]);
-    round_axis(grid, cluster.z, rounded.z, rounded.center[2]);
+    round_axis(grid, now_at.x, rounded.x, rounded.center[0]);
+    round_axis(grid, now_at.y, rounded.y, rounded.center[1]);
+    round_axis(grid, now_at.z, rounded.z, rounded.center[2]);
   }
   for (std::size_t s = 0; s < shift.size(); ++s) {
     const Vec3 between =

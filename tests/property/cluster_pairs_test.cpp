@@ -90,13 +90,12 @@ TEST_P(ClusterPairsScenes, LeaveOutExclusionsGhostsAndTypesWithoutACutoff) {
       hierarchy.cluster_pairs(request, pairs);
       ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request), "") << scene.name << ", " << kind++;
       if (request.first_ghost >= 0)
-        for_each_slot_pair(pairs, [&](std::int32_t i, std::int32_t j, Vec3) {
+        pairs.for_each([&](std::int32_t i, std::int32_t j, Vec3) {
           ASSERT_TRUE(i < request.first_ghost || j < request.first_ghost);
         });
       if (request.exclusions)
-        for_each_slot_pair(pairs, [&](std::int32_t i, std::int32_t j, Vec3) {
-          ASSERT_FALSE(i != j && exclusions.excluded(i, j));
-        });
+        pairs.for_each(
+            [&](std::int32_t i, std::int32_t j, Vec3) { ASSERT_FALSE(i != j && exclusions.excluded(i, j)); });
     }
   }
 }
@@ -230,8 +229,12 @@ TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(hierarchy.cluster_pairs(request_for(1.1), pairs), InvalidParameter);
   EXPECT_THROW(hierarchy.cluster_pairs(request_for(1e-10), pairs), InvalidParameter);
   hierarchy.cluster_pairs(request_for(1), pairs);
-  points[7].y = std::nan("");
+  const double was = std::exchange(points[7].y, std::nan(""));
   EXPECT_THROW(pairs.refresh(points, box), InvalidPosition);
+  points[7].y = was;
+  pairs.refresh(points, box);
+  EXPECT_EQ(cluster_pair_fault(pairs, points, box, request_for(1)), "")
+      << "a refused position left something";
   points.pop_back();
   EXPECT_THROW(pairs.refresh(points, box), InvalidParameter);
   points.push_back({});

@@ -14,31 +14,6 @@
 
 namespace dch {
 
-/// The displacement that an entry gives a pair of slots.
-inline Vec3 slot_displacement(const ClusterPairs& pairs, const ClusterPairs::Row& row,
-                              const ClusterPairs::Entry& entry, int a, int b) {
-  const auto& i = pairs.at[static_cast<std::size_t>(row.cluster)];
-  const auto& j = pairs.at[static_cast<std::size_t>(entry.cluster)];
-  const auto& s = pairs.shift_vector[static_cast<std::size_t>(row.first_shift + entry.shift)].whole;
-  return {j.x[b] + s.x[b] - i.x[a], j.y[b] + s.y[b] - i.y[a], j.z[b] + s.z[b] - i.z[a]};
-}
-
-/// Calls f(i, j, displacement) for every pair in the masks.
-template <class F>
-void for_each_slot_pair(const ClusterPairs& pairs, const F& f) {
-  for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
-    const ClusterPairs::Row& row = pairs.rows[r];
-    for (std::int64_t e = row.first; e < pairs.rows[r + 1].first; ++e) {
-      const ClusterPairs::Entry& entry = pairs.entries[static_cast<std::size_t>(e)];
-      for (int bit = 0; bit < 16; ++bit)
-        if ((entry.mask >> bit & 1) != 0)
-          f(pairs.particle[static_cast<std::size_t>(4 * row.cluster + bit / 4)],
-            pairs.particle[static_cast<std::size_t>(4 * entry.cluster + bit % 4)],
-            slot_displacement(pairs, row, entry, bit / 4, bit % 4));
-    }
-  }
-}
-
 /// What is wrong with cluster pairs at these positions, as a sentence; empty if nothing is: every pair of the
 /// oracle's list stands in one entry, with the displacement of its nearest image; no other pair within the
 /// list radius does. For positions that have moved, the request
@@ -61,7 +36,7 @@ inline std::string cluster_pair_fault(const ClusterPairs& pairs, const std::vect
 
   std::map<std::pair<std::int32_t, std::int32_t>, int> found;  // within the radius for sure, then at it
   std::string fault;
-  for_each_slot_pair(pairs, [&](std::int32_t i, std::int32_t j, Vec3 d) {
+  pairs.for_each([&](std::int32_t i, std::int32_t j, Vec3 d) {
     if (i < 0 || j < 0) {
       fault = "padding in a mask";
       return;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which lists are ours, and what to call them.
+#include <algorithm>
+#include <atom.h>
+#include <comm.h>
+#include <compute.h>
+#include <fix.h>
+#include <force.h>
+#include <neigh_list.h>
+#include <pair.h>
+#include <utility>
+
+#include "neighbor_dch.h"
+
+namespace LAMMPS_NS {
+
+using namespace NeighConst;
+
+namespace {
+
+// Which list LAMMPS makes this one from; empty if from none.
+std::string derivation(const NeighList& list) {
+  if (list.listcopy) return "a copy of list " + std::to_string(list.listcopy->index + 1);
+  if (list.listfull) return "the half of list " + std::to_string(list.listfull->index + 1);
+  if (list.listskip) return "a part of list " + std::to_string(list.listskip->index + 1);
+  return {};
+}
+
+}  // namespace
+
+void NeighborDCH::classify_lists() {
+  served_plist_.clear();
+  native_plist_.clear();
+  std::vector<ServedList> served;
+  for (int k = 0; k < npair_perpetual; ++k) {
+    const int m = plist[k];
+    const NeighList& list = *lists[m];
+    if (!native_reason(list).empty()) {
+      native_plist_.push_back(m);
+      continue;
+    }
+    const int mask = pairmasks[list.pair_method - 1];
+    ServedList ours;
+    ours.index = m;
+    ours.full = (mask & NP_FULL) != 0;
+    ours.newton = !ours.full && !(mask & NP_NEWTOFF);
+    ours.ghost = list.ghost != 0;
+    ours.by_radius = (mask & NP_SIZE) != 0;
+    ours.history = ours.by_radius && list.history != 0;
+    const auto old =
+        std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
+    if (old != served_.end()) ours.rows = std::move(old->rows);
+    served.push_back(std::move(ours));
+    served_plist_.push_back(m);
+  }
+  served_ = std::move(served);
+  for (int m = 0; m < nlist; ++m) {
+    if (lists[m]->pair_method == 0) continue;
+    notes_.push_back({m + 1, list_name(*lists[m]), native_reason(*lists[m])});
+  }
+}
+
+std::string NeighborDCH::list_name(const NeighList& list) const {
+  std::string owner = "parent of skip lists";
+  if (list.requestor_type == NeighList::PAIR) {
+    const char* keyword = force->pair_match_ptr(static_cast<Pair*>(list.requestor));
+    owner = std::string("pair ") + (keyword ? keyword : "?");
+  } else if (list.requestor_type == NeighList::FIX) {
+    owner = std::string("fix ") + static_cast<Fix*>(list.requestor)->style;
+  } else if (list.requestor_type == NeighList::COMPUTE) {
+    owner = std::string("compute ") + static_cast<Compute*>(list.requestor)->style;
+  }
+  const int mask = pairmasks[list.pair_method - 1];
+  const bool full = (mask & NP_FULL) != 0;
+  if (full && (mask & NP_HALF)) return owner;  // a builder of derived lists, which takes either kind
+  const std::string kind = full ? ", full" : mask & NP_NEWTOFF ? ", half, newton off" : ", half, newton on";
+  return owner + kind + (list.ghost ? ", with ghost rows" : "");
+}
+
+std::string NeighborDCH::reason_of_style(const NeighList& list) const {
+  const int mask = pairmasks[list.pair_method - 1];
+  if (mask & NP_SIZE && !atom->radius_flag) return "cutoffs by radius, but atoms have none";
+  if (mask & NP_RESPA) return "inner and middle levels of r-RESPA";
+  if (mask & (NP_ONESIDE | NP_OFF2ON)) return "one-sided";
+  if (mask & NP_BOND) return "bonds in the list";
+  if (mask & (NP_SSA | NP_INTEL | NP_KOKKOS_DEVICE | NP_KOKKOS_HOST))
+    return "layout of an accelerator package";
+  if (mask & (NP_COPY | NP_SKIP | NP_HALF_FULL)) return "derived from another list";
+  return {};
+}
+
+std::string NeighborDCH::native_reason(const NeighList& list) const {
+  if (list.occasional) return "built on demand only";
+  if (std::string from = derivation(list); !from.empty()) return from;
+  if (std::string kind = reason_of_style(list); !kind.empty()) return kind;
+  if (list.requestor_type == NeighList::FIX || list.requestor_type == NeighList::COMPUTE) {
+    return "asked for by a " + std::string(list.requestor_type == NeighList::FIX ? "fix" : "compute") +
+           ", maybe with a cutoff of its own";
+  }
+  if (force->pair_match("kim", 0) || force->pair_match("kim", 0, 1))
+    return "pair kim sets cutoffs of its own";
+  if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
+  if (!(cutneighmax > 0)) return "no cutoff";
+  if (list.ghost && includegroup) return "ghost rows with neigh_modify include";
+  // No style of the packages that the adapter is tested with asks for one.
+  if (list.ghost && !(pairmasks[list.pair_method - 1] & NP_FULL)) return "half list with ghost rows";
+  if (list.ghost) {
+    for (int a = 1; a <= atom->ntypes; ++a) {
+      for (int b = 1; b <= atom->ntypes; ++b) {
+        if (cutneighghostsq[a][b] > cutneighmaxsq) return "ghost cutoff beyond the largest cutoff";
+      }
+    }
+  }
+  return {};
+}
+
+std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const std::string& style_name,
+                                                           const std::string& obstacle) {
+  const std::string owner = "pair " + style_name;
+  if (!obstacle.empty()) {
+    requested_notes_.push_back({0, owner + " without cluster pairs", obstacle});
+    return nullptr;
+  }
+  auto clusters = std::make_shared<ClusterList>();
+  const auto n = static_cast<std::size_t>(atom->ntypes);
+  clusters->interacts.assign(n * n, 0);
+  requested_clusters_.push_back(clusters);
+  requested_notes_.push_back({0, owner + ", cluster pairs", {}});
+  return clusters;
+}
+
+void NeighborDCH::announce(const std::vector<dch::lammps::ListNote>& before) const {
+  if (notes_ == before || comm->me != 0) return;
+  utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size() + clusters_.size()) + " of " +
+                          std::to_string(notes_.size()) + " lists; 'dch stats' says which\n");
+}
+
+}  // namespace LAMMPS_NS
