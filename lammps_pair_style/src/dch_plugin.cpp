@@ -6,7 +6,7 @@
 
 #include "dch_command.h"
 #include "dch_register.h"
-#include "pair_dch.h"
+#include "pair_styles.h"
 
 namespace {
 
@@ -34,10 +34,6 @@ void* create_command(void* lammps) {
   LAMMPS_NS::Command* const made = new LAMMPS_NS::DchCommand(static_cast<LAMMPS_NS::LAMMPS*>(lammps));
   return made;
 }
-void* create_lj_cut(void* lammps) {
-  LAMMPS_NS::Pair* const made = new LAMMPS_NS::PairLJCutDCH(static_cast<LAMMPS_NS::LAMMPS*>(lammps));
-  return made;
-}
 }
 
 }  // namespace
@@ -55,8 +51,10 @@ void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
   entry.creator.v1 = &create_command;
   enter(&entry, lammps);
   entry.style = "pair";
-  entry.name = "lj/cut/dch";
-  entry.info = "lj/cut on cluster pairs of a discrete center hierarchy";
-  entry.creator.v1 = &create_lj_cut;
-  enter(&entry, lammps);
+  for (const LAMMPS_NS::PairStyle& style : LAMMPS_NS::kPairStyles) {
+    entry.name = style.name;
+    entry.info = style.info;
+    entry.creator.v1 = reinterpret_cast<Factory*>(style.create);  // LAMMPS casts it back
+    enter(&entry, lammps);
+  }
 }

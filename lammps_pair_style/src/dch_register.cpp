@@ -8,13 +8,11 @@
 #include <library.h>
 
 #include "dch_command.h"
-#include "pair_dch.h"
+#include "pair_styles.h"
 
 namespace {
 
 LAMMPS_NS::Command* create_command(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::DchCommand(lmp); }
-
-LAMMPS_NS::Pair* create_lj_cut(LAMMPS_NS::LAMMPS* lmp) { return new LAMMPS_NS::PairLJCutDCH(lmp); }
 
 void complain(const char* format, int wanted, int found) {
   int rank = 0, initialized = 0;
@@ -45,5 +43,6 @@ int dch_register(void* handle) {
 }
 
 void dch::lammps::register_styles(LAMMPS_NS::LAMMPS& lmp) {
-  lmp.force->pair_map->emplace("lj/cut/dch", &create_lj_cut);
+  for (const LAMMPS_NS::PairStyle& style : LAMMPS_NS::kPairStyles)
+    lmp.force->pair_map->emplace(style.name, style.create);
 }

@@ -33,6 +33,7 @@ PairDCH::PairDCH(LAMMPS* lammps, std::string plain) : Pair(lammps), plain_name_(
   ewaldflag = plain_->ewaldflag;
   pppmflag = plain_->pppmflag;
   msmflag = plain_->msmflag;
+  plain_->ncoultablebits = 0;
   no_virial_fdotr_compute = 1;  // where points are the atoms in the box, ghosts get no forces
 }
 
@@ -71,6 +72,7 @@ void PairDCH::take_flags() {
   offset_flag = plain().*(&PairDCH::offset_flag);
   mix_flag = plain().*(&PairDCH::mix_flag);
   tail_flag = plain_->tail_flag;
+  ncoultablebits = std::exchange(plain_->ncoultablebits, 0);
 }
 
 /// LAMMPS looks at which pairs of types have been given.
@@ -90,6 +92,7 @@ void PairDCH::take_coefficients() {
 void PairDCH::modify_params(int narg, char** arg) {
   Pair::modify_params(narg, arg);
   plain_->modify_params(narg, arg);
+  plain_->ncoultablebits = 0;
   has_kernel_ = false;
 }
 
@@ -114,8 +117,19 @@ double PairDCH::init_one(int i, int j) {
   return cutoff;
 }
 
-void PairDCH::write_restart(FILE* file) { plain_->write_restart(file); }
-void PairDCH::write_restart_settings(FILE* file) { plain_->write_restart_settings(file); }
+// Files say what the script has said of tables, for those who read them with the plain style.
+void PairDCH::write_restart(FILE* file) {
+  plain_->ncoultablebits = ncoultablebits;
+  plain_->write_restart(file);
+  plain_->ncoultablebits = 0;
+}
+
+void PairDCH::write_restart_settings(FILE* file) {
+  plain_->ncoultablebits = ncoultablebits;
+  plain_->write_restart_settings(file);
+  plain_->ncoultablebits = 0;
+}
+
 void PairDCH::write_data(FILE* file) { plain_->write_data(file); }
 void PairDCH::write_data_all(FILE* file) { plain_->write_data_all(file); }
 
@@ -234,6 +248,9 @@ void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj,
   if (r2 >= cutsq[a][b]) return;
   double over_r = 0;
   const double energy = plain_->single(i, j, a, b, r2, factor_coul, factor_lj, over_r);
+  double of_charges = 0;
+  if (double ignored = 0; eflag_either && has_charges())
+    of_charges = plain_->single(i, j, a, b, r2, factor_coul, 0, ignored);
   const dch::Vec3 pull = over_r * from_j_to_i;
   double **f = atom->f, *of_i = f[i], *of_j = f[j];
   of_i[0] += pull.x;
@@ -245,8 +262,8 @@ void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj,
     of_j[2] -= pull.z;
   }
   if (evflag)
-    ev_tally(i, j, atom->nlocal, force->newton_pair, energy, 0, over_r, from_j_to_i.x, from_j_to_i.y,
-             from_j_to_i.z);
+    ev_tally(i, j, atom->nlocal, force->newton_pair, energy - of_charges, of_charges, over_r, from_j_to_i.x,
+             from_j_to_i.y, from_j_to_i.z);
 }
 
 void PairDCH::compute_pair_by_pair() {
@@ -265,33 +282,6 @@ void PairDCH::compute_special() {
     compute_one(pair.i, pair.j, {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, force->special_lj[pair.kind],
                 force->special_coul[pair.kind]);
   }
-}
-
-// --------------------------------------------------------------------------------------------------------------------
-// lj/cut/dch
-
-void PairLJCutDCH::make_kernel(const std::vector<PairOfTypes>& pairs) {
-  int dimension = 0;
-  auto* const epsilon = static_cast<double**>(plain().extract("epsilon", dimension));
-  auto* const sigma = static_cast<double**>(plain().extract("sigma", dimension));
-  const auto n = static_cast<std::size_t>(atom->ntypes);
-  std::vector<dch::LennardJonesPair> matrix(n * n, dch::LennardJonesPair{0, 1, 0});
-  for (const PairOfTypes& p : pairs) {
-    const auto a = static_cast<std::size_t>(p.a - 1), b = static_cast<std::size_t>(p.b - 1);
-    matrix[a * n + b] = matrix[b * n + a] = {epsilon[p.a][p.b], sigma[p.a][p.b], p.cutoff};
-  }
-  kernel_ = std::make_unique<dch::LennardJones>(atom->ntypes, matrix, shifts_energy());
-}
-
-void PairLJCutDCH::add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision,
-                              dch::Span<dch::Vec3> forces, bool with_sums) {
-  if (!with_sums) {
-    kernel_->add_forces(pairs, precision, forces);
-    return;
-  }
-  const dch::LennardJonesSums sums = kernel_->add_forces_and_sum(pairs, precision, forces);
-  eng_vdwl += sums.energy;
-  for (int k = 0; k < 6; ++k) virial[k] += sums.virial[static_cast<std::size_t>(k)];
 }
 
 }  // namespace LAMMPS_NS

@@ -21,6 +21,7 @@ namespace LAMMPS_NS {
 /// Ordinary pairs go through a SIMD kernel. Bonded pairs with weights, steps that want energies by atom or
 /// other tallies, and newton off with ghosts go pair by pair through the plain style's single(). Where
 /// cluster pairs cannot be had (settings that dch stats names) the plain style computes, on a neighbor list.
+/// Wherever it computes, it does so without its tables of Coulomb forces, as the kernels do.
 class PairDCH : public Pair {
  public:
   /// @param plain name of the plain style
@@ -62,6 +63,9 @@ class PairDCH : public Pair {
   virtual void add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision,
                           dch::Span<dch::Vec3> forces, bool with_sums) = 0;
 
+  /// Whether the plain style's energies have a Coulomb part.
+  virtual bool has_charges() const { return false; }
+
   Pair& plain() const { return *plain_; }
   bool shifts_energy() const { return offset_flag != 0; }
 
@@ -82,20 +86,6 @@ class PairDCH : public Pair {
   std::shared_ptr<ClusterList> clusters_;  ///< null if the plain style computes
   std::vector<PairOfTypes> pairs_of_types_;
   bool has_kernel_ = false;  ///< for the coefficients as they are
-};
-
-/// lj/cut/dch
-class PairLJCutDCH : public PairDCH {
- public:
-  explicit PairLJCutDCH(LAMMPS* lammps) : PairDCH(lammps, "lj/cut") {}
-
- protected:
-  void make_kernel(const std::vector<PairOfTypes>& pairs) override;
-  void add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision, dch::Span<dch::Vec3> forces,
-                  bool with_sums) override;
-
- private:
-  std::unique_ptr<dch::LennardJones> kernel_;
 };
 
 }  // namespace LAMMPS_NS

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include <dch/error.hpp>
 #include <dch/lennard_jones.hpp>
@@ -29,8 +30,8 @@ void check_pair(const LennardJonesPair& pair, int a, int b) {
                            "; it must be finite, and positive or 0 for pairs that do not interact");
 }
 
-/// In the order of detail::LjCoefficients.
-std::array<double, 6> coefficients_of(const LennardJonesPair& pair, bool shifted) {
+/// In the order of detail::LjCoefficients; charges come later.
+std::array<double, 7> coefficients_of(const LennardJonesPair& pair, bool shifted) {
   if (pair.cutoff == 0) return {};
   const double sigma6 = std::pow(pair.sigma, 6), sigma12 = sigma6 * sigma6;
   const double energy12 = 4 * pair.epsilon * sigma12, energy6 = 4 * pair.epsilon * sigma6;
@@ -40,7 +41,8 @@ std::array<double, 6> coefficients_of(const LennardJonesPair& pair, bool shifted
           6 * energy6,
           energy12,
           energy6,
-          shifted ? s3 * (energy12 * s3 - energy6) : 0};
+          shifted ? s3 * (energy12 * s3 - energy6) : 0,
+          0};
 }
 
 bool fits_single(double v) {
@@ -49,9 +51,9 @@ bool fits_single(double v) {
 }
 
 template <class Real>
-detail::LjCoefficients<Real> pointers_to(const std::array<std::vector<Real>, 6>& tables) {
-  return {tables[0].data(), tables[1].data(), tables[2].data(),
-          tables[3].data(), tables[4].data(), tables[5].data()};
+detail::LjCoefficients<Real> pointers_to(const std::array<std::vector<Real>, 7>& tables) {
+  return {tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(),
+          tables[4].data(), tables[5].data(), tables[6].data()};
 }
 
 template <class Real>
@@ -69,26 +71,33 @@ void add_cluster_forces(const ClusterPairs& pairs, const std::vector<ClusterOfFo
 }
 
 template <class Real>
-void run(const detail::LjFunctions<Real>& functions, const ClusterPairs& pairs,
-         const std::vector<ClusterOfFour<Real>>& at, const std::vector<ClusterShift<Real>>& shift,
-         const std::array<std::vector<Real>, 6>& tables, int types, std::vector<ClusterOfFour<Real>>& scratch,
-         Span<Vec3> forces, LennardJonesSums* sums) {
-  scratch.assign(at.size(), ClusterOfFour<Real>());
-  const detail::LjTask<Real> task{pairs.rows.data(),
-                                  static_cast<std::int64_t>(pairs.rows.size()) - 1,
-                                  pairs.entries.data(),
-                                  at.data(),
-                                  shift.data(),
-                                  pairs.type.data(),
-                                  types,
-                                  pointers_to(tables),
-                                  scratch.data()};
-  detail::LjSums found;
-  functions.choose(types == 1, sums != nullptr)(task, found);
-  add_cluster_forces(pairs, scratch, forces);
-  if (!sums) return;
-  sums->energy = found.energy;
-  std::copy_n(found.virial, 6, sums->virial.begin());
+struct Kernels;
+
+template <>
+struct Kernels<double> {
+  static const auto& functions(const detail::ClusterKernels& kernels) { return kernels.full; }
+  static const auto& at(const ClusterPairs& pairs) { return pairs.at; }
+  static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector; }
+};
+
+template <>
+struct Kernels<float> {
+  static const auto& functions(const detail::ClusterKernels& kernels) { return kernels.mixed; }
+  static const auto& at(const ClusterPairs& pairs) { return pairs.at_float; }
+  static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
+};
+
+template <class FourCharges>
+void sort_by_slot(const ClusterPairs& pairs, Span<const double> charges, double unit,
+                  std::vector<FourCharges>& slots) {
+  slots.resize(static_cast<std::size_t>(pairs.clusters()));
+  for (std::size_t c = 0; c < slots.size(); ++c) {
+    for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+      const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
+      auto& q = slots[c].q[slot];
+      q = i < 0 ? 0 : static_cast<std::decay_t<decltype(q)>>(unit * charges[static_cast<std::size_t>(i)]);
+    }
+  }
 }
 
 }  // namespace
@@ -111,7 +120,7 @@ LennardJones::LennardJones(int types, const std::vector<LennardJonesPair>& matri
       if (pair.epsilon != mirrored.epsilon || pair.sigma != mirrored.sigma || pair.cutoff != mirrored.cutoff)
         throw InvalidParameter(pair_text(a, b) + " differs from that of types " + std::to_string(b) +
                                " and " + std::to_string(a) + "; give a symmetric matrix");
-      const std::array<double, 6> coefficients = coefficients_of(pair, shifted);
+      const std::array<double, 7> coefficients = coefficients_of(pair, shifted);
       for (std::size_t k = 0; k < coefficients.size(); ++k) {
         if (!std::isfinite(coefficients[k]))
           throw InvalidParameter(pair_text(a, b) + ": epsilon " + detail::describe(pair.epsilon) +
@@ -130,12 +139,48 @@ LennardJones::LennardJones(int types, const std::vector<LennardJonesPair>& matri
   for (auto& table : mixed_) table.resize(std::max(table.size(), kLeast));
 }
 
-void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, std::size_t forces) const {
+void LennardJones::set_coulomb(const CoulombTerm& term) {
+  const auto refuse = [](const std::string& what, double value) {
+    throw InvalidParameter("the " + what + " of Coulomb forces is " + detail::describe(value) +
+                           "; it must be finite and not negative");
+  };
+  if (!(std::isfinite(term.constant) && term.constant >= 0)) refuse("constant", term.constant);
+  if (!(std::isfinite(term.splitting) && term.splitting >= 0)) refuse("splitting parameter", term.splitting);
+  const auto side = static_cast<std::size_t>(types_);
+  if (term.cutoffs.size() != side * side)
+    throw InvalidParameter(std::to_string(term.cutoffs.size()) + " Coulomb cutoffs given for " +
+                           std::to_string(types_) + " types; give a matrix of types x types");
+  for (std::size_t a = 0; a < side; ++a) {
+    for (std::size_t b = 0; b < side; ++b) {
+      const double cutoff = term.cutoffs[a * side + b];
+      if (!(std::isfinite(cutoff) && cutoff >= 0)) refuse("cutoff", cutoff);
+      if (cutoff != term.cutoffs[b * side + a])
+        throw InvalidParameter(
+            "the Coulomb cutoff of types " + std::to_string(a) + " and " + std::to_string(b) +
+            " differs from that of the same types in the other order; give a symmetric matrix");
+      fits_single_ = fits_single_ && fits_single(cutoff * cutoff);
+      full_.back()[a * side + b] = cutoff * cutoff;
+      mixed_.back()[a * side + b] = static_cast<float>(cutoff * cutoff);
+      largest_cutoff_ = std::max(largest_cutoff_, cutoff);
+    }
+  }
+  has_charges_ = true;
+  charge_unit_ = std::sqrt(term.constant);
+  splitting_ = term.splitting;
+}
+
+void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, std::size_t forces,
+                         std::size_t charges) const {
   if (forces != pairs.particles)
     throw InvalidParameter("room for " + std::to_string(forces) + " forces given for " +
                            std::to_string(pairs.particles) + " particles; give one each");
+  if (charges != (has_charges_ ? pairs.particles : 0))
+    throw InvalidParameter(
+        std::to_string(charges) + " charges given for " + std::to_string(pairs.particles) +
+        " particles; give " +
+        (has_charges_ ? "one each" : "none, or say first with set_coulomb() how they act"));
   if (largest_cutoff_ > pairs.list_radius)
-    throw InvalidParameter("the Lennard-Jones cutoff " + detail::describe(largest_cutoff_) +
+    throw InvalidParameter("the largest cutoff " + detail::describe(largest_cutoff_) +
                            " exceeds the radius " + detail::describe(pairs.list_radius) +
                            " of the cluster pairs; make them with a larger one");
   if (types_ > 1 && pairs.types > types_)
@@ -144,31 +189,61 @@ void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, st
                            "; give one for each pair of types");
   if (precision == ForcePrecision::mixed && !fits_single_)
     throw InvalidParameter(
-        "a Lennard-Jones coefficient is outside 1.2e-38..3.4e38, the range of single precision; use other "
+        "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
+        "other "
         "units or ForcePrecision::full");
 }
 
+template <class Real>
+void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
+                       Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const {
+  using Of = Kernels<Real>;
+  scratch.force.assign(Of::at(pairs).size(), ClusterOfFour<Real>());
+  if (has_charges_) sort_by_slot(pairs, charges, charge_unit_, scratch.charge);
+  const detail::LjTask<Real> task{pairs.rows.data(),
+                                  static_cast<std::int64_t>(pairs.rows.size()) - 1,
+                                  pairs.entries.data(),
+                                  Of::at(pairs).data(),
+                                  Of::shift(pairs).data(),
+                                  pairs.type.data(),
+                                  types_,
+                                  pointers_to(tables),
+                                  has_charges_ ? scratch.charge.data()->q : nullptr,
+                                  static_cast<Real>(splitting_),
+                                  scratch.force.data()};
+  detail::LjSums found;
+  const auto kind = !has_charges_    ? detail::CoulombKind::none
+                    : splitting_ > 0 ? detail::CoulombKind::ewald
+                                     : detail::CoulombKind::plain;
+  Of::functions(detail::cluster_kernels(instruction_set()))
+      .choose(kind, types_ == 1, sums != nullptr)(task, found);
+  add_cluster_forces(pairs, scratch.force, forces);
+  if (!sums) return;
+  sums->energy = found.energy;
+  sums->coulomb_energy = found.coulomb_energy;
+  std::copy_n(found.virial, 6, sums->virial.begin());
+}
+
 void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
-                       LennardJonesSums* sums) {
-  check(pairs, precision, forces.size());
-  const detail::ClusterKernels& kernels = detail::cluster_kernels(instruction_set());
+                       Span<const double> charges, LennardJonesSums* sums) {
+  check(pairs, precision, forces.size(), charges.size());
   if (pairs.rows.empty()) return;
   if (precision == ForcePrecision::mixed) {
-    run(kernels.mixed, pairs, pairs.at_float, pairs.shift_vector_float, mixed_, types_, force_float_, forces,
-        sums);
+    run(pairs, charges, mixed_, scratch_float_, forces, sums);
   } else {
-    run(kernels.full, pairs, pairs.at, pairs.shift_vector, full_, types_, force_, forces, sums);
+    run(pairs, charges, full_, scratch_, forces, sums);
   }
 }
 
-void LennardJones::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces) {
-  add(pairs, precision, forces, nullptr);
+void LennardJones::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
+                              Span<const double> charges) {
+  add(pairs, precision, forces, charges, nullptr);
 }
 
 LennardJonesSums LennardJones::add_forces_and_sum(const ClusterPairs& pairs, ForcePrecision precision,
-                                                  Span<Vec3> forces) {
+                                                  Span<Vec3> forces, Span<const double> charges) {
   LennardJonesSums sums;
-  add(pairs, precision, forces, &sums);
+  add(pairs, precision, forces, charges, &sums);
   return sums;
 }
 

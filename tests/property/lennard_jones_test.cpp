@@ -41,7 +41,7 @@ ListParams request_for(double cutoff, double skin) {
 double rounding_in(const Box& box) { return box.kind() == Box::Kind::triclinic ? 5e-14 : 1e-14; }
 
 void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs, LennardJones& potential,
-                  const std::string& what) {
+                  const std::string& what, const std::vector<double>& charges = {}) {
   const RestoreInstructionSet restore;
   for (const InstructionSet set : supported_sets())
     for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
@@ -51,13 +51,14 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
       const double limit = full ? rounding_in(pairs.box) : 1e-5;
       const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
       std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
-      const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces);
-      potential.add_forces(pairs, precision, once_more);
+      const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces, charges);
+      potential.add_forces(pairs, precision, once_more, charges);
       EXPECT_LT(force_error(forces, expected.force), limit) << where;
       EXPECT_LT(force_error(once_more, expected.force), limit) << where;
-      double scale = std::abs(expected.sums.energy);
+      double scale = std::abs(expected.sums.energy) + std::abs(expected.sums.coulomb_energy);
       for (const double v : expected.sums.virial) scale += std::abs(v);
       EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-5) * scale) << where;
+      EXPECT_NEAR(sums.coulomb_energy, expected.sums.coulomb_energy, (full ? 1e-13 : 1e-5) * scale) << where;
       for (std::size_t k = 0; k < 6; ++k)
         EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-5) * scale) << where << k;
     }
@@ -145,6 +146,48 @@ TEST_P(LennardJonesScenes, EqualsAllPairsForManyTypesExclusionsAndGhosts) {
   }
 }
 
+/// Cutoffs of charges below, at and beyond those of Lennard-Jones pairs.
+TEST_P(LennardJonesScenes, EqualsAllPairsWithCharges) {
+  const Box box = GetParam().box;
+  for (const int types : {1, 3, 6})
+    for (const double splitting : {0.0, 1.1, 40.0}) {
+      const std::vector<Vec3> points = liquid(box, 400, 0.85, 13);
+      const auto side = static_cast<std::size_t>(types);
+      std::vector<LennardJonesPair> matrix(side * side);
+      CoulombTerm term{3.5, splitting, std::vector<double>(side * side)};
+      std::vector<double> cutoffs(side * side);
+      for (std::size_t a = 0; a < side; ++a)
+        for (std::size_t b = 0; b < side; ++b) {
+          const auto sum = static_cast<double>(a + b);
+          matrix[a * side + b] = {1 + 0.1 * sum, 0.9 + 0.01 * sum, a + b == 2 ? 0 : kCutoff - 0.1 * sum};
+          term.cutoffs[a * side + b] = a + b == 3 ? 0 : kCutoff - 0.07 * sum * (a == b ? 2 : 1);
+          cutoffs[a * side + b] = std::max(matrix[a * side + b].cutoff, term.cutoffs[a * side + b]);
+        }
+      std::vector<std::int32_t> type(points.size());
+      std::vector<double> charges(points.size());
+      scenes::Random random(8);
+      for (std::size_t i = 0; i < type.size(); ++i) {
+        type[i] = static_cast<std::int32_t>(i % side);
+        charges[i] = 2 * random.uniform() - 1;
+      }
+      ListParams request;
+      request.cutoffs = TypeCutoffs(types, cutoffs);
+      request.skin = kSkin;
+      if (types > 1) request.types = type;
+      HierarchyParams params;
+      params.radius = kCutoff + kSkin;
+      Hierarchy hierarchy(params);
+      hierarchy.build(points, box);
+      ClusterPairs pairs;
+      hierarchy.cluster_pairs(request, pairs);
+      LennardJones potential(types, matrix, true);
+      potential.set_coulomb(term);
+      expect_equal(all_pairs_lennard_jones(points, box, matrix, true, type, nullptr, -1, {&term, charges}),
+                   pairs, potential, std::to_string(types) + " types, splitting " + std::to_string(splitting),
+                   charges);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Boxes, LennardJonesScenes, ::testing::ValuesIn(scenes::all_boxes(9.0)),
                          [](const auto& p) { return p.param.name; });
 
@@ -216,6 +259,34 @@ TEST(LennardJonesTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(two_types.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
   EXPECT_THROW(tiny.add_forces(pairs, ForcePrecision::mixed, forces), InvalidParameter);
   EXPECT_NO_THROW(tiny.add_forces(pairs, ForcePrecision::full, forces));
+}
+
+TEST(LennardJonesTest, RefusesChargesThatDoNotFit) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  LennardJones potential(2, std::vector<LennardJonesPair>(4, {1, 1, 1.5}));
+  const std::vector<double> cutoffs(4, 2), two{1, -1};
+  EXPECT_THROW(potential.set_coulomb({-1, 0, cutoffs}), InvalidParameter);
+  EXPECT_THROW(potential.set_coulomb({1, nan, cutoffs}), InvalidParameter);
+  EXPECT_THROW(potential.set_coulomb({1, 0, {2, 2}}), InvalidParameter);
+  EXPECT_THROW(potential.set_coulomb({1, 0, {2, 1, 2, 2}}), InvalidParameter);
+  EXPECT_THROW(potential.set_coulomb({1, 0, {2, nan, nan, 2}}), InvalidParameter);
+
+  const std::vector<Vec3> points{{0, 0, 0}, {1.8, 0, 0}};
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request_for(2, 0), pairs);
+  std::vector<Vec3> forces(2);
+  EXPECT_THROW(potential.add_forces(pairs, ForcePrecision::full, forces, two), InvalidParameter);
+  potential.set_coulomb({1, 0, cutoffs});
+  EXPECT_EQ(potential.largest_cutoff(), 2);
+  EXPECT_THROW(potential.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
+  EXPECT_NO_THROW(potential.add_forces(pairs, ForcePrecision::full, forces, two));
+  EXPECT_NEAR(forces[0].x, 1 / (1.8 * 1.8), 1e-15);
+  potential.set_coulomb({1, 0, {2.1, 2, 2, 2}});
+  EXPECT_THROW(potential.add_forces(pairs, ForcePrecision::full, forces, two), InvalidParameter);
 }
 
 }  // namespace

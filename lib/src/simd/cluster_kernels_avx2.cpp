@@ -26,6 +26,11 @@ struct Avx2Float {
   static V madd(V a, V b, V c) { return _mm256_fmadd_ps(a, b, c); }
   static V msub(V a, V b, V c) { return _mm256_fmsub_ps(a, b, c); }
   static V inverse(V a) { return _mm256_div_ps(set1(1), a); }
+  static V sqrt(V a) { return _mm256_sqrt_ps(a); }
+  /// 2^n of integers n in -126..127.
+  static V power_of_two(V n) {
+    return _mm256_castsi256_ps(_mm256_slli_epi32(_mm256_castps_si256(add(n, set1(0x1.8p23f + 127))), 23));
+  }
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
   }
@@ -43,6 +48,7 @@ struct Avx2Float {
     return _mm256_set_m128(_mm_set1_ps(four[2 * part + 1]), _mm_set1_ps(four[2 * part]));
   }
   static V twice(__m128 four) { return _mm256_set_m128(four, four); }
+  static V repeat(const float* four) { return twice(_mm_load_ps(four)); }
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {twice(_mm_load_ps(at.x)), twice(_mm_load_ps(at.y)), twice(_mm_load_ps(at.z))};
   }
@@ -105,7 +111,13 @@ struct Avx2Double {
   static V mul(V a, V b) { return _mm256_mul_pd(a, b); }
   static V madd(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
   static V msub(V a, V b, V c) { return _mm256_fmsub_pd(a, b, c); }
+  static V max(V a, V b) { return _mm256_max_pd(a, b); }
   static V inverse(V a) { return _mm256_div_pd(set1(1), a); }
+  static V sqrt(V a) { return _mm256_sqrt_pd(a); }
+  /// 2^n of integers n in -1022..1023.
+  static V power_of_two(V n) {
+    return _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(add(n, set1(0x1.8p52 + 1023))), 52));
+  }
   static V less(V a, V b, std::uint32_t mask, int part) {
     const __m256i lane = _mm256_setr_epi64x(1, 2, 4, 8);
     const __m256i bits =
@@ -115,6 +127,7 @@ struct Avx2Double {
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
   static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }
+  static V repeat(const double* four) { return _mm256_load_pd(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
                               const ClusterOfFour<double>&) {
     return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.whole.x)),

@@ -26,6 +26,11 @@ struct Avx512Float {
   static V madd(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
   static V msub(V a, V b, V c) { return _mm512_fmsub_ps(a, b, c); }
   static V inverse(V a) { return _mm512_div_ps(set1(1), a); }
+  static V sqrt(V a) { return _mm512_sqrt_ps(a); }
+  /// 2^n of integers n in -126..127.
+  static V power_of_two(V n) {
+    return _mm512_castsi512_ps(_mm512_slli_epi32(_mm512_castps_si512(add(n, set1(0x1.8p23f + 127))), 23));
+  }
   static std::uint32_t bits_at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
     const __m512i numbers = _mm512_add_epi32(
@@ -43,6 +48,7 @@ struct Avx512Float {
   static V spread(const float* four, int) {
     return _mm512_permutexvar_ps(slots(), _mm512_broadcast_f32x4(_mm_load_ps(four)));
   }
+  static V repeat(const float* four) { return _mm512_broadcast_f32x4(_mm_load_ps(four)); }
   static Cluster four_times(V cluster) {
     return {_mm512_shuffle_f32x4(cluster, cluster, 0x00), _mm512_shuffle_f32x4(cluster, cluster, 0x55),
             _mm512_shuffle_f32x4(cluster, cluster, 0xAA)};
@@ -115,7 +121,13 @@ struct Avx512Double {
   static V mul(V a, V b) { return _mm512_mul_pd(a, b); }
   static V madd(V a, V b, V c) { return _mm512_fmadd_pd(a, b, c); }
   static V msub(V a, V b, V c) { return _mm512_fmsub_pd(a, b, c); }
+  static V max(V a, V b) { return _mm512_max_pd(a, b); }
   static V inverse(V a) { return _mm512_div_pd(set1(1), a); }
+  static V sqrt(V a) { return _mm512_sqrt_pd(a); }
+  /// 2^n of integers n in -1022..1023.
+  static V power_of_two(V n) {
+    return _mm512_castsi512_pd(_mm512_slli_epi64(_mm512_castpd_si512(add(n, set1(0x1.8p52 + 1023))), 52));
+  }
   static __mmask8 less(V a, V b, std::uint32_t mask, int part) {
     return _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask >> (8 * part)), a, b, _CMP_LT_OQ);
   }
@@ -125,6 +137,7 @@ struct Avx512Double {
         part == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
     return _mm512_permutexvar_pd(slot, _mm512_broadcast_f64x4(_mm256_load_pd(four)));
   }
+  static V repeat(const double* four) { return _mm512_broadcast_f64x4(_mm256_load_pd(four)); }
   static V twice(const double* at, const double* shift) {
     return _mm512_broadcast_f64x4(_mm256_add_pd(_mm256_load_pd(at), _mm256_load_pd(shift)));
   }

@@ -41,6 +41,14 @@ struct Portable {
   static V inverse(const V& a) {
     return each([&](int k) { return 1 / a.lane[k]; });
   }
+  static float root(float a) { return __builtin_sqrtf(a); }
+  static double root(double a) { return __builtin_sqrt(a); }
+  static V sqrt(const V& a) {
+    return each([&](int k) { return root(a.lane[k]); });
+  }
+  static V power_of_two(const V& n) {
+    return each([&](int k) { return static_cast<Real>(__builtin_ldexp(1, static_cast<int>(n.lane[k]))); });
+  }
   static std::uint32_t bits_at_most(const V& a, const V& b) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;
@@ -58,6 +66,7 @@ struct Portable {
     return each([&](int k) { return (lanes >> k & 1) != 0 ? a.lane[k] : Real{0}; });
   }
   static V spread(const Real* four, int part) { return set1(four[part]); }
+  static V repeat(const Real* four) { return load(four); }
   static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
                               const ClusterOfFour<float>& own) {

@@ -26,6 +26,11 @@ struct SseFloat {
   static V madd(V a, V b, V c) { return add(mul(a, b), c); }
   static V msub(V a, V b, V c) { return sub(mul(a, b), c); }
   static V inverse(V a) { return _mm_div_ps(set1(1), a); }
+  static V sqrt(V a) { return _mm_sqrt_ps(a); }
+  /// 2^n of integers n in -126..127.
+  static V power_of_two(V n) {
+    return _mm_castsi128_ps(_mm_slli_epi32(_mm_castps_si128(add(n, set1(0x1.8p23f + 127))), 23));
+  }
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
   }
@@ -39,6 +44,7 @@ struct SseFloat {
   }
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
   static V spread(const float* four, int part) { return _mm_set1_ps(four[part]); }
+  static V repeat(const float* four) { return _mm_load_ps(four); }
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {_mm_load_ps(at.x), _mm_load_ps(at.y), _mm_load_ps(at.z)};
   }
@@ -98,9 +104,17 @@ struct SseDouble {
   static V mul(V a, V b) { return {_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high)}; }
   static V madd(V a, V b, V c) { return add(mul(a, b), c); }
   static V msub(V a, V b, V c) { return sub(mul(a, b), c); }
+  static V max(V a, V b) { return {_mm_max_pd(a.low, b.low), _mm_max_pd(a.high, b.high)}; }
   static V inverse(V a) {
     const __m128d one = _mm_set1_pd(1);
     return {_mm_div_pd(one, a.low), _mm_div_pd(one, a.high)};
+  }
+  static V sqrt(V a) { return {_mm_sqrt_pd(a.low), _mm_sqrt_pd(a.high)}; }
+  /// 2^n of integers n in -1022..1023.
+  static V power_of_two(V n) {
+    const V shifted = add(n, set1(0x1.8p52 + 1023));
+    return {_mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(shifted.low), 52)),
+            _mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(shifted.high), 52))};
   }
   static V less(V a, V b, std::uint32_t mask, int part) {
     const __m128i lane_low = _mm_set_epi64x(2, 1), lane_high = _mm_set_epi64x(8, 4);
@@ -112,6 +126,7 @@ struct SseDouble {
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
   static V spread(const double* four, int part) { return set1(four[part]); }
+  static V repeat(const double* four) { return load(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
                               const ClusterOfFour<double>&) {
     const ClusterOfFour<double>& by = shift.whole;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The Lennard-Jones loops over vector types; see cluster_kernels_loops.hpp.
+// The loops of Lennard-Jones and Coulomb forces over vector types; see cluster_kernels_loops.hpp.
 #pragma once
 
 #include "cluster_kernels_loops.hpp"
@@ -8,7 +8,16 @@
 namespace dch::detail {
 namespace {
 
-enum Coefficient { kCutoff2, kForce12, kForce6, kEnergy12, kEnergy6, kEnergyShift };
+enum Coefficient {
+  kCutoff2,
+  kForce12,
+  kForce6,
+  kEnergy12,
+  kEnergy6,
+  kEnergyShift,
+  kCoulombCutoff2,
+  kCoefficients
+};
 
 /// The coefficients of 16 pairs, part by part; those of one type are the same for all.
 template <class S, bool kOneType>
@@ -20,14 +29,15 @@ struct PairCoefficients<S, true> {
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task) {
     const LjCoefficients<Real>& c = task.coefficients;
-    const Real* const from[6] = {c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift};
-    for (int k = 0; k < 6; ++k) value[k] = S::set1(*from[k]);
+    const Real* const from[kCoefficients] = {c.cutoff2, c.force12,      c.force6,         c.energy12,
+                                             c.energy6, c.energy_shift, c.coulomb_cutoff2};
+    for (int k = 0; k < kCoefficients; ++k) value[k] = S::set1(*from[k]);
   }
   void choose_i(std::int32_t) {}
   void choose_j(std::int32_t) {}
   V operator()(int k, int) const { return value[k]; }
 
-  V value[6];
+  V value[kCoefficients];
 };
 
 template <class S>
@@ -35,9 +45,10 @@ struct PairCoefficients<S, false> {
   using V = typename S::V;
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task)
-      : type(task.type), types(task.types), c(task.coefficients), table{c.cutoff2, c.force12,
-                                                                        c.force6,  c.energy12,
-                                                                        c.energy6, c.energy_shift} {}
+      : type(task.type), types(task.types), c(task.coefficients), table{c.cutoff2,        c.force12,
+                                                                        c.force6,         c.energy12,
+                                                                        c.energy6,        c.energy_shift,
+                                                                        c.coulomb_cutoff2} {}
   void choose_i(std::int32_t cluster) {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
@@ -47,19 +58,76 @@ struct PairCoefficients<S, false> {
   const std::int32_t* type;
   std::int32_t types;
   LjCoefficients<Real> c;
-  const Real* table[6];
+  const Real* table[kCoefficients];
   std::int32_t row[4]{};
   const std::int32_t* of_j = nullptr;
 };
 
-/// Displacements and inverse squared distances of an entry's pairs; the latter are 0 where nothing acts.
+/// Displacements, squared distances and their inverse of an entry's pairs; the latter are 0 where nothing
+/// acts.
 template <class S>
 struct Separations {
   Coordinates<S> d;
-  typename S::V s[S::kParts];
+  typename S::V r2[S::kParts], s[S::kParts];
 };
 
-template <class S, bool kOneType>
+/// e^y for y <= 0, to a unit in the last place or two; not less than the least normal number.
+template <class S>
+typename S::V exp_of_negative(typename S::V y) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  constexpr bool kSingle = sizeof(Real) == 4;
+  // Added to a small integer, this leaves it in the last bits.
+  constexpr Real kInteger = kSingle ? Real(0x1.8p23) : Real(0x1.8p52);
+  constexpr Real kLog2OfE = Real(1.4426950408889634);
+  // ln 2 in two parts, the first so short that integers times it are exact.
+  constexpr Real kLn2High = kSingle ? Real(0x1.62ep-1) : Real(0x1.62e42feep-1);
+  constexpr Real kLn2Low = kSingle ? Real(0x1.0bfbe8p-15) : Real(0x1.a39ef35793c76p-33);
+  constexpr Real kLeast = kSingle ? Real(-87) : Real(-708);
+  // 1/k!, highest first: the remainder is below 0.35^8/8! (single) or 0.35^14/14! (double).
+  constexpr double kSeries[] = {
+      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040,
+      1.0 / 720,        1.0 / 120,       1.0 / 24,       1.0 / 6,       0.5,          1.0,         1.0};
+  y = S::max(y, S::set1(kLeast));
+  const V shifted = S::madd(y, S::set1(kLog2OfE), S::set1(kInteger));
+  const V n = S::sub(shifted, S::set1(kInteger));
+  const V rest = S::madd(n, S::set1(-kLn2Low), S::madd(n, S::set1(-kLn2High), y));
+  constexpr int kFirst = kSingle ? 6 : 0;
+  V sum = S::set1(Real(kSeries[kFirst]));
+  for (int k = kFirst + 1; k < 14; ++k) sum = S::madd(sum, rest, S::set1(Real(kSeries[k])));
+  return S::mul(sum, S::power_of_two(n));
+}
+
+/// What an Ewald sum leaves to a pair, relative to the bare Coulomb term.
+template <class S>
+struct EwaldFactors {
+  typename S::V energy, force;
+};
+
+/// erfc(x) and erfc(x) + 2 x e^(-x^2) / sqrt(pi), by formula 7.1.26 of Abramowitz and Stegun, Handbook of
+/// Mathematical Functions (1964), which is within 1.5e-7. The digits are those of LAMMPS's pair styles, with
+/// which the results have to agree.
+template <class S>
+EwaldFactors<S> ewald_factors(typename S::V x) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  const V expm2 = exp_of_negative<S>(S::mul(S::sub(S::zero(), x), x));
+  const V t = S::inverse(S::madd(S::set1(Real(0.3275911)), x, S::set1(1)));
+  V poly = S::madd(t, S::set1(Real(1.061405429)), S::set1(Real(-1.453152027)));
+  poly = S::madd(t, poly, S::set1(Real(1.421413741)));
+  poly = S::madd(t, poly, S::set1(Real(-0.284496736)));
+  poly = S::madd(t, poly, S::set1(Real(0.254829592)));
+  const V erfc = S::mul(S::mul(t, poly), expm2);
+  return {erfc, S::madd(S::mul(S::set1(Real(1.12837917)), x), expm2, erfc)};
+}
+
+/// Charges of a row's cluster, for the pairs of each part.
+template <class S>
+struct RowCharges {
+  typename S::V splitting, of_i[S::kParts];
+};
+
+template <class S, bool kOneType, CoulombKind kKind>
 Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row,
                        const Coordinates<S>& i, const ClusterPairs::Entry& entry,
                        PairCoefficients<S, kOneType>& coefficient) {
@@ -74,7 +142,10 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
     found.d.x[p] = dx;
     found.d.y[p] = dy;
     found.d.z[p] = dz;
-    found.s[p] = S::keep(S::less(r2, coefficient(kCutoff2, p), entry.mask, p), S::inverse(r2));
+    found.r2[p] = r2;
+    V reach2 = coefficient(kCutoff2, p);
+    if constexpr (kKind != CoulombKind::none) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
+    found.s[p] = S::keep(S::less(r2, reach2, entry.mask, p), S::inverse(r2));
   }
   return found;
 }
@@ -82,20 +153,45 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
 template <class S>
 struct RowSums {
   Coordinates<S> force;
-  typename S::V energy, virial[6];
+  typename S::V energy, coulomb_energy, virial[6];
 };
 
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
-template <class S, bool kOneType, bool kSums>
+template <class S, bool kOneType, bool kSums, CoulombKind kKind>
 void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
-           const Separations<S>& separation, PairCoefficients<S, kOneType>& coefficient, RowSums<S>& sum) {
+           const Separations<S>& separation, PairCoefficients<S, kOneType>& coefficient,
+           const RowCharges<S>& charges, RowSums<S>& sum) {
   using V = typename S::V;
   coefficient.choose_j(entry.cluster);
   Coordinates<S> force;
   for (int p = 0; p < S::kParts; ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
     const V s3 = S::mul(S::mul(s, s), s);
-    const V f = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
+    V f = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
+    V energy = S::zero(), coulomb_energy = S::zero();
+    if constexpr (kSums) {
+      const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
+      const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
+      energy = S::msub(s3, bound, above);
+    }
+    if constexpr (kKind != CoulombKind::none) {
+      const V r2 = separation.r2[p];
+      const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
+      const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
+      const V over_r = S::sqrt(s);
+      const V charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
+      EwaldFactors<S> factors{S::mul(charge, over_r), S::mul(charge, over_r)};
+      if constexpr (kKind == CoulombKind::ewald) {
+        const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(charges.splitting, S::mul(r2, over_r)));
+        factors = {S::mul(factors.energy, ewald.energy), S::mul(factors.force, ewald.force)};
+      }
+      f = S::add(S::keep(is_near, f), S::keep(charges_are_near, S::mul(factors.force, s)));
+      if constexpr (kSums) {
+        energy = S::keep(is_near, energy);
+        coulomb_energy = S::keep(charges_are_near, factors.energy);
+      }
+    }
+    // The force on J, which the displacement points to.
     force.x[p] = S::mul(f, dx);
     force.y[p] = S::mul(f, dy);
     force.z[p] = S::mul(f, dz);
@@ -103,9 +199,9 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
     sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
     sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
     if constexpr (kSums) {
-      const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
-      const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
-      sum.energy = S::add(sum.energy, S::msub(s3, bound, above));
+      sum.energy = S::add(sum.energy, energy);
+      if constexpr (kKind != CoulombKind::none)
+        sum.coulomb_energy = S::add(sum.coulomb_energy, coulomb_energy);
       sum.virial[0] = S::madd(dx, force.x[p], sum.virial[0]);
       sum.virial[1] = S::madd(dy, force.y[p], sum.virial[1]);
       sum.virial[2] = S::madd(dz, force.z[p], sum.virial[2]);
@@ -119,38 +215,48 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
 
 /// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
 /// than what a processor can look ahead over.
-template <class S, bool kOneType, bool kSums>
+template <class S, bool kOneType, bool kSums, CoulombKind kKind>
 void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   PairCoefficients<S, kOneType> coefficient(task);
+  RowCharges<S> charges;
+  charges.splitting = S::set1(task.splitting);
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
     const Coordinates<S> i = spread<S>(task.at[row.cluster]);
     coefficient.choose_i(row.cluster);
+    if constexpr (kKind != CoulombKind::none)
+      for (int p = 0; p < S::kParts; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
     RowSums<S> sum;
     for (int p = 0; p < S::kParts; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
-    sum.energy = S::zero();
+    sum.energy = sum.coulomb_energy = S::zero();
     for (auto& v : sum.virial) v = S::zero();
     const ClusterPairs::Entry* entry = task.entries + row.first;
     const ClusterPairs::Entry* const last = task.entries + task.rows[r + 1].first - 1;
-    Separations<S> separation = measure<S>(task, row, i, *entry, coefficient);
+    Separations<S> separation = measure<S, kOneType, kKind>(task, row, i, *entry, coefficient);
     for (; entry != last; ++entry) {
-      const Separations<S> next = measure<S>(task, row, i, entry[1], coefficient);
-      apply<S, kOneType, kSums>(task, *entry, separation, coefficient, sum);
+      const Separations<S> next = measure<S, kOneType, kKind>(task, row, i, entry[1], coefficient);
+      apply<S, kOneType, kSums, kKind>(task, *entry, separation, coefficient, charges, sum);
       separation = next;
     }
-    apply<S, kOneType, kSums>(task, *entry, separation, coefficient, sum);
+    apply<S, kOneType, kSums, kKind>(task, *entry, separation, coefficient, charges, sum);
     S::subtract_over_j(sum.force, task.force[row.cluster]);
     if constexpr (kSums) {
       sums.energy += S::sum(sum.energy);
+      if constexpr (kKind != CoulombKind::none) sums.coulomb_energy += S::sum(sum.coulomb_energy);
       for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(sum.virial[k]);
     }
   }
 }
 
+template <class S, CoulombKind kKind>
+constexpr typename LjFunctions<typename S::Real>::OfKind lj_functions_of_kind{
+    lennard_jones<S, true, false, kKind>, lennard_jones<S, true, true, kKind>,
+    lennard_jones<S, false, false, kKind>, lennard_jones<S, false, true, kKind>};
+
 template <class S>
-constexpr LjFunctions<typename S::Real> lj_functions_of{
-    lennard_jones<S, true, false>, lennard_jones<S, true, true>, lennard_jones<S, false, false>,
-    lennard_jones<S, false, true>};
+constexpr LjFunctions<typename S::Real> lj_functions_of{{lj_functions_of_kind<S, CoulombKind::none>,
+                                                         lj_functions_of_kind<S, CoulombKind::plain>,
+                                                         lj_functions_of_kind<S, CoulombKind::ewald>}};
 
 }  // namespace
 }  // namespace dch::detail

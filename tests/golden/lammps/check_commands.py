@@ -26,6 +26,29 @@ thermo 20
 thermo_modify format float %.15g
 """
 
+SALT = """
+units lj
+atom_style charge
+lattice sc 0.7
+region box block 0 8 0 8 0 8
+create_box 2 box
+create_atoms 1 box
+set type 1 type/subset 2 256 7841
+set type 1 charge 0.9
+set type 2 charge -0.9
+mass * 1.0
+displace_atoms all random 0.06 0.06 0.06 4711
+velocity all create 1.2 87287 loop geom
+pair_style lj/cut/coul/long 2.2 2.7
+pair_coeff * * 1.0 1.0
+kspace_style pppm 1e-4
+neighbor 0.3 bin
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+thermo 20
+thermo_modify format float %.15g
+"""
+
 host = None
 
 
@@ -349,6 +372,39 @@ run 0
         tables = self.compare(script)
         self.assertEqual(len(tables), 3)
         self.assertLess(abs(tables[2][0]["E_pair"] - tables[1][0]["E_pair"]), 1e-6)
+
+    def test_charges_restart_and_change(self):
+        script = SALT + f"""
+pair_modify table 0
+run 20
+set type 1 charge 0.7
+set type 2 charge -0.7
+run 20
+write_restart {host.work}/salt.restart
+clear
+dch precision double
+read_restart {host.work}/salt.restart
+kspace_style pppm 1e-4
+fix 1 all nve
+run 10
+"""
+        self.assertEqual(len(self.compare(script)), 3)
+
+    def test_charges_without_tables(self):
+        plain = thermo_tables(run("include ${load}\n" + SALT + "run 0\n"))
+        exact = thermo_tables(run("include ${load}\n" + SALT + "pair_modify table 0\nrun 0\n"))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + SALT + "run 0\n"))
+        difference = largest_relative_difference
+        self.assertLess(difference(exact[0][0], ours[0][0]), 1e-10)
+        self.assertGreater(difference(plain[0][0], ours[0][0]), 1e-10)
+        self.assertLess(difference(plain[0][0], ours[0][0]), 1e-4)
+
+    def test_charges_need_a_long_range_solver_and_atoms_with_charges(self):
+        for script, message in ((SALT.replace("kspace_style pppm 1e-4\n", ""), "requires a KSpace style"),
+                                (MELT.replace("lj/cut 2.5", "lj/cut/coul/cut 2.5"), "requires atom attribute q")):
+            code, output = host.run_text("include ${load}\nsuffix dch\n" + script + "run 0\n")
+            self.assertNotEqual(code, 0)
+            self.assertIn(message, output)
 
     def test_coefficients_that_change_in_a_run(self):
         self.compare(MELT + "variable e equal ramp(1.0,1.5)\nfix 2 all adapt 5 pair lj/cut epsilon 1 1 v_e\nrun 20\n"

@@ -17,31 +17,21 @@
 
 namespace {
 
-struct Entry {  // as the LAMMPS manual says
+/// As the LAMMPS manual says. LAMMPS too casts the function to what its tables hold.
+struct Entry {
   const char *version, *style, *name, *info, *author;
   void* (*create)(void*);
   void* handle;
 };
 
-void* (*create_pair)(void*) = nullptr;
-void* (*create_command)(void*) = nullptr;
-
-LAMMPS_NS::Pair* new_pair(LAMMPS_NS::LAMMPS* lammps) {
-  return static_cast<LAMMPS_NS::Pair*>(create_pair(lammps));
-}
-LAMMPS_NS::Command* new_command(LAMMPS_NS::LAMMPS* lammps) {
-  return static_cast<LAMMPS_NS::Command*>(create_command(lammps));
-}
-
 void enter(Entry* entry, void* handle) {
   auto* const lammps = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   if (std::strcmp(entry->version, lammps->version) != 0) return;
   if (std::strcmp(entry->style, "pair") == 0) {
-    create_pair = entry->create;
-    (*lammps->force->pair_map)[entry->name] = &new_pair;
+    (*lammps->force->pair_map)[entry->name] = reinterpret_cast<LAMMPS_NS::Force::PairCreator>(entry->create);
   } else if (std::strcmp(entry->style, "command") == 0) {
-    create_command = entry->create;
-    (*lammps->input->command_map)[entry->name] = &new_command;
+    (*lammps->input->command_map)[entry->name] =
+        reinterpret_cast<LAMMPS_NS::Input::CommandCreator>(entry->create);
   } else {
     return;
   }
