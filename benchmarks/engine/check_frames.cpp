@@ -20,7 +20,7 @@ constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
 struct Options {
   std::vector<std::string> scenes;
   SceneOptions scene;
-  int frames = 2000, structures = 10;
+  int frames = 2000, structures = 10, superset_every = 1;
   bool lammps = false;
 };
 
@@ -39,9 +39,11 @@ void check_scene(const std::string& name, const Options& options) {
   Contenders contenders;
   for (const char* kind : {"dch", "dch, superset"})
     for (auto& contender : make_contenders(*scene, nullptr, kind)) contenders.push_back(std::move(contender));
-  const CheckedLists checked =
-      check_lists(*scene, contenders,
-                  {.last = options.frames - 1, .expect_all = true, .structures_checked = options.structures});
+  const CheckedLists checked = check_lists(*scene, contenders,
+                                           {.last = options.frames - 1,
+                                            .expect_all = true,
+                                            .structures_checked = options.structures,
+                                            .superset_every = options.superset_every});
   if (checked.configurations < options.frames)
     throw Error(fmt::format("{}: {} frames are asked for, {} are there", name, options.frames,
                             checked.configurations));
@@ -59,6 +61,9 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("scenes", options.scenes, "Scenes of dch_bench_table")->required();
   app.add_option("--trajectories", options.scene.trajectories, "Folder filled by make_trajectories");
   app.add_option("--frames", options.frames, "Configurations to compare; fewer are an error")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--superset-every", options.superset_every,
+                 "Compare supersets too at every so manieth configuration")
       ->check(CLI::PositiveNumber);
   app.add_option("--structures", options.structures,
                  "Compare the structure with all pairs at so many of them; 0: never")

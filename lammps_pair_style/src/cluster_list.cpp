@@ -12,6 +12,10 @@
 namespace LAMMPS_NS {
 namespace {
 
+// Neighbors of an atom, each pair counted once, below which pairs one by one are faster: see
+// docs/lammps/design.md.
+constexpr double kFewNeighbors = 9;
+
 double distance2(const double* a, const double* b) {
   return norm2(dch::Vec3{a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
@@ -63,16 +67,21 @@ void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList
   }
 }
 
+bool ClusterListFiller::leaves_out_any(const AtomPoints& points) const {
+  return rules_.excludes_any() || (!points.in_box() && force->newton_pair);
+}
+
 /// Pairs that `neigh_modify exclude` leaves out, and those with a ghost that another process takes.
+bool ClusterListFiller::is_left_out(const AtomPoints& points, int i, int j) const {
+  if (rules_.excludes_any() && rules_.excluded(i, j)) return true;
+  const bool takes_turns = !points.in_box() && force->newton_pair;
+  if (!takes_turns || (i < points.owned() && j < points.owned())) return false;
+  return i < points.owned() ? !rules_.stored_here(i, j) : !rules_.stored_here(j, i);
+}
+
 void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const {
   constexpr int kSlots = dch::ClusterPairs::kSlots;
-  const bool takes_turns = !points.in_box() && force->newton_pair;
-  if (!takes_turns && !rules_.excludes_any()) return;
-  const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
-    if (rules_.excludes_any() && rules_.excluded(i, j)) return true;
-    if (!takes_turns || (i < points.owned() && j < points.owned())) return false;
-    return i < points.owned() ? !rules_.stored_here(i, j) : !rules_.stored_here(j, i);
-  };
+  if (!leaves_out_any(points)) return;
   std::int64_t from = 0, to = 0;
   std::size_t rows = 0;
   for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
@@ -82,7 +91,7 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
       dch::ClusterPairs::Entry entry = pairs.entries[static_cast<std::size_t>(from)];
       const std::int32_t* const other = &pairs.particle[kSlots * static_cast<std::size_t>(entry.cluster)];
       for (int bit = 0; bit < kSlots * kSlots; ++bit) {
-        if ((entry.mask >> bit & 1) != 0 && is_left_out(own[bit / kSlots], other[bit % kSlots]))
+        if ((entry.mask >> bit & 1) != 0 && is_left_out(points, own[bit / kSlots], other[bit % kSlots]))
           entry.mask = static_cast<std::uint16_t>(entry.mask & ~(1 << bit));
       }
       if (entry.mask != 0) pairs.entries[static_cast<std::size_t>(to++)] = entry;
@@ -92,6 +101,17 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   pairs.rows.resize(rows);
   pairs.rows.push_back({to, 0, 0});
   pairs.entries.resize(static_cast<std::size_t>(to));
+}
+
+void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::Hierarchy& hierarchy, dch::ListParams params,
+                                       ClusterList& list) {
+  params.order = dch::RowOrder::by_structure;
+  params.superset = true;
+  hierarchy.list(params, rows_);
+  const bool any = leaves_out_any(points);
+  const auto accept = [&](int i, int j) { return !any || !is_left_out(points, i, j); };
+  dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
+                      list.pair_list);
 }
 
 void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list) {
@@ -107,6 +127,12 @@ void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, Clus
   } else if (take_special_pairs(points, list); !excluded_.empty()) {
     exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
     params.exclusions = &exclusions;
+  }
+  if (list.one_by_one) {
+    fill_pair_list(points, hierarchy, params, list);
+    if (static_cast<double>(list.count()) <= kFewNeighbors * points.owned()) return;
+    list.one_by_one = false;
+    list.pair_list = {};
   }
   hierarchy.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);

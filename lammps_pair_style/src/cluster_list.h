@@ -8,6 +8,7 @@
 #include <dch/cluster_pairs.hpp>
 #include <dch/exclusions.hpp>
 #include <dch/hierarchy.hpp>
+#include <dch/pair_list.hpp>
 
 #include "atom_points.h"
 #include "pair_rules.h"
@@ -15,8 +16,8 @@
 
 namespace LAMMPS_NS {
 
-/// Pairs of clusters that a force style of ours asks for in place of a neighbor list. NeighborDCH fills it
-/// when it builds lists.
+/// Pairs of clusters, or pairs one by one where neighbors are few, that a force style of ours asks for in
+/// place of a neighbor list. NeighborDCH fills it when it builds lists.
 struct ClusterList {
   /// A bonded pair that the style has to weight. No cluster pair holds it.
   struct Special {
@@ -29,13 +30,19 @@ struct ClusterList {
   std::string owner;            ///< the style, for dch stats
   std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
 
-  dch::ClusterPairs pairs;  ///< of points: LAMMPS's indices
+  bool one_by_one = true;   ///< which of the next two is filled
+  dch::PairList pair_list;  ///< of points: LAMMPS's indices
+  dch::ClusterPairs pairs;  ///< of the same
   std::vector<Special> special;
   /// Whether pairs of these types, from 1, are wanted.
   bool pairs_interact(int a, int b, int types) const {
     return interacts[static_cast<std::size_t>(a - 1) * static_cast<std::size_t>(types) +
                      static_cast<std::size_t>(b - 1)] != 0;
   }
+
+  std::size_t points() const { return one_by_one ? pair_list.particles : pairs.particles; }
+  std::int64_t count() const { return one_by_one ? pair_list.pairs() : pairs.slot_pairs(); }
+  std::size_t memory_bytes() const { return pair_list.memory_bytes() + pairs.memory_bytes(); }
 
   bool in_box = false;  ///< points are the atoms in the periodic box, else owned atoms and ghosts
 };
@@ -53,11 +60,16 @@ class ClusterListFiller : protected Pointers {
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;
   void take_special_pairs(const AtomPoints& points, ClusterList& list);
   void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
+  bool leaves_out_any(const AtomPoints& points) const;
+  bool is_left_out(const AtomPoints& points, int i, int j) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
+  void fill_pair_list(AtomPoints& points, dch::Hierarchy& hierarchy, dch::ListParams params,
+                      ClusterList& list);
 
   SpecialPairs& special_;
   const PairRules& rules_;
   std::vector<dch::IndexPair> excluded_;
+  dch::NeighborList rows_;
 };
 
 }  // namespace LAMMPS_NS

@@ -268,7 +268,7 @@ void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
   for (const std::shared_ptr<ClusterList>& clusters : clusters_) {
     cluster_filler_.fill(points_, *dch::hierarchy_of(*search_), *clusters);
-    run_.entries += clusters->pairs.slot_pairs();
+    run_.entries += clusters->count();
     run_.clusters_seconds += seconds_since(clock);
   }
 }

@@ -14,7 +14,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   for (const ServedList& served : served_)
     bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
              served.rows.first.capacity() * sizeof(std::int64_t);
-  for (const std::shared_ptr<ClusterList>& clusters : clusters_) bytes += clusters->pairs.memory_bytes();
+  for (const std::shared_ptr<ClusterList>& clusters : clusters_) bytes += clusters->memory_bytes();
 
   std::array<std::int64_t, 8> sums{run_.entries,
                                    run_.verified_entries,

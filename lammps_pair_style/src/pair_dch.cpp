@@ -151,7 +151,7 @@ void PairDCH::del_tally_callback(Compute* compute) {
 }
 
 double PairDCH::memory_usage() {
-  const double pairs = clusters_ ? static_cast<double>(clusters_->pairs.memory_bytes()) : 0.0;
+  const double pairs = clusters_ ? static_cast<double>(clusters_->memory_bytes()) : 0.0;
   return Pair::memory_usage() + plain_->memory_usage() + pairs;
 }
 
@@ -222,10 +222,17 @@ void PairDCH::compute_plain(int eflag, int vflag) {
     for (int i = 0; i < atoms; ++i) std::copy_n(plain_->cvatom[i], 9, cvatom[i]);
 }
 
+dch::Span<const dch::Vec3> PairDCH::positions(const ClusterList& wanted) const {
+  const std::size_t points = wanted.points();
+  return {points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr, points};
+}
+
+dch::Box PairDCH::box(const ClusterList& wanted) const {
+  return wanted.in_box ? box_of(*domain) : dch::Box::none();
+}
+
 void PairDCH::refresh() {
-  const std::size_t points = clusters_->pairs.particles;
-  const auto* x = points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
-  clusters_->pairs.refresh({x, points}, clusters_->in_box ? box_of(*domain) : dch::Box::none());
+  if (!clusters_->one_by_one) clusters_->pairs.refresh(positions(*clusters_), box(*clusters_));
 }
 
 void PairDCH::prepare_kernel() {
@@ -237,9 +244,9 @@ void PairDCH::prepare_kernel() {
 /// With newton off the forces on ghosts are of no use: LAMMPS neither sends nor reads them.
 void PairDCH::compute_clusters(bool with_sums) {
   prepare_kernel();
-  const std::size_t points = clusters_->pairs.particles;
+  const std::size_t points = clusters_->points();
   auto* f = points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr;
-  add_forces(clusters_->pairs, NeighborDCH::install(lmp)->precision(), {f, points}, with_sums);
+  add_forces(*clusters_, NeighborDCH::install(lmp)->precision(), {f, points}, with_sums);
 }
 
 void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj, double factor_coul) {
@@ -267,13 +274,18 @@ void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj,
 }
 
 void PairDCH::compute_pair_by_pair() {
-  clusters_->pairs.for_each([&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
+  const auto compute_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
     if (i < atom->nlocal) {
       compute_one(i, j, -1.0 * from_i_to_j, 1, 1);
     } else {
       compute_one(j, i, from_i_to_j, 1, 1);
     }
-  });
+  };
+  if (clusters_->one_by_one) {
+    clusters_->pair_list.for_each(positions(*clusters_), box(*clusters_), compute_pair);
+  } else {
+    clusters_->pairs.for_each(compute_pair);
+  }
 }
 
 void PairDCH::compute_special() {

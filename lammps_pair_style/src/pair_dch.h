@@ -60,8 +60,11 @@ class PairDCH : public Pair {
   /// Makes the kernel for these pairs of types.
   virtual void make_kernel(const std::vector<PairOfTypes>& pairs) = 0;
   /// Adds forces and, if wanted, adds to eng_vdwl, eng_coul and virial.
-  virtual void add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision,
+  virtual void add_forces(const ClusterList& wanted, dch::ForcePrecision precision,
                           dch::Span<dch::Vec3> forces, bool with_sums) = 0;
+  /// As the kernels want them, of the points of the list.
+  dch::Span<const dch::Vec3> positions(const ClusterList& wanted) const;
+  dch::Box box(const ClusterList& wanted) const;
 
   /// Whether the plain style's energies have a Coulomb part.
   virtual bool has_charges() const { return false; }

@@ -68,15 +68,23 @@ void PairLJDCH::make_kernel(const std::vector<PairOfTypes>& pairs) {
   if (has_charges()) kernel_->set_coulomb(coulomb);
 }
 
-void PairLJDCH::add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision,
+void PairLJDCH::add_forces(const ClusterList& wanted, dch::ForcePrecision precision,
                            dch::Span<dch::Vec3> forces, bool with_sums) {
   dch::Span<const double> charges;
-  if (has_charges()) charges = {atom->q, pairs.particles};
-  if (!with_sums) {
-    kernel_->add_forces(pairs, precision, forces, charges);
-    return;
+  if (has_charges()) charges = {atom->q, wanted.points()};
+  dch::LennardJonesSums sums;
+  if (wanted.one_by_one) {
+    const auto x = positions(wanted);
+    if (with_sums) {
+      sums = kernel_->add_forces_and_sum(wanted.pair_list, x, box(wanted), forces, charges);
+    } else {
+      kernel_->add_forces(wanted.pair_list, x, box(wanted), forces, charges);
+    }
+  } else if (with_sums) {
+    sums = kernel_->add_forces_and_sum(wanted.pairs, precision, forces, charges);
+  } else {
+    kernel_->add_forces(wanted.pairs, precision, forces, charges);
   }
-  const dch::LennardJonesSums sums = kernel_->add_forces_and_sum(pairs, precision, forces, charges);
   eng_vdwl += sums.energy;
   eng_coul += sums.coulomb_energy;
   for (int k = 0; k < 6; ++k) virial[k] += sums.virial[static_cast<std::size_t>(k)];

@@ -23,7 +23,7 @@ class PairLJDCH : public PairDCH {
 
  protected:
   void make_kernel(const std::vector<PairOfTypes>& pairs) override;
-  void add_forces(const dch::ClusterPairs& pairs, dch::ForcePrecision precision, dch::Span<dch::Vec3> forces,
+  void add_forces(const ClusterList& wanted, dch::ForcePrecision precision, dch::Span<dch::Vec3> forces,
                   bool with_sums) override;
   bool has_charges() const override { return charges_ != Charges::none; }
 

@@ -41,10 +41,6 @@ void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, f
   for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to[slot] = static_cast<float>(from[slot] - middle);
 }
 
-bool same_periodicity(const Box& a, const Box& b) {
-  return a.periodic(0) == b.periodic(0) && a.periodic(1) == b.periodic(1) && a.periodic(2) == b.periodic(2);
-}
-
 }  // namespace
 
 std::int64_t ClusterPairs::slot_pairs() const {

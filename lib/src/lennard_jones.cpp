@@ -87,6 +87,18 @@ struct Kernels<float> {
   static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
 };
 
+detail::CoulombKind coulomb_kind(bool has_charges, double splitting) {
+  if (!has_charges) return detail::CoulombKind::none;
+  return splitting > 0 ? detail::CoulombKind::ewald : detail::CoulombKind::plain;
+}
+
+void give(const detail::LjSums& found, LennardJonesSums* sums) {
+  if (!sums) return;
+  sums->energy = found.energy;
+  sums->coulomb_energy = found.coulomb_energy;
+  std::copy_n(found.virial, 6, sums->virial.begin());
+}
+
 template <class FourCharges>
 void sort_by_slot(const ClusterPairs& pairs, Span<const double> charges, double unit,
                   std::vector<FourCharges>& slots) {
@@ -169,8 +181,8 @@ void LennardJones::set_coulomb(const CoulombTerm& term) {
   splitting_ = term.splitting;
 }
 
-void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, std::size_t forces,
-                         std::size_t charges) const {
+template <class Pairs>
+void LennardJones::check(const Pairs& pairs, std::size_t forces, std::size_t charges) const {
   if (forces != pairs.particles)
     throw InvalidParameter("room for " + std::to_string(forces) + " forces given for " +
                            std::to_string(pairs.particles) + " particles; give one each");
@@ -182,16 +194,11 @@ void LennardJones::check(const ClusterPairs& pairs, ForcePrecision precision, st
   if (largest_cutoff_ > pairs.list_radius)
     throw InvalidParameter("the largest cutoff " + detail::describe(largest_cutoff_) +
                            " exceeds the radius " + detail::describe(pairs.list_radius) +
-                           " of the cluster pairs; make them with a larger one");
+                           " of the pairs; make them with a larger one");
   if (types_ > 1 && pairs.types > types_)
-    throw InvalidParameter("the cluster pairs have " + std::to_string(pairs.types) +
+    throw InvalidParameter("the pairs have " + std::to_string(pairs.types) +
                            " types, but Lennard-Jones pairs are given for " + std::to_string(types_) +
                            "; give one for each pair of types");
-  if (precision == ForcePrecision::mixed && !fits_single_)
-    throw InvalidParameter(
-        "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
-        "other "
-        "units or ForcePrecision::full");
 }
 
 template <class Real>
@@ -212,21 +219,21 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
                                   static_cast<Real>(splitting_),
                                   scratch.force.data()};
   detail::LjSums found;
-  const auto kind = !has_charges_    ? detail::CoulombKind::none
-                    : splitting_ > 0 ? detail::CoulombKind::ewald
-                                     : detail::CoulombKind::plain;
+  const auto kind = coulomb_kind(has_charges_, splitting_);
   Of::functions(detail::cluster_kernels(instruction_set()))
       .choose(kind, types_ == 1, sums != nullptr)(task, found);
   add_cluster_forces(pairs, scratch.force, forces);
-  if (!sums) return;
-  sums->energy = found.energy;
-  sums->coulomb_energy = found.coulomb_energy;
-  std::copy_n(found.virial, 6, sums->virial.begin());
+  give(found, sums);
 }
 
 void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                        Span<const double> charges, LennardJonesSums* sums) {
-  check(pairs, precision, forces.size(), charges.size());
+  check(pairs, forces.size(), charges.size());
+  if (precision == ForcePrecision::mixed && !fits_single_)
+    throw InvalidParameter(
+        "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
+        "other "
+        "units or ForcePrecision::full");
   if (pairs.rows.empty()) return;
   if (precision == ForcePrecision::mixed) {
     run(pairs, charges, mixed_, scratch_float_, forces, sums);
@@ -244,6 +251,58 @@ LennardJonesSums LennardJones::add_forces_and_sum(const ClusterPairs& pairs, For
                                                   Span<Vec3> forces, Span<const double> charges) {
   LennardJonesSums sums;
   add(pairs, precision, forces, charges, &sums);
+  return sums;
+}
+
+void LennardJones::add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
+                       Span<const double> charges, LennardJonesSums* sums) const {
+  check(pairs, forces.size(), charges.size());
+  if (positions.size() != pairs.particles)
+    throw InvalidParameter(std::to_string(positions.size()) + " positions given for a pair list of " +
+                           std::to_string(pairs.particles) +
+                           " particles; make the list anew for another number");
+  if (!same_periodicity(now, pairs.box))
+    throw InvalidBox("a pair list made in the box " + pairs.box.description() + " was used in the box " +
+                     now.description() + "; make it anew for another periodicity");
+  const auto function =
+      detail::cluster_kernels(instruction_set())
+          .pairs.choose(coulomb_kind(has_charges_, splitting_), types_ == 1, sums != nullptr);
+  // Pairs without types are all of type 0, as in clusters.
+  std::vector<std::int32_t> none;
+  if (types_ > 1 && pairs.type.empty()) none.assign(pairs.particles, 0);
+  detail::LjPairTask task{pairs.i.data(),
+                          pairs.j.data(),
+                          0,
+                          0,
+                          positions.data(),
+                          {},
+                          none.empty() ? pairs.type.data() : none.data(),
+                          types_,
+                          pointers_to(full_),
+                          charges.data(),
+                          charge_unit_,
+                          splitting_,
+                          forces.data()};
+  detail::LjSums found;
+  for (std::size_t g = 0; g + 1 < pairs.groups.size(); ++g) {
+    task.first = pairs.groups[g].first;
+    task.last = pairs.groups[g + 1].first;
+    task.shift = pairs.shift(pairs.groups[g], now);
+    if (task.first < task.last) function(task, found);
+  }
+  give(found, sums);
+}
+
+void LennardJones::add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now,
+                              Span<Vec3> forces, Span<const double> charges) const {
+  add(pairs, positions, now, forces, charges, nullptr);
+}
+
+LennardJonesSums LennardJones::add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions,
+                                                  const Box& now, Span<Vec3> forces,
+                                                  Span<const double> charges) const {
+  LennardJonesSums sums;
+  add(pairs, positions, now, forces, charges, &sums);
   return sums;
 }
 

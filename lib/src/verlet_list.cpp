@@ -10,14 +10,6 @@
 #include "position_check.hpp"
 
 namespace dch {
-namespace {
-
-bool same_periodicity(const Box& a, const Box& b) {
-  return a.periodic(0) == b.periodic(0) && a.periodic(1) == b.periodic(1) && a.periodic(2) == b.periodic(2);
-}
-
-}  // namespace
-
 VerletList::VerletList(std::unique_ptr<PairSearch> search, ListParams params)
     : search_(std::move(search)), params_(std::move(params)) {
   if (!search_)

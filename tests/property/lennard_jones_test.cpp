@@ -64,6 +64,38 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
     }
 }
 
+PairList pair_list_of(Hierarchy& hierarchy, const ListParams& request, const std::vector<Vec3>& points,
+                      const Box& box) {
+  NeighborList list;
+  PairList pairs;
+  hierarchy.list(request, list);
+  const auto all = [](std::int32_t, std::int32_t) { return true; };
+  make_pair_list(list, request.list_radius(), points, box, request.types, all, pairs);
+  EXPECT_EQ(pairs.pairs(), list.pairs());
+  return pairs;
+}
+
+void expect_equal(const LennardJonesResult& expected, const PairList& pairs, const std::vector<Vec3>& points,
+                  const Box& box, const LennardJones& potential, const std::string& what,
+                  const std::vector<double>& charges = {}) {
+  const RestoreInstructionSet restore;
+  for (const InstructionSet set : supported_sets()) {
+    set_instruction_set(set);
+    const std::string where = what + ", pair list, " + name(set);
+    std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
+    const LennardJonesSums sums = potential.add_forces_and_sum(pairs, points, box, forces, charges);
+    potential.add_forces(pairs, points, box, once_more, charges);
+    EXPECT_LT(force_error(forces, expected.force), rounding_in(box)) << where;
+    EXPECT_LT(force_error(once_more, expected.force), rounding_in(box)) << where;
+    double scale = std::abs(expected.sums.energy) + std::abs(expected.sums.coulomb_energy);
+    for (const double v : expected.sums.virial) scale += std::abs(v);
+    EXPECT_NEAR(sums.energy, expected.sums.energy, 1e-13 * scale) << where;
+    EXPECT_NEAR(sums.coulomb_energy, expected.sums.coulomb_energy, 1e-13 * scale) << where;
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], 1e-13 * scale) << where << k;
+  }
+}
+
 class LennardJonesScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(LennardJonesScenes, EqualsAllPairs) {
@@ -79,8 +111,10 @@ TEST_P(LennardJonesScenes, EqualsAllPairs) {
       hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
       const LennardJonesPair pair{0.7, 0.95, kCutoff};
       LennardJones potential(pair, shifted);
-      expect_equal(all_pairs_lennard_jones(points, box, {pair}, shifted), pairs, potential,
-                   "n = " + std::to_string(n));
+      const LennardJonesResult expected = all_pairs_lennard_jones(points, box, {pair}, shifted);
+      expect_equal(expected, pairs, potential, "n = " + std::to_string(n));
+      const PairList one_by_one = pair_list_of(hierarchy, request_for(kCutoff, kSkin), points, box);
+      expect_equal(expected, one_by_one, points, box, potential, "n = " + std::to_string(n));
     }
 }
 
@@ -95,13 +129,18 @@ TEST_P(LennardJonesScenes, EqualsAllPairsAfterMotion) {
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
   const LennardJonesPair pair{1, 1, kCutoff};
+  const PairList one_by_one = pair_list_of(hierarchy, request_for(kCutoff, kSkin), points, box);
   LennardJones potential(pair);
-  std::vector<Vec3> moved = points;
+  std::vector<Vec3> moved = points, wrapped = points;
   for (int step = 0; step < 3; ++step) {
-    for (Vec3& p : moved) p = box.wrap(p + random.in_ball(0.5 * kSkin / 3));
-    pairs.refresh(moved, box);
-    expect_equal(all_pairs_lennard_jones(moved, box, {pair}, false), pairs, potential,
-                 "step " + std::to_string(step));
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      moved[i] = moved[i] + random.in_ball(0.5 * kSkin / 3);
+      wrapped[i] = box.wrap(moved[i]);
+    }
+    pairs.refresh(wrapped, box);
+    const LennardJonesResult expected = all_pairs_lennard_jones(wrapped, box, {pair}, false);
+    expect_equal(expected, pairs, potential, "step " + std::to_string(step));
+    expect_equal(expected, one_by_one, moved, box, potential, "step " + std::to_string(step));
   }
 }
 
@@ -141,8 +180,11 @@ TEST_P(LennardJonesScenes, EqualsAllPairsForManyTypesExclusionsAndGhosts) {
     ClusterPairs pairs;
     hierarchy.cluster_pairs(request, pairs);
     LennardJones potential(types, matrix, true);
-    expect_equal(all_pairs_lennard_jones(points, box, matrix, true, type, &exclusions, request.first_ghost),
-                 pairs, potential, std::to_string(types) + " types");
+    const LennardJonesResult expected =
+        all_pairs_lennard_jones(points, box, matrix, true, type, &exclusions, request.first_ghost);
+    expect_equal(expected, pairs, potential, std::to_string(types) + " types");
+    expect_equal(expected, pair_list_of(hierarchy, request, points, box), points, box, potential,
+                 std::to_string(types) + " types");
   }
 }
 
@@ -182,8 +224,11 @@ TEST_P(LennardJonesScenes, EqualsAllPairsWithCharges) {
       hierarchy.cluster_pairs(request, pairs);
       LennardJones potential(types, matrix, true);
       potential.set_coulomb(term);
-      expect_equal(all_pairs_lennard_jones(points, box, matrix, true, type, nullptr, -1, {&term, charges}),
-                   pairs, potential, std::to_string(types) + " types, splitting " + std::to_string(splitting),
+      const LennardJonesResult expected =
+          all_pairs_lennard_jones(points, box, matrix, true, type, nullptr, -1, {&term, charges});
+      const std::string what = std::to_string(types) + " types, splitting " + std::to_string(splitting);
+      expect_equal(expected, pairs, potential, what, charges);
+      expect_equal(expected, pair_list_of(hierarchy, request, points, box), points, box, potential, what,
                    charges);
     }
 }
@@ -259,6 +304,60 @@ TEST(LennardJonesTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(two_types.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
   EXPECT_THROW(tiny.add_forces(pairs, ForcePrecision::mixed, forces), InvalidParameter);
   EXPECT_NO_THROW(tiny.add_forces(pairs, ForcePrecision::full, forces));
+}
+
+TEST(LennardJonesTest, APairListFollowsACellThatChangesItsShape) {
+  const Box box = Box::triclinic({7, 0, 0}, {1, 7, 0}, {0.5, -1, 7});
+  const Box strained = Box::triclinic({7.02, 0, 0}, {1.03, 7.01, 0}, {0.5, -1.02, 6.99});
+  const std::vector<Vec3> points = liquid(box, 250, 0.9, 3);
+  std::vector<Vec3> moved;
+  for (const Vec3 p : points) moved.push_back(scenes::from_fractional(strained, box.fractional(p)));
+  HierarchyParams params;
+  params.radius = kCutoff + kSkin;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  const PairList pairs = pair_list_of(hierarchy, request_for(kCutoff, kSkin), points, box);
+  EXPECT_GT(pairs.groups.size(), 5u);
+  const LennardJonesPair pair{1, 1, kCutoff};
+  expect_equal(all_pairs_lennard_jones(moved, strained, {pair}, false), pairs, moved, strained,
+               LennardJones(pair), "strained");
+  std::int64_t visited = 0;
+  pairs.for_each(moved, strained, [&](std::int32_t i, std::int32_t j, Vec3 d) {
+    ++visited;
+    const Vec3 apart = moved[static_cast<std::size_t>(j)] - moved[static_cast<std::size_t>(i)];
+    EXPECT_LT(norm2(strained.nearest_image(apart) - d), 1e-24);
+  });
+  EXPECT_EQ(visited, pairs.pairs());
+}
+
+TEST(LennardJonesTest, RefusesPairListsThatDoNotFit) {
+  const Box box = Box::orthorhombic({9, 9, 9});
+  const std::vector<Vec3> points = liquid(box, 50, 0.9, 3);
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  const auto all = [](std::int32_t, std::int32_t) { return true; };
+  NeighborList half, full;
+  hierarchy.list(request_for(2, 0), half);
+  ListParams both = request_for(2, 0);
+  both.kind = ListKind::full;
+  hierarchy.list(both, full);
+  PairList pairs;
+  const std::vector<std::int32_t> too_few(49), negative(50, -1), three(50, 2);
+  EXPECT_THROW(make_pair_list(full, 2, points, box, {}, all, pairs), InvalidParameter);
+  EXPECT_THROW(make_pair_list(half, 2, {points.data(), 49}, box, {}, all, pairs), InvalidParameter);
+  EXPECT_THROW(make_pair_list(half, 2, points, box, too_few, all, pairs), InvalidParameter);
+  EXPECT_THROW(make_pair_list(half, 2, points, box, negative, all, pairs), InvalidParameter);
+  make_pair_list(half, 2, points, box, three, all, pairs);
+  std::vector<Vec3> forces(50), room(49);
+  const LennardJones potential({1, 1, 2}), too_far({1, 1, 2.1}), two_types(2, {4, {1, 1, 2}});
+  EXPECT_NO_THROW(potential.add_forces(pairs, points, box, forces));
+  EXPECT_THROW(potential.add_forces(pairs, points, box, room), InvalidParameter);
+  EXPECT_THROW(potential.add_forces(pairs, {points.data(), 49}, box, forces), InvalidParameter);
+  EXPECT_THROW(potential.add_forces(pairs, points, Box::none(), forces), InvalidBox);
+  EXPECT_THROW(too_far.add_forces(pairs, points, box, forces), InvalidParameter);
+  EXPECT_THROW(two_types.add_forces(pairs, points, box, forces), InvalidParameter);
 }
 
 TEST(LennardJonesTest, RefusesChargesThatDoNotFit) {

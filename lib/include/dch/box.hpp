@@ -115,4 +115,9 @@ class Box {
   double min_height_ = kOpen;
 };
 
+/// Whether both are periodic along the same of their vectors.
+inline bool same_periodicity(const Box& a, const Box& b) {
+  return a.periodic(0) == b.periodic(0) && a.periodic(1) == b.periodic(1) && a.periodic(2) == b.periodic(2);
+}
+
 }  // namespace dch

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <dch/cluster_pairs.hpp>
+#include <dch/pair_list.hpp>
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
@@ -81,6 +82,16 @@ class LennardJones {
   LennardJonesSums add_forces_and_sum(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                                       Span<const double> charges = {});
 
+  /// The same for pairs one by one, always in double precision.
+  /// @param positions of the particles now, which have not been wrapped since the list was made [length]
+  /// @param now the cell now; of the same periodicity
+  /// @throws InvalidParameter as above, and if positions are not one per particle; InvalidBox for another
+  ///   periodicity
+  void add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
+                  Span<const double> charges = {}) const;
+  LennardJonesSums add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions, const Box& now,
+                                      Span<Vec3> forces, Span<const double> charges = {}) const;
+
  private:
   template <class Real>
   struct alignas(4 * sizeof(Real)) FourCharges {
@@ -101,8 +112,11 @@ class LennardJones {
   template <class Real>
   void run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
            Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const;
-  void check(const ClusterPairs& pairs, ForcePrecision precision, std::size_t forces,
-             std::size_t charges) const;
+  void add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
+           Span<const double> charges, LennardJonesSums* sums) const;
+  /// Of ClusterPairs or a PairList.
+  template <class Pairs>
+  void check(const Pairs& pairs, std::size_t forces, std::size_t charges) const;
 
   int types_ = 1;
   double largest_cutoff_ = 0;

@@ -31,8 +31,9 @@ struct ClusterKernels {
   std::int32_t (*near_clusters)(const ClusterOfFour<float>* clusters, const ClusterOfFour<float>& own,
                                 float limit2, std::int32_t* chosen, std::int32_t count);
 
-  LjFunctions<float> mixed;
-  LjFunctions<double> full;
+  LjFunctions<LjTask<float>> mixed;
+  LjFunctions<LjTask<double>> full;
+  LjFunctions<LjPairTask> pairs;
 };
 
 /// The kernels of a set that is supported.

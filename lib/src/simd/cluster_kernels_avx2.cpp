@@ -2,7 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
-#include "lj_kernels_loops.hpp"
+#include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -158,13 +158,26 @@ struct Avx2Double {
     const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
   }
+  static std::uint32_t bits(V lanes) { return static_cast<std::uint32_t>(_mm256_movemask_pd(lanes)); }
+  static void store(double* p, V a) { _mm256_store_pd(p, a); }
+  static V gather(const double* from, const std::int32_t* at) {
+    return _mm256_i32gather_pd(from, _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), 8);
+  }
+  static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
+    const __m128i k = _mm_loadu_si128(reinterpret_cast<const __m128i*>(at));
+    const __m128i first = _mm_add_epi32(k, _mm_add_epi32(k, k));
+    x = _mm256_i32gather_pd(from, first, 8);
+    y = _mm256_i32gather_pd(from + 1, first, 8);
+    z = _mm256_i32gather_pd(from + 2, first, 8);
+  }
 };
 
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx2() {
   static constexpr ClusterKernels kKernels{near_boxes<Avx2Float>, near_clusters<Avx2Float>,
-                                           lj_functions_of<Avx2Float>, lj_functions_of<Avx2Double>};
+                                           lj_functions_of<Avx2Float>, lj_functions_of<Avx2Double>,
+                                           lj_pair_functions_of<Avx2Double>};
   return kKernels;
 }
 

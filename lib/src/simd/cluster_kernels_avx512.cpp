@@ -2,7 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
-#include "lj_kernels_loops.hpp"
+#include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -179,13 +179,26 @@ struct Avx512Double {
     _mm256_store_pd(to.z, _mm256_sub_pd(_mm256_load_pd(to.z), over_j(force.z)));
   }
   static double sum(V a) { return _mm512_reduce_add_pd(a); }
+  static std::uint32_t bits(__mmask8 lanes) { return lanes; }
+  static void store(double* p, V a) { _mm512_store_pd(p, a); }
+  static V gather(const double* from, const std::int32_t* at) {
+    return _mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), from, 8);
+  }
+  static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
+    const __m256i k = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+    const __m256i first = _mm256_add_epi32(k, _mm256_add_epi32(k, k));
+    x = _mm512_i32gather_pd(first, from, 8);
+    y = _mm512_i32gather_pd(first, from + 1, 8);
+    z = _mm512_i32gather_pd(first, from + 2, 8);
+  }
 };
 
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx512() {
   static constexpr ClusterKernels kKernels{near_boxes<Avx512Float>, near_clusters<Avx512Float>,
-                                           lj_functions_of<Avx512Float>, lj_functions_of<Avx512Double>};
+                                           lj_functions_of<Avx512Float>, lj_functions_of<Avx512Double>,
+                                           lj_pair_functions_of<Avx512Double>};
   return kKernels;
 }
 

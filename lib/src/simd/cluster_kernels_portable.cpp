@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cluster_kernels_sets.hpp"
-#include "lj_kernels_loops.hpp"
+#include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -103,14 +103,26 @@ struct Portable {
   static double sum(const V& a) {
     return (double{a.lane[0]} + double{a.lane[1]}) + (double{a.lane[2]} + double{a.lane[3]});
   }
+  static std::uint32_t bits(std::uint32_t lanes) { return lanes; }
+  static void store(Real* p, const V& a) {
+    for (int k = 0; k < 4; ++k) p[k] = a.lane[k];
+  }
+  static V gather(const Real* from, const std::int32_t* at) {
+    return each([&](int k) { return from[at[k]]; });
+  }
+  static void gather_xyz(const Real* from, const std::int32_t* at, V& x, V& y, V& z) {
+    x = each([&](int k) { return from[3 * at[k]]; });
+    y = each([&](int k) { return from[3 * at[k] + 1]; });
+    z = each([&](int k) { return from[3 * at[k] + 2]; });
+  }
 };
 
 }  // namespace
 
 const ClusterKernels& cluster_kernels_portable() {
-  static constexpr ClusterKernels kKernels{near_boxes<Portable<float>>, near_clusters<Portable<float>>,
-                                           lj_functions_of<Portable<float>>,
-                                           lj_functions_of<Portable<double>>};
+  static constexpr ClusterKernels kKernels{
+      near_boxes<Portable<float>>, near_clusters<Portable<float>>, lj_functions_of<Portable<float>>,
+      lj_functions_of<Portable<double>>, lj_pair_functions_of<Portable<double>>};
   return kKernels;
 }
 

@@ -2,7 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
-#include "lj_kernels_loops.hpp"
+#include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -157,13 +157,26 @@ struct SseDouble {
     const __m128d two = _mm_add_pd(a.low, a.high);
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
   }
+  static std::uint32_t bits(V lanes) {
+    return static_cast<std::uint32_t>(_mm_movemask_pd(lanes.low) | _mm_movemask_pd(lanes.high) << 2);
+  }
+  static V gather(const double* from, const std::int32_t* at) {
+    return {_mm_setr_pd(from[at[0]], from[at[1]]), _mm_setr_pd(from[at[2]], from[at[3]])};
+  }
+  static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
+    const double* const p[4] = {from + 3 * at[0], from + 3 * at[1], from + 3 * at[2], from + 3 * at[3]};
+    x = {_mm_setr_pd(p[0][0], p[1][0]), _mm_setr_pd(p[2][0], p[3][0])};
+    y = {_mm_setr_pd(p[0][1], p[1][1]), _mm_setr_pd(p[2][1], p[3][1])};
+    z = {_mm_setr_pd(p[0][2], p[1][2]), _mm_setr_pd(p[2][2], p[3][2])};
+  }
 };
 
 }  // namespace
 
 const ClusterKernels& cluster_kernels_sse42() {
   static constexpr ClusterKernels kKernels{near_boxes<SseFloat>, near_clusters<SseFloat>,
-                                           lj_functions_of<SseFloat>, lj_functions_of<SseDouble>};
+                                           lj_functions_of<SseFloat>, lj_functions_of<SseDouble>,
+                                           lj_pair_functions_of<SseDouble>};
   return kKernels;
 }
 

@@ -27,8 +27,8 @@ template <class S>
 struct PairCoefficients<S, true> {
   using V = typename S::V;
   using Real = typename S::Real;
-  explicit PairCoefficients(const LjTask<Real>& task) {
-    const LjCoefficients<Real>& c = task.coefficients;
+  explicit PairCoefficients(const LjTask<Real>& task) : PairCoefficients(task.coefficients) {}
+  explicit PairCoefficients(const LjCoefficients<Real>& c) {
     const Real* const from[kCoefficients] = {c.cutoff2, c.force12,      c.force6,         c.energy12,
                                              c.energy6, c.energy_shift, c.coulomb_cutoff2};
     for (int k = 0; k < kCoefficients; ++k) value[k] = S::set1(*from[k]);
@@ -150,6 +150,44 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
   return found;
 }
 
+/// What a part's pairs add: force / r, energies.
+template <class S>
+struct PairTerms {
+  typename S::V force, energy, coulomb_energy;
+};
+
+/// @param s inverse squared distances, 0 where nothing acts
+/// @param charge products of charges
+template <class S, bool kSums, CoulombKind kKind, class Coefficients>
+PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
+                        typename S::V charge, typename S::V splitting) {
+  using V = typename S::V;
+  const V s3 = S::mul(S::mul(s, s), s);
+  PairTerms<S> terms{S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p))),
+                     S::zero(), S::zero()};
+  if constexpr (kSums) {
+    const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
+    const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
+    terms.energy = S::msub(s3, bound, above);
+  }
+  if constexpr (kKind != CoulombKind::none) {
+    const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
+    const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
+    const V over_r = S::sqrt(s), bare = S::mul(charge, over_r);
+    EwaldFactors<S> factors{bare, bare};
+    if constexpr (kKind == CoulombKind::ewald) {
+      const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(splitting, S::mul(r2, over_r)));
+      factors = {S::mul(bare, ewald.energy), S::mul(bare, ewald.force)};
+    }
+    terms.force = S::add(S::keep(is_near, terms.force), S::keep(charges_are_near, S::mul(factors.force, s)));
+    if constexpr (kSums) {
+      terms.energy = S::keep(is_near, terms.energy);
+      terms.coulomb_energy = S::keep(charges_are_near, factors.energy);
+    }
+  }
+  return terms;
+}
+
 template <class S>
 struct RowSums {
   Coordinates<S> force;
@@ -166,42 +204,22 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
   Coordinates<S> force;
   for (int p = 0; p < S::kParts; ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
-    const V s3 = S::mul(S::mul(s, s), s);
-    V f = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
-    V energy = S::zero(), coulomb_energy = S::zero();
-    if constexpr (kSums) {
-      const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
-      const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
-      energy = S::msub(s3, bound, above);
-    }
-    if constexpr (kKind != CoulombKind::none) {
-      const V r2 = separation.r2[p];
-      const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
-      const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
-      const V over_r = S::sqrt(s);
-      const V charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
-      EwaldFactors<S> factors{S::mul(charge, over_r), S::mul(charge, over_r)};
-      if constexpr (kKind == CoulombKind::ewald) {
-        const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(charges.splitting, S::mul(r2, over_r)));
-        factors = {S::mul(factors.energy, ewald.energy), S::mul(factors.force, ewald.force)};
-      }
-      f = S::add(S::keep(is_near, f), S::keep(charges_are_near, S::mul(factors.force, s)));
-      if constexpr (kSums) {
-        energy = S::keep(is_near, energy);
-        coulomb_energy = S::keep(charges_are_near, factors.energy);
-      }
-    }
+    V charge = S::zero();
+    if constexpr (kKind != CoulombKind::none)
+      charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
+    const PairTerms<S> terms =
+        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, charge, charges.splitting);
     // The force on J, which the displacement points to.
-    force.x[p] = S::mul(f, dx);
-    force.y[p] = S::mul(f, dy);
-    force.z[p] = S::mul(f, dz);
+    force.x[p] = S::mul(terms.force, dx);
+    force.y[p] = S::mul(terms.force, dy);
+    force.z[p] = S::mul(terms.force, dz);
     sum.force.x[p] = S::add(sum.force.x[p], force.x[p]);
     sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
     sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
     if constexpr (kSums) {
-      sum.energy = S::add(sum.energy, energy);
+      sum.energy = S::add(sum.energy, terms.energy);
       if constexpr (kKind != CoulombKind::none)
-        sum.coulomb_energy = S::add(sum.coulomb_energy, coulomb_energy);
+        sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
       sum.virial[0] = S::madd(dx, force.x[p], sum.virial[0]);
       sum.virial[1] = S::madd(dy, force.y[p], sum.virial[1]);
       sum.virial[2] = S::madd(dz, force.z[p], sum.virial[2]);
@@ -249,14 +267,14 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
 }
 
 template <class S, CoulombKind kKind>
-constexpr typename LjFunctions<typename S::Real>::OfKind lj_functions_of_kind{
+constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_of_kind{
     lennard_jones<S, true, false, kKind>, lennard_jones<S, true, true, kKind>,
     lennard_jones<S, false, false, kKind>, lennard_jones<S, false, true, kKind>};
 
 template <class S>
-constexpr LjFunctions<typename S::Real> lj_functions_of{{lj_functions_of_kind<S, CoulombKind::none>,
-                                                         lj_functions_of_kind<S, CoulombKind::plain>,
-                                                         lj_functions_of_kind<S, CoulombKind::ewald>}};
+constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
+    {lj_functions_of_kind<S, CoulombKind::none>, lj_functions_of_kind<S, CoulombKind::plain>,
+     lj_functions_of_kind<S, CoulombKind::ewald>}};
 
 }  // namespace
 }  // namespace dch::detail

@@ -40,6 +40,21 @@ struct LjTask {
   ClusterOfFour<Real>* force;  ///< by cluster; added to
 };
 
+/// The same forces of pairs one by one, in double precision.
+struct LjPairTask {
+  const std::int32_t *i, *j;
+  std::int64_t first, last;  ///< of the pairs to compute
+  const Vec3* positions;
+  Vec3 shift;                ///< added to second particles
+  const std::int32_t* type;  ///< by particle; null if there is one type
+  std::int32_t types;
+  LjCoefficients<double> coefficients;
+  const double* charge;  ///< by particle; null without charges
+  double charge_unit;    ///< what charges are multiplied by
+  double splitting;      ///< of an Ewald sum [1/length]
+  Vec3* forces;          ///< by particle; added to
+};
+
 /// Energies, and the virial sum of d f over pairs: xx, yy, zz, xy, xz, yz.
 struct LjSums {
   double energy = 0, coulomb_energy = 0;
@@ -47,9 +62,9 @@ struct LjSums {
 };
 
 /// Which sums are made, for how many types and which charges, is decided when this is compiled.
-template <class Real>
+template <class Task>
 struct LjFunctions {
-  using Function = void (*)(const LjTask<Real>&, LjSums&);
+  using Function = void (*)(const Task&, LjSums&);
   struct OfKind {
     Function one_type, one_type_sums;
     Function many_types, many_types_sums;

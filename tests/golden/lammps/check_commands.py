@@ -432,7 +432,7 @@ units si
 atom_style atomic
 region box block 0 4e-9 0 4e-9 0 4e-9
 create_box 1 box
-create_atoms 1 single 1e-9 1e-9 1e-9
+create_atoms 1 random 2000 4711 box
 mass 1 6.6e-26
 pair_style lj/cut/dch 1.1e-9
 pair_coeff 1 1 1.65e-21 3.4e-10
