@@ -128,6 +128,8 @@ void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, Clus
     exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
     params.exclusions = &exclusions;
   }
+  // `dch skin auto` changes the radius.
+  if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
   if (list.one_by_one) {
     fill_pair_list(points, hierarchy, params, list);
     if (static_cast<double>(list.count()) <= kFewNeighbors * points.owned()) return;

@@ -31,6 +31,7 @@ struct ClusterList {
   std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
 
   bool one_by_one = true;   ///< which of the next two is filled
+  double chosen_for = 0;    ///< radius at which that was chosen [length]
   dch::PairList pair_list;  ///< of points: LAMMPS's indices
   dch::ClusterPairs pairs;  ///< of the same
   std::vector<Special> special;

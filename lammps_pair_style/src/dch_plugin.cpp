@@ -6,7 +6,7 @@
 
 #include "dch_command.h"
 #include "dch_register.h"
-#include "pair_styles.h"
+#include "force_styles.h"
 
 namespace {
 
@@ -50,11 +50,15 @@ void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
   entry.info = "neighbor lists from a discrete center hierarchy";
   entry.creator.v1 = &create_command;
   enter(&entry, lammps);
-  entry.style = "pair";
-  for (const LAMMPS_NS::PairStyle& style : LAMMPS_NS::kPairStyles) {
-    entry.name = style.name;
-    entry.info = style.info;
-    entry.creator.v1 = reinterpret_cast<Factory*>(style.create);  // LAMMPS casts it back
-    enter(&entry, lammps);
-  }
+  const auto enter_all = [&](const char* kind, const auto& styles) {
+    entry.style = kind;
+    for (const auto& style : styles) {
+      entry.name = style.name;
+      entry.info = style.info;
+      entry.creator.v1 = reinterpret_cast<Factory*>(style.create);  // LAMMPS casts it back
+      enter(&entry, lammps);
+    }
+  };
+  enter_all("pair", LAMMPS_NS::kPairStyles);
+  enter_all("bond", LAMMPS_NS::kBondStyles);
 }

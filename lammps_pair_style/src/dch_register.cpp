@@ -8,7 +8,7 @@
 #include <library.h>
 
 #include "dch_command.h"
-#include "pair_styles.h"
+#include "force_styles.h"
 
 namespace {
 
@@ -43,6 +43,6 @@ int dch_register(void* handle) {
 }
 
 void dch::lammps::register_styles(LAMMPS_NS::LAMMPS& lmp) {
-  for (const LAMMPS_NS::PairStyle& style : LAMMPS_NS::kPairStyles)
-    lmp.force->pair_map->emplace(style.name, style.create);
+  for (const auto& style : LAMMPS_NS::kPairStyles) lmp.force->pair_map->emplace(style.name, style.create);
+  for (const auto& style : LAMMPS_NS::kBondStyles) lmp.force->bond_map->emplace(style.name, style.create);
 }

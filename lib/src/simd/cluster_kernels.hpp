@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <dch/cluster_pairs.hpp>
+#include <dch/fene.hpp>
 #include <dch/instruction_set.hpp>
 
 #include "lj_task.hpp"
@@ -18,7 +19,18 @@ struct BoxArrays {
 /// Arrays of boxes are read up to this many entries beyond.
 inline constexpr int kBoxesAtOnce = 16;
 
-/// The loops over clusters of four, compiled for one instruction set. No function allocates.
+/// Bonds, and coefficients by type: k, 1/r0^2, sigma^2, 48 epsilon.
+struct FeneTask {
+  const BondOfType* bonds;
+  std::int64_t count;
+  std::int32_t first_type, types;
+  const double* table[4];
+  const Vec3* positions;
+  Vec3* forces;  ///< added to
+};
+
+/// The loops over clusters of four, and those of forces, compiled for one instruction set. No function
+/// allocates.
 struct ClusterKernels {
   /// Finds those of `count` boxes with a squared distance to a box of at most limit2. Writes their numbers,
   /// ascending, and returns how many; room for `count` rounded up to kBoxesAtOnce is needed. All sets find
@@ -34,6 +46,10 @@ struct ClusterKernels {
   LjFunctions<LjTask<float>> mixed;
   LjFunctions<LjTask<double>> full;
   LjFunctions<LjPairTask> pairs;
+
+  /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
+  /// be room for all. Returns how many.
+  std::int32_t (*fene)(const FeneTask& task, std::int32_t* too_long);
 };
 
 /// The kernels of a set that is supported.

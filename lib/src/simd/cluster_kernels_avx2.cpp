@@ -2,6 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
+#include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
@@ -175,9 +176,9 @@ struct Avx2Double {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx2() {
-  static constexpr ClusterKernels kKernels{near_boxes<Avx2Float>, near_clusters<Avx2Float>,
-                                           lj_functions_of<Avx2Float>, lj_functions_of<Avx2Double>,
-                                           lj_pair_functions_of<Avx2Double>};
+  static constexpr ClusterKernels kKernels{
+      near_boxes<Avx2Float>,       near_clusters<Avx2Float>,         lj_functions_of<Avx2Float>,
+      lj_functions_of<Avx2Double>, lj_pair_functions_of<Avx2Double>, fene<Avx2Double>};
   return kKernels;
 }
 

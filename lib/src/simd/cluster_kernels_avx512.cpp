@@ -2,6 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
+#include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
@@ -196,9 +197,9 @@ struct Avx512Double {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx512() {
-  static constexpr ClusterKernels kKernels{near_boxes<Avx512Float>, near_clusters<Avx512Float>,
-                                           lj_functions_of<Avx512Float>, lj_functions_of<Avx512Double>,
-                                           lj_pair_functions_of<Avx512Double>};
+  static constexpr ClusterKernels kKernels{
+      near_boxes<Avx512Float>,       near_clusters<Avx512Float>,         lj_functions_of<Avx512Float>,
+      lj_functions_of<Avx512Double>, lj_pair_functions_of<Avx512Double>, fene<Avx512Double>};
   return kKernels;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cluster_kernels_sets.hpp"
+#include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
@@ -120,9 +121,12 @@ struct Portable {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_portable() {
-  static constexpr ClusterKernels kKernels{
-      near_boxes<Portable<float>>, near_clusters<Portable<float>>, lj_functions_of<Portable<float>>,
-      lj_functions_of<Portable<double>>, lj_pair_functions_of<Portable<double>>};
+  static constexpr ClusterKernels kKernels{near_boxes<Portable<float>>,
+                                           near_clusters<Portable<float>>,
+                                           lj_functions_of<Portable<float>>,
+                                           lj_functions_of<Portable<double>>,
+                                           lj_pair_functions_of<Portable<double>>,
+                                           fene<Portable<double>>};
   return kKernels;
 }
 

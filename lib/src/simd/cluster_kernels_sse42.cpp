@@ -2,6 +2,7 @@
 #include <immintrin.h>
 
 #include "cluster_kernels_sets.hpp"
+#include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
 
 namespace dch::detail {
@@ -174,9 +175,9 @@ struct SseDouble {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_sse42() {
-  static constexpr ClusterKernels kKernels{near_boxes<SseFloat>, near_clusters<SseFloat>,
-                                           lj_functions_of<SseFloat>, lj_functions_of<SseDouble>,
-                                           lj_pair_functions_of<SseDouble>};
+  static constexpr ClusterKernels kKernels{
+      near_boxes<SseFloat>,       near_clusters<SseFloat>,         lj_functions_of<SseFloat>,
+      lj_functions_of<SseDouble>, lj_pair_functions_of<SseDouble>, fene<SseDouble>};
   return kKernels;
 }
 

@@ -373,6 +373,45 @@ run 0
         self.assertEqual(len(tables), 3)
         self.assertLess(abs(tables[2][0]["E_pair"] - tables[1][0]["E_pair"]), 1e-6)
 
+    def test_fene_bonds(self):
+        script = f"""
+units lj
+atom_style bond
+special_bonds fene
+region box block 0 9 0 9 0 9
+create_box 1 box bond/types 2 extra/bond/per/atom 2 extra/special/per/atom 4
+create_atoms 1 single 4 4 4
+create_atoms 1 single ${{second}} 4 4
+create_atoms 1 single ${{second}} 5 4
+mass 1 1.0
+pair_style lj/cut 1.12246
+pair_coeff 1 1 1.0 1.0
+bond_style fene
+bond_coeff 1 30.0 1.5 1.0 1.0
+bond_coeff 2 25.0 1.6 1.0 1.1
+create_bonds single/bond 1 1 2 special no
+create_bonds single/bond 2 2 3
+neighbor 0.4 bin
+fix 1 all nve
+thermo 100
+thermo_modify format float %.15g
+run 100
+write_restart {host.work}/fene.restart
+clear
+dch precision double
+read_restart {host.work}/fene.restart
+fix 1 all nve
+thermo 100
+thermo_modify format float %.15g
+run 100
+"""
+        self.compare(script, variables={"second": "4.98"})
+        output = run("include ${load}\nsuffix dch\n" + script, variables={"second": "5.43"})
+        self.assertGreater(output.count("FENE bond too long: "), 1)
+        code, output = host.run_text("include ${load}\nsuffix dch\n" + script, variables={"second": "7.1"})
+        self.assertNotEqual(code, 0)
+        self.assertIn("Bad FENE bond", output)
+
     def test_charges_restart_and_change(self):
         script = SALT + f"""
 pair_modify table 0

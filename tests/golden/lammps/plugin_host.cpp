@@ -29,6 +29,8 @@ void enter(Entry* entry, void* handle) {
   if (std::strcmp(entry->version, lammps->version) != 0) return;
   if (std::strcmp(entry->style, "pair") == 0) {
     (*lammps->force->pair_map)[entry->name] = reinterpret_cast<LAMMPS_NS::Force::PairCreator>(entry->create);
+  } else if (std::strcmp(entry->style, "bond") == 0) {
+    (*lammps->force->bond_map)[entry->name] = reinterpret_cast<LAMMPS_NS::Force::BondCreator>(entry->create);
   } else if (std::strcmp(entry->style, "command") == 0) {
     (*lammps->input->command_map)[entry->name] =
         reinterpret_cast<LAMMPS_NS::Input::CommandCreator>(entry->create);
