@@ -3,6 +3,7 @@
 """The command `dch` and the ways to load it, in a real LAMMPS."""
 
 import argparse
+import re
 import sys
 import unittest
 
@@ -285,6 +286,36 @@ fix 1 all nve
         self.assertIn("Too many neighbor bins", output)
         output = run("include ${load}\n" + self.DROP_AND_FAR_ATOM + "dch on\nrun 20\ndch stats\n")
         self.assertIn("builds in the last run  5", output)
+
+
+    DROPLET = """
+units lj
+atom_style atomic
+atom_modify sort 0 0.0
+lattice fcc 0.8442
+variable half equal 10*v_wide
+region box block -${half} ${half} -${half} ${half} -${half} ${half}
+create_box 1 box
+region drop sphere 0 0 0 7
+create_atoms 1 region drop
+mass 1 1.0
+velocity all create 0.7 4711
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+"""
+
+    def test_a_wide_box_takes_no_memory(self):
+        memory = []
+        for wide in (1, 100):
+            output = run("include ${load}\n" + self.DROPLET + "dch on\nrun 20\ndch stats\n", variables={"wide": wide})
+            memory.append(float(re.search(r"^ +memory +(\S+) Mbytes$", output, re.MULTILINE).group(1)))
+        self.assertGreater(memory[0], 0.5)
+        self.assertLess(memory[1], 1.5 * memory[0])
+        code, output = host.run_text(self.DROPLET + "run 20\n", variables={"wide": 100})
+        self.assertNotEqual(code, 0)
+        self.assertIn("Too many neighbor bins", output)
 
 
 class SearchStyles(unittest.TestCase):
