@@ -241,12 +241,16 @@ void PairDCH::prepare_kernel() {
   has_kernel_ = true;
 }
 
-/// With newton off the forces on ghosts are of no use: LAMMPS neither sends nor reads them.
+/// With newton off for pairs each process computes its own half of a pair with a ghost. Kernels add to both;
+/// LAMMPS would send the other half home where newton is on for bonds.
 void PairDCH::compute_clusters(bool with_sums) {
   prepare_kernel();
   const std::size_t points = clusters_->points();
   auto* f = points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr;
+  const bool keeps_ghosts = force->newton && !force->newton_pair && !clusters_->in_box;
+  if (keeps_ghosts) of_ghosts_.assign(f + atom->nlocal, f + points);
   add_forces(*clusters_, NeighborDCH::install(lmp)->precision(), {f, points}, with_sums);
+  if (keeps_ghosts) std::copy(of_ghosts_.begin(), of_ghosts_.end(), f + atom->nlocal);
 }
 
 void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj, double factor_coul) {

@@ -88,7 +88,8 @@ class PairDCH : public Pair {
   std::unique_ptr<Pair> plain_;
   std::shared_ptr<ClusterList> clusters_;  ///< null if the plain style computes
   std::vector<PairOfTypes> pairs_of_types_;
-  bool has_kernel_ = false;  ///< for the coefficients as they are
+  bool has_kernel_ = false;           ///< for the coefficients as they are
+  std::vector<dch::Vec3> of_ghosts_;  ///< forces on ghosts before ours
 };
 
 }  // namespace LAMMPS_NS
