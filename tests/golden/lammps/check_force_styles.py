@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Force styles with the suffix dch, in a real LAMMPS: what check_forces.py does not see."""
+
+import unittest
+
+from lammps_run import largest_relative_difference, thermo_tables
+from script_tests import MELT, host, main, run
+
+SALT = """
+units lj
+atom_style charge
+lattice sc 0.7
+region box block 0 8 0 8 0 8
+create_box 2 box
+create_atoms 1 box
+set type 1 type/subset 2 256 7841
+set type 1 charge 0.9
+set type 2 charge -0.9
+mass * 1.0
+displace_atoms all random 0.06 0.06 0.06 4711
+velocity all create 1.2 87287 loop geom
+pair_style lj/cut/coul/long 2.2 2.7
+pair_coeff * * 1.0 1.0
+kspace_style pppm 1e-4
+neighbor 0.3 bin
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+thermo 20
+thermo_modify format float %.15g
+"""
+
+
+class ForceStyles(unittest.TestCase):
+    """Other ways to set a style, to change it, to read it back."""
+
+    def compare(self, script, **options):
+        plain = thermo_tables(run("include ${load}\n" + script, **options))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + script, **options))
+        self.assertEqual(len(plain), len(ours))
+        for first, second in zip(plain, ours):
+            for columns in zip(first, second):
+                self.assertLess(largest_relative_difference(*columns), 1e-9)
+        return plain
+
+    def test_named_without_the_suffix(self):
+        output = run("include ${load}\n" + MELT.replace("lj/cut", "lj/cut/dch") + "run 20\ndch stats\n")
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+        self.assertIn("DCH neighbor lists: off", output)
+
+    def test_with_lists_for_another_style(self):
+        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 2.0")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 morse 0.1 5 1.1")
+        self.compare(script + "run 20\n")
+        output = run("include ${load}\nsuffix dch\ndch on\ndch verify yes\n" + script + "run 20\ndch stats\n")
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+        self.assertIn("pair morse, half, newton on: DCH", output)
+        self.assertIn("all equal", output)
+
+    def test_tail_corrections_and_compute_pair(self):
+        script = MELT.replace("neighbor 0.3", "pair_modify tail yes\nneighbor 0.3")
+        script += "compute lj all pair lj/cut${end}\nthermo_style custom step temp epair etail press c_lj\nrun 20\n"
+        plain = thermo_tables(run("include ${load}\n" + script, variables={"end": ""}))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + script, variables={"end": "/dch"}))
+        self.assertLess(largest_relative_difference(plain[0][-1], ours[0][-1]), 1e-9)
+        self.assertNotEqual(ours[0][-1]["E_tail"], 0)
+
+    def test_restart_and_data_file(self):
+        script = MELT.replace("1.0 1.0\n", "1.1 0.9 2.3\npair_modify shift yes\n") + f"""
+run 20
+write_restart {host.work}/melt.restart
+write_data {host.work}/melt.data pair ij
+clear
+dch precision double
+read_restart {host.work}/melt.restart
+fix 1 all nve
+neighbor 0.3 bin
+run 0
+clear
+dch precision double
+units lj
+pair_style lj/cut 2.5
+pair_modify shift yes
+read_data {host.work}/melt.data
+neighbor 0.3 bin
+run 0
+"""
+        tables = self.compare(script)
+        self.assertEqual(len(tables), 3)
+        self.assertLess(abs(tables[2][0]["E_pair"] - tables[1][0]["E_pair"]), 1e-6)
+
+    def test_fene_bonds(self):
+        script = f"""
+units lj
+atom_style bond
+special_bonds fene
+region box block 0 9 0 9 0 9
+create_box 1 box bond/types 2 extra/bond/per/atom 2 extra/special/per/atom 4
+create_atoms 1 single 4 4 4
+create_atoms 1 single ${{second}} 4 4
+create_atoms 1 single ${{second}} 5 4
+mass 1 1.0
+pair_style lj/cut 1.12246
+pair_coeff 1 1 1.0 1.0
+bond_style fene
+bond_coeff 1 30.0 1.5 1.0 1.0
+bond_coeff 2 25.0 1.6 1.0 1.1
+create_bonds single/bond 1 1 2 special no
+create_bonds single/bond 2 2 3
+neighbor 0.4 bin
+fix 1 all nve
+thermo 100
+thermo_modify format float %.15g
+run 100
+write_restart {host.work}/fene.restart
+clear
+dch precision double
+read_restart {host.work}/fene.restart
+fix 1 all nve
+thermo 100
+thermo_modify format float %.15g
+run 100
+"""
+        self.compare(script, variables={"second": "4.98"})
+        output = run("include ${load}\nsuffix dch\n" + script, variables={"second": "5.43"})
+        self.assertGreater(output.count("FENE bond too long: "), 1)
+        code, output = host.run_text("include ${load}\nsuffix dch\n" + script, variables={"second": "7.1"})
+        self.assertNotEqual(code, 0)
+        self.assertIn("Bad FENE bond", output)
+
+    def test_charges_restart_and_change(self):
+        script = SALT + f"""
+pair_modify table 0
+run 20
+set type 1 charge 0.7
+set type 2 charge -0.7
+run 20
+write_restart {host.work}/salt.restart
+clear
+dch precision double
+read_restart {host.work}/salt.restart
+kspace_style pppm 1e-4
+fix 1 all nve
+run 10
+"""
+        self.assertEqual(len(self.compare(script)), 3)
+
+    def test_charges_without_tables(self):
+        plain = thermo_tables(run("include ${load}\n" + SALT + "run 0\n"))
+        exact = thermo_tables(run("include ${load}\n" + SALT + "pair_modify table 0\nrun 0\n"))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + SALT + "run 0\n"))
+        difference = largest_relative_difference
+        self.assertLess(difference(exact[0][0], ours[0][0]), 1e-10)
+        self.assertGreater(difference(plain[0][0], ours[0][0]), 1e-10)
+        self.assertLess(difference(plain[0][0], ours[0][0]), 1e-4)
+
+    def test_charges_need_a_long_range_solver_and_atoms_with_charges(self):
+        for script, message in ((SALT.replace("kspace_style pppm 1e-4\n", ""), "requires a KSpace style"),
+                                (MELT.replace("lj/cut 2.5", "lj/cut/coul/cut 2.5"), "requires atom attribute q")):
+            code, output = host.run_text("include ${load}\nsuffix dch\n" + script + "run 0\n")
+            self.assertNotEqual(code, 0)
+            self.assertIn(message, output)
+
+    def test_coefficients_that_change_in_a_run(self):
+        self.compare(MELT + "variable e equal ramp(1.0,1.5)\nfix 2 all adapt 5 pair lj/cut epsilon 1 1 v_e\nrun 20\n"
+                     "unfix 2\npair_coeff 1 1 0.7 1.0 2.2\nrun 10\nrun 10 pre no\n")
+
+    def test_minimization(self):
+        self.compare(MELT + "displace_atoms all random 0.1 0.1 0.1 4711\nminimize 0 1e-3 20 200\n")
+
+    def test_a_cluster_in_open_space(self):
+        self.compare(MELT.replace("units lj", "units lj\nboundary s s s") + "run 40\n")
+
+    def test_atoms_that_come_and_go(self):
+        self.compare(MELT + "run 10\ngroup some id 1:100:7\ndelete_atoms group some compress no\nrun 10\n"
+                     "create_atoms 1 single 0.4 0.4 0.4\nrun 0\n")
+
+    def test_wrong_arguments_are_the_plain_styles_errors(self):
+        code, output = host.run_text("include ${load}\nsuffix dch\n" + MELT.replace("lj/cut 2.5", "lj/cut"))
+        self.assertNotEqual(code, 0)
+        self.assertIn("Illegal pair_style command", output)
+
+    def test_single_precision_cannot_hold_si_units(self):
+        script = """
+include ${load}
+units si
+atom_style atomic
+region box block 0 4e-9 0 4e-9 0 4e-9
+create_box 1 box
+create_atoms 1 random 2000 4711 box
+mass 1 6.6e-26
+pair_style lj/cut/dch 1.1e-9
+pair_coeff 1 1 1.65e-21 3.4e-10
+neighbor 1e-10 bin
+dch precision mixed
+run 0
+"""
+        code, output = host.run_text(script)
+        self.assertNotEqual(code, 0)
+        self.assertIn("the range of single precision; use other units", output)
+
+
+if __name__ == "__main__":
+    main(__doc__)

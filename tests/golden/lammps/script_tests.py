@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What tests of short scripts have in common: a melt to begin with, and LAMMPS to run it."""
+
+import argparse
+import sys
+import unittest
+
+from lammps_run import Host
+
+MELT = """
+units lj
+atom_style atomic
+lattice fcc 0.8442
+region box block 0 6 0 6 0 6
+create_box 1 box
+create_atoms 1 box
+mass 1 1.0
+velocity all create 1.44 87287 loop geom
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neighbor 0.3 bin
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+thermo 20
+thermo_modify format float %.15g
+"""
+
+host = Host.__new__(Host)  # main() fills it in, once the command line is known
+
+
+def run(text, **options):
+    code, output = host.run_text(text, **options)
+    if code != 0:
+        raise AssertionError(f"exit code {code}\n{output}")
+    return output
+
+
+def main(description):
+    parser = argparse.ArgumentParser(description=description)
+    Host.add_arguments(parser)
+    arguments, rest = parser.parse_known_args()
+    host.__init__(arguments)
+    unittest.main(argv=[sys.argv[0]] + rest, verbosity=2)
