@@ -27,7 +27,6 @@ struct ClusterList {
     int kind;  ///< 1 to 3: 1-2, 1-3, 1-4
   };
 
-  std::string owner;            ///< the style, for dch stats
   std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
 
   bool one_by_one = true;   ///< which of the next two is filled

@@ -38,8 +38,7 @@ class FeneForces {
   /// @param first_type number of the first type in the bonds
   /// @param too_long numbers of the bonds that are left out; overwritten
   /// @throws InvalidParameter if there are not as many positions as forces. Particles and types of bonds are
-  /// not
-  ///   checked.
+  ///   not checked.
   void add_forces(Span<const BondOfType> bonds, int first_type, Span<const Vec3> positions, Span<Vec3> forces,
                   std::vector<std::int32_t>& too_long) const;
 

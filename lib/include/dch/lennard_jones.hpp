@@ -61,8 +61,7 @@ class LennardJones {
 
   /// Has charges act too.
   /// @throws InvalidParameter for a negative or non-finite number, another number of cutoffs than pairs of
-  /// types,
-  ///   and cutoffs that are not symmetric.
+  ///   types, and cutoffs that are not symmetric.
   void set_coulomb(const CoulombTerm& term);
 
   int types() const { return types_; }
@@ -73,9 +72,8 @@ class LennardJones {
   /// O(entries).
   /// @param charges one per particle, or none if no CoulombTerm was set [charge]
   /// @throws InvalidParameter if forces or charges are not one per particle, if the cutoff exceeds the radius
-  /// that the
-  ///   pairs were made for, if they have more types than this, or if the coefficients leave the range of
-  ///   single precision and `precision` is mixed.
+  ///   that the pairs were made for, if they have more types than this, or if the coefficients leave the
+  ///   range of single precision and `precision` is mixed.
   void add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                   Span<const double> charges = {});
   /// The same, with energy and virial: a quarter slower.

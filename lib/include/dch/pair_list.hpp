@@ -59,7 +59,7 @@ struct PairList {
 /// @param list_radius cutoff + skin of the list [length]
 /// @param types by particle, or none if there is one type
 /// @throws InvalidParameter for a full list, another number of positions or types than rows, and a negative
-/// type.
+///   type.
 template <class Accept>
 void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,
                     Span<const std::int32_t> types, const Accept& accept, PairList& out);

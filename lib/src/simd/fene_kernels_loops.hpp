@@ -29,20 +29,7 @@ std::uint32_t add_bonds(const FeneTask& task, const std::int32_t* i, const std::
   const auto is_near = S::less(r2, S::mul(S::set1(1.2599210498948732), sigma2), 0xFFFF, 0);  // 2^(1/3)
   const V repulsion = S::mul(S::mul(coefficient(3), S::mul(t3, s)), S::sub(t3, S::set1(0.5)));
   const V f = S::sub(S::keep(is_near, repulsion), S::mul(coefficient(0), S::mul(inverse, r2)));
-  alignas(64) double x[S::kLanes], y[S::kLanes], z[S::kLanes];
-  S::store(x, S::mul(f, dx));
-  S::store(y, S::mul(f, dy));
-  S::store(z, S::mul(f, dz));
-  for (std::uint32_t lanes = mask & ~too_long; lanes != 0; lanes &= lanes - 1) {
-    const int k = __builtin_ctz(lanes);
-    Vec3 &of_i = task.forces[i[k]], &of_j = task.forces[j[k]];
-    of_i.x -= x[k];
-    of_i.y -= y[k];
-    of_i.z -= z[k];
-    of_j.x += x[k];
-    of_j.y += y[k];
-    of_j.z += z[k];
-  }
+  add_to_both<S>(mask & ~too_long, i, j, S::mul(f, dx), S::mul(f, dy), S::mul(f, dz), task.forces);
   return too_long;
 }
 

@@ -54,7 +54,7 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
   V reach2 = coefficient(kCutoff2, 0);
   if constexpr (kKind != CoulombKind::none) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
   const auto near = S::less(r2, reach2, mask, 0);
-  std::uint32_t lanes = S::bits(near);
+  const std::uint32_t lanes = S::bits(near);
   if (lanes == 0) return;
   const V s = S::keep(near, S::inverse(r2));
   V charge = S::zero();
@@ -74,21 +74,7 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
     sum.virial[4] = S::madd(dx, fz, sum.virial[4]);
     sum.virial[5] = S::madd(dy, fz, sum.virial[5]);
   }
-  alignas(64) double x[S::kLanes], y[S::kLanes], z[S::kLanes];
-  S::store(x, fx);
-  S::store(y, fy);
-  S::store(z, fz);
-  // One after the other: a particle may stand in several lanes.
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int k = __builtin_ctz(lanes);
-    Vec3 &of_i = task.forces[i[k]], &of_j = task.forces[j[k]];
-    of_i.x -= x[k];
-    of_i.y -= y[k];
-    of_i.z -= z[k];
-    of_j.x += x[k];
-    of_j.y += y[k];
-    of_j.z += z[k];
-  }
+  add_to_both<S>(lanes, i, j, fx, fy, fz, task.forces);
 }
 
 template <class S, bool kOneType, bool kSums, CoulombKind kKind>
