@@ -63,7 +63,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--frames", options.frames, "Configurations to compare; fewer are an error")
       ->check(CLI::PositiveNumber);
   app.add_option("--superset-every", options.superset_every,
-                 "Compare supersets too at every so manieth configuration")
+                 "Compare supersets too, at every Nth configuration")
       ->check(CLI::PositiveNumber);
   app.add_option("--structures", options.structures,
                  "Compare the structure with all pairs at so many of them; 0: never")

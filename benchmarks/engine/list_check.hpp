@@ -25,7 +25,7 @@ struct ListCheck {
   int last = 0;             ///< number of the last configuration
   bool expect_all = false;  ///< compare with expected_pairs() everywhere, not at the first and the last alone
   int structures_checked = 0;  ///< validate() structures at so many configurations; it looks at all pairs
-  int superset_every = 1;      ///< make supersets at every so manieth configuration
+  int superset_every = 1;      ///< make supersets at every Nth configuration
 };
 
 /// What it has seen.
