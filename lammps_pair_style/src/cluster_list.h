@@ -55,6 +55,11 @@ class ClusterListFiller : protected Pointers {
 
   /// @param hierarchy brought up to date with the points
   void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list);
+  /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
+  /// (-1).
+  const std::vector<std::int32_t>& order(const ClusterList& list) const {
+    return list.one_by_one ? rows_.particle : list.pairs.particle;
+  }
 
  private:
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <comm.h>
 #include <error.h>
+#include <modify.h>
 #include <neigh_list.h>
 #include <new>
 #include <typeinfo>
@@ -64,6 +65,7 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
     : Neighbor(*retired),
       retired_(retired),
       points_(lmp),
+      order_(lmp),
       images_(lmp),
       factory_(factory),
       special_(lmp),
@@ -124,6 +126,7 @@ void NeighborDCH::init() {
   before_run_ = {};
   clusters_ = std::exchange(requested_clusters_, {});
   notes_ = std::exchange(requested_notes_, {});
+  order_.begin_run();
   if (!enabled_) {
     served_.clear();
     served_plist_.clear();
@@ -236,6 +239,7 @@ void NeighborDCH::build_ours() {
     run_.entries = 0;
     if (fills_lists()) fill_lists();
     fill_clusters();
+    if (order_.will_be_due()) remember_order();
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
   } catch (const std::bad_alloc&) {
@@ -271,6 +275,25 @@ void NeighborDCH::fill_clusters() {
     run_.entries += clusters->count();
     run_.clusters_seconds += seconds_since(clock);
   }
+}
+
+void NeighborDCH::remember_order() {
+  const bool from_list = fills_lists();
+  const std::vector<std::int32_t>& points =
+      from_list ? served_.front().rows.particle : cluster_filler_.order(*clusters_.back());
+  if (points_.in_box()) {
+    order_.remember(points);
+    return;
+  }
+  std::vector<std::int32_t> indices;
+  for (const std::int32_t point : points) indices.push_back(point < 0 ? -1 : points_.atom_of(point));
+  order_.remember(indices);
+}
+
+/// Between the test of displacements and the exchange of atoms. fix NEIGH_HISTORY reads lists between them.
+bool NeighborDCH::may_order_atoms() const {
+  return order_.is_due() && (fills_lists() || !clusters_.empty()) &&
+         modify->find_fix_by_style("NEIGH_HISTORY") < 0;
 }
 
 bool NeighborDCH::may_use_box() const {

@@ -13,6 +13,7 @@
 #include <dch/lennard_jones.hpp>
 #include <dch/pair_search.hpp>
 
+#include "atom_order.h"
 #include "atom_points.h"
 #include "cluster_list.h"
 #include "ghost_images.h"
@@ -101,6 +102,8 @@ class NeighborDCH : public Neighbor {
   void build_ours();
   void fill_lists();
   void fill_clusters();
+  bool may_order_atoms() const;
+  void remember_order();
   bool may_use_box() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
@@ -126,6 +129,7 @@ class NeighborDCH : public Neighbor {
   dch::HierarchyParams params_;
 
   AtomPoints points_;
+  AtomOrder order_;
   GhostImages images_;
   dch::lammps::SearchFactory factory_;
   int threads_ = 1;

@@ -160,6 +160,28 @@ dch stats
             tuned = thermo_tables(run("include ${load}\ndch on\ndch skin auto\n" + script + extra + "run 40\n"))
             self.assertLess(largest_relative_difference(fixed[0][-1], tuned[0][-1]), 1e-8)
 
+    def test_atoms_in_the_order_of_the_structure(self):
+        melt = MELT.replace("neigh_modify delay 0 every 5 check no", "neigh_modify delay 0 every 1 check yes\n"
+                            "atom_modify sort 10 0\ncompute p all pe/atom")
+        skewed = melt.replace("block 0 6 0 6 0 6", "prism 0 6 0 6 0 6 1.5 -1 0.5")
+        for script, ranks in ((melt, 1), (melt, 2), (skewed, 1), (skewed, 2)):
+            orders, tables = [], []
+            for lists in ("", "dch on\ndch verify yes\n"):
+                dump = host.work / "dump.order"
+                script_of_run = (f"include ${{load}}\n{script}{lists}dump 1 all custom 60 {dump} id vx c_p\n"
+                                 "thermo_modify norm no\nrun 60\n")
+                code, output = host.run_text(script_of_run, ranks=ranks)
+                self.assertEqual(code, 0, output)
+                rows = [line.split() for line in dump.read_text().split("ITEM: ATOMS id vx c_p\n")[-1].splitlines()]
+                orders.append([row[0] for row in rows])
+                tables.append((thermo_tables(output)[-1][-1], {row[0]: list(map(float, row[1:])) for row in rows}))
+            self.assertNotEqual(orders[0], orders[1])
+            self.assertEqual(sorted(orders[0]), sorted(orders[1]))
+            self.assertLess(largest_relative_difference(tables[0][0], tables[1][0]), 1e-9)
+            for atom, values in tables[0][1].items():
+                for first, second in zip(values, tables[1][1][atom]):
+                    self.assertLess(abs(first - second), 1e-5)
+
     def test_a_skin_that_may_not_change(self):
         output = run("include ${load}\ndch on\ndch skin auto\n" + MELT + "run 10\ndch stats\n")
         self.assertIn("the skin stays as it is: lists are rebuilt without a check", output)
