@@ -1,13 +1,81 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "atom_order.h"
 
+#include <algorithm>
 #include <atom.h>
+#include <cstring>
 #include <domain.h>
+#include <fix.h>
+#include <modify.h>
 #include <update.h>
 #include <utility>
 
+#include "fix_dch_order.h"
+
 namespace LAMMPS_NS {
+
+using dch::lammps::OrderAtoms;
+
 namespace {
+
+constexpr const char* kHistory = "NEIGH_HISTORY";
+
+// Fixes, each with all whose names go on with a slash, that draw no random numbers atom by atom. Names in
+// capitals are LAMMPS's own and ours.
+constexpr const char* kWithoutRandomNumbers[] = {"nve",
+                                                 "nvt",
+                                                 "npt",
+                                                 "nph",
+                                                 "addforce",
+                                                 "adapt",
+                                                 "ave",
+                                                 "aveforce",
+                                                 "balance",
+                                                 "box/relax",
+                                                 "cmap",
+                                                 "deform",
+                                                 "drag",
+                                                 "dt/reset",
+                                                 "efield",
+                                                 "enforce2d",
+                                                 "freeze",
+                                                 "gravity",
+                                                 "halt",
+                                                 "indent",
+                                                 "lineforce",
+                                                 "momentum",
+                                                 "move",
+                                                 "planeforce",
+                                                 "press/berendsen",
+                                                 "print",
+                                                 "property/atom",
+                                                 "qeq",
+                                                 "rattle",
+                                                 "recenter",
+                                                 "restrain",
+                                                 "setforce",
+                                                 "shake",
+                                                 "spring",
+                                                 "store",
+                                                 "temp/berendsen",
+                                                 "temp/rescale",
+                                                 "tune/kspace",
+                                                 "vector",
+                                                 "viscous",
+                                                 "wall",
+                                                 "STORE",
+                                                 kHistory,
+                                                 "DUMMY",
+                                                 "GROUP",
+                                                 FixDCHOrder::kStyle};
+
+bool draws_no_random_numbers(const char* style) {
+  return std::any_of(
+      std::begin(kWithoutRandomNumbers), std::end(kWithoutRandomNumbers), [&](const char* name) {
+        const std::size_t length = std::strlen(name);
+        return std::strncmp(style, name, length) == 0 && (style[length] == '\0' || style[length] == '/');
+      });
+}
 
 /// Atom::sort() puts atoms into bins by coordinate and then in the order of the bins. While this lives, bins
 /// are a row of cells one long, and the coordinates are those that are given to it. AtomVec, which moves what
@@ -70,50 +138,39 @@ class CoordinatesAreRanks {
 
 }  // namespace
 
-bool AtomOrder::will_be_due() const {
-  constexpr int kStepsBetweenLists = 100;  // at most, as a rule
-  return atom->sortfreq > 0 && atom->tag_enable && update->ntimestep + kStepsBetweenLists >= next_;
-}
-
-bool AtomOrder::is_due() const {
-  return atom->sortfreq > 0 && update->ntimestep >= next_ && !tags_.empty() && atom->tag_enable;
-}
-
-void AtomOrder::remember(const std::vector<std::int32_t>& indices) {
-  tags_.clear();
-  seen_.assign(static_cast<std::size_t>(atom->nlocal), 0);
-  for (const std::int32_t i : indices) {
-    if (i < 0 || i >= atom->nlocal || std::exchange(seen_[static_cast<std::size_t>(i)], 1) != 0) continue;
-    tags_.push_back(atom->tag[i]);
+void AtomOrder::begin_run() {
+  next_ = 0;
+  obstacle_.clear();
+  if (when_ == OrderAtoms::never) obstacle_ = "'dch order no' was given";
+  if (atom->sortfreq <= 0) obstacle_ = "'atom_modify sort' is off";
+  const int ours = modify->find_fix_by_style(FixDCHOrder::kStyle);
+  for (int k = 0; k < modify->nfix; ++k) {
+    const char* const style = modify->fix[k]->style;
+    if (ours >= 0 && k > ours && std::strcmp(style, kHistory) == 0)
+      obstacle_ = "contacts are saved after the time for it";
+    if (when_ == OrderAtoms::automatic && !draws_no_random_numbers(style))
+      obstacle_ =
+          std::string("fix ") + style + " may draw random numbers in the order of atoms ('dch order yes')";
   }
 }
 
-void AtomOrder::apply() {
+bool AtomOrder::is_due() const { return obstacle_.empty() && update->ntimestep >= next_; }
+
+void AtomOrder::apply(const std::vector<std::int32_t>& indices) {
   next_ = (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq;
   const int n = atom->nlocal;
-  if (n < 2 || n >= atom->nmax) return;
-  dch::lammps::TagTable rank_of;
-  rank_of.reset(tags_.size());
-  std::int32_t ranks = 0;
-  for (const tagint tag : tags_) rank_of.find_or_add(tag, ranks++);
-  // Those that are there now, in their order, then those that are not known: ranks from 0 to n - 1.
-  std::vector<int> at(tags_.size(), -1);
-  std::vector<int> unknown;
-  for (int i = 0; i < n; ++i) {
-    const std::int32_t rank = rank_of.find(atom->tag[i]);
-    if (rank == dch::lammps::TagTable::kAbsent) {
-      unknown.push_back(i);
-    } else {
-      at[static_cast<std::size_t>(rank)] = i;
-    }
-  }
-  std::vector<double> coordinates(3 * static_cast<std::size_t>(n), 0.5);
-  std::vector<double*> rows(static_cast<std::size_t>(n));
+  if (n < 2 || n >= atom->nmax) return;  // Atom::sort() needs room for one atom more
+  std::vector<double> rank(3 * static_cast<std::size_t>(n), -1);
   double next = 0.5;
-  for (const int i : at)
-    if (i >= 0) coordinates[3 * static_cast<std::size_t>(i)] = next++;
-  for (const int i : unknown) coordinates[3 * static_cast<std::size_t>(i)] = next++;
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &coordinates[3 * i];
+  for (const std::int32_t i : indices)
+    if (i >= 0 && i < n && rank[3 * static_cast<std::size_t>(i)] < 0)
+      rank[3 * static_cast<std::size_t>(i)] = next++;
+  std::vector<double*> rows;
+  for (std::size_t i = 0; i < rank.size(); i += 3) {
+    if (rank[i] < 0) rank[i] = next++;
+    rank[i + 1] = rank[i + 2] = 0.5;
+    rows.push_back(&rank[i]);
+  }
   {
     const CoordinatesAreRanks ranks_in_place(*atom, *domain, rows.data());
     atom->sort();

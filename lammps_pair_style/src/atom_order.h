@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <lammps_host.h>
 #include <lmptype.h>
 #include <pointers.h>
+#include <string>
 #include <vector>
 
-#include "tag_table.h"
+#include "dch_options.h"
 
 namespace LAMMPS_NS {
 
@@ -17,23 +19,21 @@ class AtomOrder : protected Pointers {
  public:
   explicit AtomOrder(LAMMPS* lammps) : Pointers(lammps) {}
 
-  /// A run begins: the next chance is taken.
-  void begin_run() { next_ = 0; }
-  /// Whether atoms are to be put in order before the next lists.
+  void set_when(dch::lammps::OrderAtoms when) { when_ = when; }
+  /// A run begins.
+  void begin_run();
+  /// Why atoms stay as LAMMPS sorts them in this run; empty if they do not.
+  const std::string& obstacle() const { return obstacle_; }
+  /// Whether atoms are to be put in order before the next lists are built.
   bool is_due() const;
-  /// Whether the order of the present lists may be wanted for that.
-  bool will_be_due() const;
-  /// Takes the order for the next time.
-  /// @param indices of atoms, some more than once or ghosts, which do not count again; -1 is passed over
-  void remember(const std::vector<std::int32_t>& indices);
-  /// Puts atoms in that order; those that have come since go last. Where LAMMPS expects it to sort: no ghosts
-  /// are of use until they are made anew. Atom::sort() has to have room for one atom more, else atoms stay as
-  /// they are.
-  void apply();
+  /// Puts atoms in the order given, those that it lacks last. To be called where no ghosts are of use until
+  /// they are made anew.
+  /// @param indices of atoms; what is -1, a ghost or has been there before is passed over
+  void apply(const std::vector<std::int32_t>& indices);
 
  private:
-  std::vector<tagint> tags_;  ///< in order
-  std::vector<char> seen_;
+  dch::lammps::OrderAtoms when_ = dch::lammps::OrderAtoms::automatic;
+  std::string obstacle_;
   bigint next_ = 0;  ///< step
 };
 

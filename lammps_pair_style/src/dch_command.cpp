@@ -39,6 +39,9 @@ void DchCommand::command(int narg, char** arg) {
     case Request::Action::skin:
       neighbor_dch->set_skin_tuning(request.tunes_skin);
       break;
+    case Request::Action::order:
+      neighbor_dch->set_order(request.order_atoms);
+      break;
     case Request::Action::threads:
       neighbor_dch->set_threads(request.threads);
       break;

@@ -98,6 +98,22 @@ Request parse_threads(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_order(const std::vector<std::string>& words) {
+  Request request;
+  request.action = Request::Action::order;
+  const std::string remedy = "; give 'dch order auto', 'dch order yes' or 'dch order no'";
+  if (words.size() == 1) refuse("'dch order' lacks its value" + remedy);
+  if (words[1] == "yes") {
+    request.order_atoms = OrderAtoms::always;
+  } else if (words[1] == "no") {
+    request.order_atoms = OrderAtoms::never;
+  } else if (words[1] != "auto") {
+    refuse("'dch order' does not know '" + words[1] + "'" + remedy);
+  }
+  expect_no_more(words, 2);
+  return request;
+}
+
 Request parse_precision(const std::vector<std::string>& words) {
   Request request;
   request.action = Request::Action::precision;
@@ -116,12 +132,13 @@ Request parse_precision(const std::vector<std::string>& words) {
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
       "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
-      "'dch precision double|mixed', 'dch threads N' or 'dch skin auto|fixed'";
+      "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);
   if (words[0] == "verify") return parse_verify(words);
   if (words[0] == "skin") return parse_skin(words);
   if (words[0] == "threads") return parse_threads(words);
+  if (words[0] == "order") return parse_order(words);
   if (words[0] == "precision") return parse_precision(words);
   if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);
   expect_no_more(words, 1);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <comm.h>
 #include <error.h>
-#include <modify.h>
 #include <neigh_list.h>
 #include <new>
 #include <typeinfo>
@@ -14,6 +13,8 @@
 #include <utility>
 
 #include <dch/error.hpp>
+
+#include "fix_dch_order.h"
 
 namespace LAMMPS_NS {
 
@@ -126,7 +127,6 @@ void NeighborDCH::init() {
   before_run_ = {};
   clusters_ = std::exchange(requested_clusters_, {});
   notes_ = std::exchange(requested_notes_, {});
-  order_.begin_run();
   if (!enabled_) {
     served_.clear();
     served_plist_.clear();
@@ -146,6 +146,8 @@ void NeighborDCH::init() {
   prepare_search();
   prepare_skin();
   before_run_ = search_stats();
+  order_.begin_run();
+  if (order_.obstacle().empty()) FixDCHOrder::install(lmp);
   hide_bins();
 }
 
@@ -239,7 +241,6 @@ void NeighborDCH::build_ours() {
     run_.entries = 0;
     if (fills_lists()) fill_lists();
     fill_clusters();
-    if (order_.will_be_due()) remember_order();
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
   } catch (const std::bad_alloc&) {
@@ -277,23 +278,14 @@ void NeighborDCH::fill_clusters() {
   }
 }
 
-void NeighborDCH::remember_order() {
-  const bool from_list = fills_lists();
+void NeighborDCH::order_atoms() {
+  if (run_.builds == 0 || !order_.is_due()) return;
   const std::vector<std::int32_t>& points =
-      from_list ? served_.front().rows.particle : cluster_filler_.order(*clusters_.back());
-  if (points_.in_box()) {
-    order_.remember(points);
-    return;
-  }
-  std::vector<std::int32_t> indices;
-  for (const std::int32_t point : points) indices.push_back(point < 0 ? -1 : points_.atom_of(point));
-  order_.remember(indices);
-}
-
-/// Between the test of displacements and the exchange of atoms. fix NEIGH_HISTORY reads lists between them.
-bool NeighborDCH::may_order_atoms() const {
-  return order_.is_due() && (fills_lists() || !clusters_.empty()) &&
-         modify->find_fix_by_style("NEIGH_HISTORY") < 0;
+      fills_lists() ? served_.front().rows.particle : cluster_filler_.order(*clusters_.back());
+  std::vector<std::int32_t> atoms;
+  atoms.reserve(points.size());
+  for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
+  order_.apply(atoms);
 }
 
 bool NeighborDCH::may_use_box() const {

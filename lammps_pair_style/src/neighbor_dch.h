@@ -69,6 +69,11 @@ class NeighborDCH : public Neighbor {
   void set_precision(dch::ForcePrecision precision) { precision_ = precision; }
   dch::ForcePrecision precision() const { return precision_; }  ///< of force styles of ours
 
+  /// Whether runs from now on put atoms in memory in the order of the structure.
+  void set_order(dch::lammps::OrderAtoms when) { order_.set_when(when); }
+  /// Does so, if it is time, from between the decision to build lists and the exchange of atoms.
+  void order_atoms();
+
   /// Cluster pairs for the run that is about to begin, kept up at every build of lists from then on; whether
   /// lists come from the hierarchy too or not. From a pair style's init_style().
   /// @param obstacle why the style cannot use them, for dch stats; then there are none and null is returned
@@ -102,8 +107,6 @@ class NeighborDCH : public Neighbor {
   void build_ours();
   void fill_lists();
   void fill_clusters();
-  bool may_order_atoms() const;
-  void remember_order();
   bool may_use_box() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;

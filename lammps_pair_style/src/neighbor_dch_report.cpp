@@ -42,6 +42,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.radius = params_.radius;
   report.in_box = points_.in_box();
   report.c = params_.c;
+  report.order_obstacle = order_.obstacle();
   report.counters = run_;
   report.counters.entries = sums[0];
   report.counters.verified_entries = sums[1];

@@ -66,11 +66,10 @@ void NeighborDCH::apply_skin() {
 
 // The base class takes what the box has changed by from `skin`.
 int NeighborDCH::check_distance() {
-  const double of_script = skin;
-  if (tuner_) skin = tuner_->skin();
+  if (!tuner_) return Neighbor::check_distance();
+  const double of_script = std::exchange(skin, tuner_->skin());
   const int moved = Neighbor::check_distance();
   skin = of_script;
-  if (moved && may_order_atoms()) order_.apply();
   return moved;
 }
 

@@ -49,6 +49,10 @@ std::string work_table(const RunReport& r) {
       static_cast<long long>(r.refreshes));
   text += std::string("  points                  ") +
           (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";
+  text += "  atoms in memory         " +
+          (r.order_obstacle.empty() ? "in the order of the structure"
+                                    : "in LAMMPS's order: " + r.order_obstacle) +
+          "\n";
   if (r.skin > 0)
     text += line("  skin                    %g, %s", r.skin,
                  r.skin_settled ? "the fastest that was tried" : "still being looked for");

@@ -48,6 +48,78 @@ class Loading(unittest.TestCase):
         self.assertIn("libdch_absent.so: cannot open shared object file", output)
 
 
+class OrderOfAtoms(unittest.TestCase):
+    """`dch order`: what it puts in which order, and that nothing else changes."""
+
+    MELT = MELT.replace("neigh_modify delay 0 every 5 check no", "neigh_modify delay 0 every 1 check yes\n"
+                        "atom_modify sort 10 0\ncompute p all pe/atom")
+    ORDERED = "atoms in memory         in the order of the structure"
+
+    @staticmethod
+    def last_frame(script, ranks=1):
+        """IDs in the order of memory, the last line of thermo output, (vx, energy) by atom, and all output."""
+        dump = host.work / "dump.order"
+        code, output = host.run_text(f"include ${{load}}\n{script}dump 1 all custom 60 {dump} id vx c_p\n"
+                                     "thermo_modify norm no\nrun 60\ndch stats\n", ranks=ranks)
+        if code != 0:
+            raise AssertionError(output)
+        rows = [line.split() for line in dump.read_text().split("ITEM: ATOMS id vx c_p\n")[-1].splitlines()]
+        return ([row[0] for row in rows], thermo_tables(output)[-1][-1],
+                {row[0]: list(map(float, row[1:])) for row in rows}, output)
+
+    def test_same_trajectory(self):
+        skewed = self.MELT.replace("block 0 6 0 6 0 6", "prism 0 6 0 6 0 6 1.5 -1 0.5")
+        unchecked = self.MELT.replace("every 1 check yes", "every 5 check no")
+        for script, ranks in ((self.MELT, 1), (self.MELT, 2), (skewed, 1), (skewed, 2), (unchecked, 1)):
+            stock_order, stock_thermo, stock_values, _ = self.last_frame(script, ranks)
+            for words in ("dch on\ndch verify yes\n", "suffix dch\ndch off\n"):
+                with self.subTest(words=words, ranks=ranks):
+                    order, thermo, values, output = self.last_frame(words + script, ranks)
+                    self.assertIn(self.ORDERED, output)
+                    self.assertNotEqual(stock_order, order)
+                    self.assertEqual(sorted(stock_order), sorted(order))
+                    self.assertLess(largest_relative_difference(stock_thermo, thermo), 1e-9)
+                    for atom, wanted in stock_values.items():
+                        for first, second in zip(wanted, values[atom]):
+                            self.assertLess(abs(first - second), 1e-5)
+
+    def test_no_is_the_order_of_stock(self):
+        stock = self.last_frame(self.MELT)
+        ours = self.last_frame(self.MELT + "dch on\ndch order no\n")
+        self.assertEqual(stock[0], ours[0])
+        self.assertIn("in LAMMPS's order: 'dch order no' was given", ours[3])
+
+    def test_random_numbers_by_atom(self):
+        thermostat = self.MELT + "fix 2 all langevin 1.0 1.0 1.0 4711\n"
+        stock = self.last_frame(thermostat)
+        alone = self.last_frame(thermostat + "dch on\n")
+        told = self.last_frame(thermostat + "dch on\ndch order yes\n")
+        self.assertEqual(stock[0], alone[0])
+        self.assertIn("fix langevin may draw random numbers in the order of atoms ('dch order yes')", alone[3])
+        self.assertLess(largest_relative_difference(stock[1], alone[1]), 1e-9)
+        self.assertNotEqual(stock[0], told[0])
+        self.assertIn(self.ORDERED, told[3])
+
+    def test_sorting_that_is_off_stays_off(self):
+        output = self.last_frame(self.MELT.replace("sort 10 0", "sort 0 0") + "dch on\n")[3]
+        self.assertIn("in LAMMPS's order: 'atom_modify sort' is off", output)
+
+    def test_contacts_of_grains_follow_their_atoms(self):
+        lines = {}
+        for words in ("no", "yes"):
+            output = run(f"include ${{load}}\ndch order {words}\natom_modify sort 40 0\ninclude ${{here}}/in.granular\n",
+                         variables={"lists": "dch", "steps": 200})
+            self.assertEqual(self.ORDERED in output, words == "yes")
+            lines[words] = thermo_tables(output)[-1][-1]
+        self.assertLess(largest_relative_difference(lines["no"], lines["yes"]), 1e-9)
+
+    def test_minimization(self):
+        script = self.MELT + "minimize 1e-8 1e-8 30 100\n"
+        stock = thermo_tables(run(script))[-1][-1]
+        ours = thermo_tables(run("include ${load}\ndch on\ndch verify yes\n" + script))[-1][-1]
+        self.assertLess(largest_relative_difference(stock, ours), 1e-7)
+
+
 class Errors(unittest.TestCase):
     def test_words_that_mean_nothing(self):
         for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats', 'dch verify"),
@@ -159,28 +231,6 @@ dch stats
             fixed = thermo_tables(run(script.replace("neighbor 0.6", "neighbor 1.0") + extra + "run 40\n"))
             tuned = thermo_tables(run("include ${load}\ndch on\ndch skin auto\n" + script + extra + "run 40\n"))
             self.assertLess(largest_relative_difference(fixed[0][-1], tuned[0][-1]), 1e-8)
-
-    def test_atoms_in_the_order_of_the_structure(self):
-        melt = MELT.replace("neigh_modify delay 0 every 5 check no", "neigh_modify delay 0 every 1 check yes\n"
-                            "atom_modify sort 10 0\ncompute p all pe/atom")
-        skewed = melt.replace("block 0 6 0 6 0 6", "prism 0 6 0 6 0 6 1.5 -1 0.5")
-        for script, ranks in ((melt, 1), (melt, 2), (skewed, 1), (skewed, 2)):
-            orders, tables = [], []
-            for lists in ("", "dch on\ndch verify yes\n"):
-                dump = host.work / "dump.order"
-                script_of_run = (f"include ${{load}}\n{script}{lists}dump 1 all custom 60 {dump} id vx c_p\n"
-                                 "thermo_modify norm no\nrun 60\n")
-                code, output = host.run_text(script_of_run, ranks=ranks)
-                self.assertEqual(code, 0, output)
-                rows = [line.split() for line in dump.read_text().split("ITEM: ATOMS id vx c_p\n")[-1].splitlines()]
-                orders.append([row[0] for row in rows])
-                tables.append((thermo_tables(output)[-1][-1], {row[0]: list(map(float, row[1:])) for row in rows}))
-            self.assertNotEqual(orders[0], orders[1])
-            self.assertEqual(sorted(orders[0]), sorted(orders[1]))
-            self.assertLess(largest_relative_difference(tables[0][0], tables[1][0]), 1e-9)
-            for atom, values in tables[0][1].items():
-                for first, second in zip(values, tables[1][1][atom]):
-                    self.assertLess(abs(first - second), 1e-5)
 
     def test_a_skin_that_may_not_change(self):
         output = run("include ${load}\ndch on\ndch skin auto\n" + MELT + "run 10\ndch stats\n")

@@ -54,6 +54,13 @@ TEST(DchOptions, Skin) {
   EXPECT_FALSE(parse_request({"skin", "fixed"}).tunes_skin);
 }
 
+TEST(DchOptions, Order) {
+  EXPECT_EQ(parse_request({"order", "yes"}).action, Request::Action::order);
+  EXPECT_EQ(parse_request({"order", "yes"}).order_atoms, OrderAtoms::always);
+  EXPECT_EQ(parse_request({"order", "no"}).order_atoms, OrderAtoms::never);
+  EXPECT_EQ(parse_request({"order", "auto"}).order_atoms, OrderAtoms::automatic);
+}
+
 TEST(DchOptions, Threads) {
   EXPECT_EQ(parse_request({"threads", "3"}).action, Request::Action::threads);
   EXPECT_EQ(parse_request({"threads", "3"}).threads, 3);
@@ -62,7 +69,7 @@ TEST(DchOptions, Threads) {
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
       "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', 'dch precision double|mixed', "
-      "'dch threads N' or 'dch skin auto|fixed'";
+      "'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
@@ -86,6 +93,9 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
       {{"skin"}, "lacks its value; give 'dch skin auto' or 'dch skin fixed'"},
       {{"skin", "0.3"}, "does not know '0.3'"},
       {{"skin", "auto", "on"}, "'on' after"},
+      {{"order"}, "lacks its value; give 'dch order auto', 'dch order yes' or 'dch order no'"},
+      {{"order", "random"}, "does not know 'random'"},
+      {{"order", "no", "thanks"}, "'thanks' after 'dch no'"},
       {{"threads"}, "lacks its number; for example 'dch threads 4'"},
       {{"threads", "0"}, "the number of threads is '0' but has to be a whole number from 1 to 1024"},
       {{"threads", "two"}, "the number of threads is 'two'"},

@@ -54,6 +54,13 @@ TEST(RunReport, SaysWhatThePointsAre) {
   EXPECT_THAT(format_report(report), HasSubstr("points                  the atoms in the box"));
 }
 
+TEST(RunReport, SaysInWhichOrderAtomsAre) {
+  dch::lammps::RunReport report = example();
+  EXPECT_THAT(format_report(report), HasSubstr("atoms in memory         in the order of the structure\n"));
+  report.order_obstacle = "'atom_modify sort' is off";
+  EXPECT_THAT(format_report(report), HasSubstr("in LAMMPS's order: 'atom_modify sort' is off\n"));
+}
+
 TEST(RunReport, GivesTheRatioToNativeWhereBuildsWereVerified) {
   RunReport r = example();
   EXPECT_THAT(format_report(r), HasSubstr("no build of the last run; see 'dch verify'"));
