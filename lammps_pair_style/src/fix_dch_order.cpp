@@ -25,7 +25,8 @@ void FixDCHOrder::install(LAMMPS* lammps) {
   };
   modify.add_fix(std::string(kStyle) + " all " + kStyle, 0);
   // Modify::init() has made its lists of whom to call already.
-  (modify.*(&Calls::list_init))(FixConst::PRE_EXCHANGE, modify.n_pre_exchange, modify.*(&Calls::list_pre_exchange));
+  (modify.*(&Calls::list_init))(FixConst::PRE_EXCHANGE, modify.n_pre_exchange,
+                                modify.*(&Calls::list_pre_exchange));
   (modify.*(&Calls::list_init))(FixConst::MIN_PRE_EXCHANGE, modify.n_min_pre_exchange,
                                 modify.*(&Calls::list_min_pre_exchange));
 }

@@ -11,6 +11,8 @@ class BinaryGrid {
  public:
   explicit BinaryGrid(double length) : shift_(0x1.8p52 * std::ldexp(1, std::ilogb(length) - 13)) {}
   /// Of a number far below 2^51 multiples; larger ones are on the grid anyway, or left as they are.
+  /// What operator() adds and takes off again.
+  double addend() const { return shift_; }
   double operator()(double v) const { return (v + shift_) - shift_; }
 
  private:

@@ -307,6 +307,7 @@ void ClusterPairFinder::join(ClusterPairs& out) {
     out.shift.insert(out.shift.end(), part.shift.begin(), part.shift.end());
   }
   out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
+  out.torn.clear();
   out.shift_vector.resize(out.shift.size());
   out.shift_vector_float.resize(out.shift.size());
 }

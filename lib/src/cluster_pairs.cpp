@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <dch/cluster_pairs.hpp>
 #include <dch/error.hpp>
@@ -8,6 +9,7 @@
 #include "binary_grid.hpp"
 #include "cell_images.hpp"
 #include "describe.hpp"
+#include "simd/cluster_kernels.hpp"
 
 namespace dch {
 namespace {
@@ -24,15 +26,10 @@ void put(Vec3 at, int slot, ClusterOfFour<double>& cluster) {
   cluster.z[slot] = at.z;
 }
 
-/// Whether every slot has moved by less than a distance; false too if a number is not finite.
 bool all_within(double distance2, const ClusterOfFour<double>& a, const ClusterOfFour<double>& b) {
-  bool all = true;
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-    const double x = b.x[slot] - a.x[slot], y = b.y[slot] - a.y[slot], z = b.z[slot] - a.z[slot];
-    const double moved2 = x * x + y * y + z * z;
-    all &= moved2 < distance2;
-  }
-  return all;
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
+    if (!(norm2(slot_of(b, slot) - slot_of(a, slot)) < distance2)) return false;
+  return true;
 }
 
 void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, float& center) {
@@ -40,6 +37,76 @@ void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, f
   center = static_cast<float>(middle);
   for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to[slot] = static_cast<float>(from[slot] - middle);
 }
+
+/// Takes new positions of clusters that are not in one image.
+class TornClusters {
+ public:
+  TornClusters(ClusterPairs& pairs, Span<const Vec3> positions, const Box& now, double safe2)
+      : pairs_(pairs),
+        positions_(positions),
+        now_(now),
+        images_(now),
+        grid_(pairs.list_radius),
+        safe2_(safe2) {}
+
+  /// @param known what is known of it, or null
+  /// @throws InvalidPosition, and then has changed nothing
+  ClusterPairs::Torn take(std::int32_t cluster, const ClusterPairs::Torn* known) {
+    const auto c = static_cast<std::size_t>(cluster);
+    ClusterPairs::Torn torn = known ? *known : ClusterPairs::Torn{cluster, {}};
+    const ClusterOfFour<double>& before = pairs_.at[c];
+    ClusterOfFour<double> at = place(torn);
+    if (!known || !all_within(safe2_, before, at)) {
+      find_images(before, torn);
+      at = place(torn);
+    }
+    pairs_.at[c] = at;
+    ClusterOfFour<float>& rounded = pairs_.at_float[c];
+    round_axis(grid_, at.x, rounded.x, rounded.center[0]);
+    round_axis(grid_, at.y, rounded.y, rounded.center[1]);
+    round_axis(grid_, at.z, rounded.z, rounded.center[2]);
+    return torn;
+  }
+
+ private:
+  std::int32_t particle(std::int32_t cluster, int slot) const {
+    const std::int32_t* const of = &pairs_.particle[static_cast<std::size_t>(cluster) * ClusterPairs::kSlots];
+    return of[of[slot] == kPadding ? 0 : slot];
+  }
+  Vec3 origin(std::int32_t cluster) const {
+    return pairs_.origin[static_cast<std::size_t>(pairs_.origin_of[static_cast<std::size_t>(cluster)])];
+  }
+
+  /// The origin, which has few digits, is moved to each image: that does not round.
+  ClusterOfFour<double> place(const ClusterPairs::Torn& torn) const {
+    ClusterOfFour<double> at;
+    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
+      put(positions_[static_cast<std::size_t>(particle(torn.cluster, slot))] -
+              (origin(torn.cluster) - images_.vector(torn.image[slot])),
+          slot, at);
+    return at;
+  }
+
+  /// The image of each particle is that nearest to where it was.
+  void find_images(const ClusterOfFour<double>& before, ClusterPairs::Torn& torn) const {
+    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+      const std::int32_t i = particle(torn.cluster, slot);
+      const Vec3 position = positions_[static_cast<std::size_t>(i)];
+      const Vec3 moved = position - origin(torn.cluster) - slot_of(before, slot);
+      if (!std::isfinite(norm2(moved)))
+        throw InvalidPosition("position " + std::to_string(i) + " = " + detail::describe(position) +
+                              " is not finite; check the coordinates of this step");
+      torn.image[slot] = norm2(moved) < safe2_ ? Vec3{} : images_.integers(now_.nearest_image(moved) - moved);
+    }
+  }
+
+  ClusterPairs& pairs_;
+  Span<const Vec3> positions_;
+  const Box& now_;
+  detail::CellImages images_;
+  detail::BinaryGrid grid_;
+  double safe2_;
+};
 
 }  // namespace
 
@@ -57,40 +124,39 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
   if (!same_periodicity(now, box))
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
+  refresh_clusters(positions, now);
+  refresh_shifts(now);
+  box = now;
+}
+
+void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now) {
+  const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
+  const detail::RefreshTask task{clusters(),
+                                 particle.data(),
+                                 origin_of.data(),
+                                 origin.data(),
+                                 positions.data(),
+                                 safe2,
+                                 detail::BinaryGrid(list_radius).addend(),
+                                 at.data(),
+                                 at_float.data()};
+  std::vector<std::int32_t> far(at.size());
+  far.resize(static_cast<std::size_t>(detail::cluster_kernels(instruction_set()).refresh(task, far.data())));
+  TornClusters taker(*this, positions, now, safe2);
+  std::vector<Torn> now_torn;
+  now_torn.reserve(far.size());
+  auto known = torn.begin();
+  for (const std::int32_t cluster : far) {
+    while (known != torn.end() && known->cluster < cluster) ++known;
+    now_torn.push_back(
+        taker.take(cluster, known != torn.end() && known->cluster == cluster ? &*known : nullptr));
+  }
+  torn = std::move(now_torn);
+}
+
+void ClusterPairs::refresh_shifts(const Box& now) {
   const detail::CellImages images(now);
   const detail::BinaryGrid grid(list_radius);
-  const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
-  for (std::size_t c = 0; c < at.size(); ++c) {
-    const Vec3 center = origin[static_cast<std::size_t>(origin_of[c])];
-    const std::int32_t* const particles_of = &particle[c * kSlots];
-    const ClusterOfFour<double>& before = at[c];
-    ClusterOfFour<double> now_at;  // taken straight from the new positions, so that rounding does not add up
-    for (int slot = 0; slot < kSlots; ++slot) {
-      const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
-      put(positions[static_cast<std::size_t>(i)] - center, slot, now_at);
-    }
-    if (!all_within(safe2, before, now_at)) {
-      for (int slot = 0; slot < kSlots; ++slot) {
-        const std::int32_t i = particles_of[particles_of[slot] == kPadding ? 0 : slot];
-        const Vec3 moved = slot_of(now_at, slot) - slot_of(before, slot);
-        if (!std::isfinite(norm2(moved)))
-          throw InvalidPosition("position " + std::to_string(i) + " = " +
-                                detail::describe(positions[static_cast<std::size_t>(i)]) +
-                                " is not finite; check the coordinates of this step");
-        if (norm2(moved) < safe2) continue;
-        // The image is that nearest to where the particle was. The origin, which has few digits, is first
-        // moved to it: that does not round.
-        put(positions[static_cast<std::size_t>(i)] -
-                (center - images.vector(images.integers(now.nearest_image(moved) - moved))),
-            slot, now_at);
-      }
-    }
-    at[c] = now_at;
-    ClusterOfFour<float>& rounded = at_float[c];
-    round_axis(grid, now_at.x, rounded.x, rounded.center[0]);
-    round_axis(grid, now_at.y, rounded.y, rounded.center[1]);
-    round_axis(grid, now_at.z, rounded.z, rounded.center[2]);
-  }
   for (std::size_t s = 0; s < shift.size(); ++s) {
     const Vec3 between =
         origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
@@ -102,14 +168,13 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
       parts.low[axis] = static_cast<float>(vector[axis] - double{parts.high[axis]});
     }
   }
-  box = now;
 }
 
 std::size_t ClusterPairs::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return bytes_of(rows) + bytes_of(entries) + bytes_of(particle) + bytes_of(type) + bytes_of(origin_of) +
          bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_float) + bytes_of(shift_vector) +
-         bytes_of(shift_vector_float);
+         bytes_of(shift_vector_float) + bytes_of(torn);
 }
 
 }  // namespace dch

@@ -86,6 +86,14 @@ struct ClusterPairs {
   std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
   std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
 
+  /// A cluster whose particles were not all given in the image that is near its origin when refresh() last
+  /// took them.
+  struct Torn {
+    std::int32_t cluster;
+    Vec3 image[kSlots];  ///< in integer multiples of the cell vectors, to be added to each
+  };
+  std::vector<Torn> torn;  ///< by ascending cluster; what refresh() remembers from one time to the next
+
   std::size_t particles = 0;  ///< number of positions
   int types = 1;              ///< of ListParams::cutoffs
   double list_radius = 1;     ///< of the ListParams [length]
@@ -124,6 +132,10 @@ struct ClusterPairs {
   void refresh(Span<const Vec3> positions, const Box& now);
 
   std::size_t memory_bytes() const;
+
+ private:
+  void refresh_clusters(Span<const Vec3> positions, const Box& now);
+  void refresh_shifts(const Box& now);
 };
 
 }  // namespace dch

@@ -19,6 +19,19 @@ struct BoxArrays {
 /// Arrays of boxes are read up to this many entries beyond.
 inline constexpr int kBoxesAtOnce = 16;
 
+/// New positions for clusters.
+struct RefreshTask {
+  std::int32_t count;             ///< of clusters
+  const std::int32_t* particle;   ///< by slot; negative for padding, which stands where the first one does
+  const std::int32_t* origin_of;  ///< by cluster
+  const Vec3* origin;
+  const Vec3* positions;           ///< by particle
+  double safe2;                    ///< squared distance that a particle moves less than in one image
+  double grid;                     ///< BinaryGrid::addend()
+  ClusterOfFour<double>* at;       ///< by cluster, where they were; written
+  ClusterOfFour<float>* at_float;  ///< by cluster; written
+};
+
 /// Bonds, and coefficients by type: k, 1/r0^2, sigma^2, 48 epsilon.
 struct FeneTask {
   const BondOfType* bonds;
@@ -42,6 +55,11 @@ struct ClusterKernels {
   /// limit2. Returns how many. All sets keep the same.
   std::int32_t (*near_clusters)(const ClusterOfFour<float>* clusters, const ClusterOfFour<float>& own,
                                 float limit2, std::int32_t* chosen, std::int32_t count);
+
+  /// Takes positions, but for the clusters of which one particle seems to have moved farther, or nowhere
+  /// finite: those it leaves as they were, and writes their numbers, ascending; there has to be room for all.
+  /// Returns how many. All sets do the same.
+  std::int32_t (*refresh)(const RefreshTask& task, std::int32_t* far);
 
   LjFunctions<LjTask<float>> mixed;
   LjFunctions<LjTask<double>> full;

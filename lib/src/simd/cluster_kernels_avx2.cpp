@@ -4,6 +4,7 @@
 #include "cluster_kernels_sets.hpp"
 #include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
+#include "refresh_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -176,9 +177,13 @@ struct Avx2Double {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx2() {
-  static constexpr ClusterKernels kKernels{
-      near_boxes<Avx2Float>,       near_clusters<Avx2Float>,         lj_functions_of<Avx2Float>,
-      lj_functions_of<Avx2Double>, lj_pair_functions_of<Avx2Double>, fene<Avx2Double>};
+  static constexpr ClusterKernels kKernels{near_boxes<Avx2Float>,
+                                           near_clusters<Avx2Float>,
+                                           refresh_clusters<Avx2Float>,
+                                           lj_functions_of<Avx2Float>,
+                                           lj_functions_of<Avx2Double>,
+                                           lj_pair_functions_of<Avx2Double>,
+                                           fene<Avx2Double>};
   return kKernels;
 }
 

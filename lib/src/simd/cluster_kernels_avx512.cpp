@@ -4,6 +4,7 @@
 #include "cluster_kernels_sets.hpp"
 #include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
+#include "refresh_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -197,9 +198,13 @@ struct Avx512Double {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_avx512() {
-  static constexpr ClusterKernels kKernels{
-      near_boxes<Avx512Float>,       near_clusters<Avx512Float>,         lj_functions_of<Avx512Float>,
-      lj_functions_of<Avx512Double>, lj_pair_functions_of<Avx512Double>, fene<Avx512Double>};
+  static constexpr ClusterKernels kKernels{near_boxes<Avx512Float>,
+                                           near_clusters<Avx512Float>,
+                                           refresh_clusters<Avx512Float>,
+                                           lj_functions_of<Avx512Float>,
+                                           lj_functions_of<Avx512Double>,
+                                           lj_pair_functions_of<Avx512Double>,
+                                           fene<Avx512Double>};
   return kKernels;
 }
 

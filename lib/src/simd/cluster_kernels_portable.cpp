@@ -2,6 +2,7 @@
 #include "cluster_kernels_sets.hpp"
 #include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
+#include "refresh_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -123,6 +124,7 @@ struct Portable {
 const ClusterKernels& cluster_kernels_portable() {
   static constexpr ClusterKernels kKernels{near_boxes<Portable<float>>,
                                            near_clusters<Portable<float>>,
+                                           refresh_clusters<Portable<float>>,
                                            lj_functions_of<Portable<float>>,
                                            lj_functions_of<Portable<double>>,
                                            lj_pair_functions_of<Portable<double>>,

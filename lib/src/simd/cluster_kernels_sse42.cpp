@@ -4,6 +4,7 @@
 #include "cluster_kernels_sets.hpp"
 #include "fene_kernels_loops.hpp"
 #include "lj_pair_kernels_loops.hpp"
+#include "refresh_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -175,9 +176,13 @@ struct SseDouble {
 }  // namespace
 
 const ClusterKernels& cluster_kernels_sse42() {
-  static constexpr ClusterKernels kKernels{
-      near_boxes<SseFloat>,       near_clusters<SseFloat>,         lj_functions_of<SseFloat>,
-      lj_functions_of<SseDouble>, lj_pair_functions_of<SseDouble>, fene<SseDouble>};
+  static constexpr ClusterKernels kKernels{near_boxes<SseFloat>,
+                                           near_clusters<SseFloat>,
+                                           refresh_clusters<SseFloat>,
+                                           lj_functions_of<SseFloat>,
+                                           lj_functions_of<SseDouble>,
+                                           lj_pair_functions_of<SseDouble>,
+                                           fene<SseDouble>};
   return kKernels;
 }
 
