@@ -2,12 +2,8 @@
 #include "cluster_pair_finder.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "binary_grid.hpp"
 #include "cell_images.hpp"
-#include "cluster_points.hpp"
 #include "metric.hpp"
 #include "near_images.hpp"
 
@@ -21,7 +17,6 @@ constexpr std::int32_t kMostShifts = 0x10000;          ///< that the entries of 
 /// Parts of the work for each thread, so that none waits long for the last one.
 constexpr int kPartsPerThread = 4;
 constexpr double kFloatRounding = 0x1p-24;
-
 /// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
 std::uint32_t spread(std::uint32_t slots) {
   return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
@@ -78,109 +73,6 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   }
   join(out);
 }
-
-// --- clusters
-
-template <class Metric>
-void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
-  nodes_.assign(static_cast<std::size_t>(scene.nodes.size()), Node());
-  std::int32_t clusters = 0;
-  for (std::int32_t k = 0; k < scene.nodes.size(); ++k) {
-    Node& node = nodes_[static_cast<std::size_t>(k)];
-    node.first = clusters;
-    if (!scene.nodes.is_alive(k)) continue;
-    std::int32_t points = 0;
-    for (std::int32_t b = scene.nodes.first_child[k]; b != kNone; b = scene.points.next[b])
-      points += scene.points.count[b];
-    node.clusters = (points + kSlots - 1) / kSlots;
-    clusters += node.clusters;
-  }
-  const auto all = static_cast<std::size_t>(clusters);
-  out.particles = scene.positions.size();
-  out.types = scene.request.radii.empty() ? scene.request.cutoffs.types() : 1;
-  out.list_radius = scene.request.list_radius();
-  out.box = scene.box;
-  out.particle.resize(all * kSlots);
-  out.type.resize(all * kSlots);
-  out.origin_of.resize(all);
-  out.at.resize(all);
-  out.at_float.resize(all);
-  // Positions relative to origins with few digits, and differences of those, hardly ever round.
-  const BinaryGrid grid(out.list_radius);
-  out.origin = scene.nodes.position;
-  for (Vec3& origin : out.origin) origin = {grid(origin.x), grid(origin.y), grid(origin.z)};
-  boxes_.make_room(all + kBoxesAtOnce);
-  filled_.resize(all);
-  ghost_.resize(all);
-  slot_of_.assign(scene.request.exclusions ? scene.positions.size() : 0, kNone);
-  for_ranges(executor, scene.nodes.size(), [&](std::int32_t first, std::int32_t last) {
-    std::vector<LocalPoint> local;
-    for (std::int32_t k = first; k < last; ++k)
-      if (scene.nodes.is_alive(k)) cut_node(scene, k, local, out);
-  });
-}
-
-template <class Metric>
-void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
-                                 ClusterPairs& out) {
-  const Vec3 center = scene.nodes.position[static_cast<std::size_t>(k)];
-  local.clear();
-  double extent2 = 0;
-  scene.points.for_each(scene.nodes.first_child[k], [&](std::int32_t slot) {
-    const Vec3 at = scene.metric.displacement(center, scene.points.position[slot]);
-    extent2 = std::max(extent2, norm2(at));
-    local.push_back({{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
-                     scene.points.id[slot]});
-  });
-  const auto count = static_cast<std::int32_t>(local.size());
-  order_by_fours(local.data(), count);
-  Node& node = nodes_[static_cast<std::size_t>(k)];
-  node.extent = std::sqrt(extent2);
-  for (std::int32_t n = 0; n < node.clusters; ++n) {
-    const std::int32_t c = node.first + n;
-    out.origin_of[static_cast<std::size_t>(c)] = k;
-    put_cluster(local.data() + std::ptrdiff_t{n} * kSlots, std::min(kSlots, count - n * kSlots), c,
-                scene.request, out);
-    for (int s = 0; s < 6; ++s) {
-      const float side = boxes_.side[s][static_cast<std::size_t>(c)];
-      node.box[s] = n == 0 ? side : s < 3 ? std::min(node.box[s], side) : std::max(node.box[s], side);
-    }
-  }
-}
-
-void ClusterPairFinder::put_cluster(const LocalPoint* points, std::int32_t count, std::int32_t c,
-                                    const ListParams& request, ClusterPairs& out) {
-  const auto cluster = static_cast<std::size_t>(c);
-  ClusterOfFour<double>& at = out.at[cluster];
-  ClusterOfFour<float>& rounded = out.at_float[cluster];
-  std::uint32_t ghosts = 0;
-  float box[6];
-  for (int axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
-  for (int slot = 0; slot < kSlots; ++slot) {
-    const LocalPoint& point = points[slot < count ? slot : 0];
-    for (int axis = 0; axis < 3; ++axis) {
-      box[axis] = std::min(box[axis], point.at[axis]);
-      box[axis + 3] = std::max(box[axis + 3], point.at[axis]);
-    }
-    rounded.x[slot] = point.at[0];
-    rounded.y[slot] = point.at[1];
-    rounded.z[slot] = point.at[2];
-    at.x[slot] = double{point.at[0]};  // near enough for refresh() to tell the image
-    at.y[slot] = double{point.at[1]};
-    at.z[slot] = double{point.at[2]};
-    const std::size_t k = cluster * kSlots + static_cast<std::size_t>(slot);
-    out.particle[k] = slot < count ? point.index : kNone;
-    out.type[k] = slot < count && out.types > 1 ? request.types[static_cast<std::size_t>(point.index)] : 0;
-    if (slot >= count) continue;
-    if (request.first_ghost >= 0 && point.index >= request.first_ghost) ghosts |= 1u << slot;
-    if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(point.index)] = static_cast<std::int32_t>(k);
-  }
-  boxes_.set(cluster, box);
-  filled_[cluster] = static_cast<std::uint8_t>((1u << count) - 1);
-  ghost_[cluster] = static_cast<std::uint8_t>(ghosts);
-}
-
-// --- pairs
 
 /// Each pair of nodes once: in the turn of the one that comes first. A node meets itself once, and in each of
 /// half of its images.
@@ -239,7 +131,7 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
     }
     for (int s = 0; s < 6; ++s) part.boxes.side[s][part.near.size()] = boxes_.side[s][cluster] + by[s % 3];
     part.near.push_back(moved);
-    part.source.push_back({c, shift});
+    part.source.push_back({c, shift, filled_[cluster], ghost_[cluster]});
   }
 }
 
@@ -256,6 +148,9 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   found = kernels_->near_clusters(part.near.data() + own, part.near[static_cast<std::size_t>(own)], limit2_,
                                   chosen, found);
   const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
+  const bool any_shift = part.source.back().shift - first_shift < kMostShifts;
+  if (!excludes && !drops_types_ && ghost_[static_cast<std::size_t>(c)] == 0 && any_shift)
+    return append_whole_row(c, own, first_shift, found, part);
   if (excludes) mark_exclusions(*request.exclusions, c, clusters, part);
   const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
   const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
@@ -265,12 +160,11 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   ClusterPairs::Entry* to = first + before;
   bool has_row = false;
   for (std::int32_t n = 0; n < found; ++n) {
-    const auto [other, shift] =
+    const auto [other, shift, filled_there, ghosts_there] =
         part.source[static_cast<std::size_t>(own) + static_cast<std::size_t>(chosen[n])];
-    const auto b = static_cast<std::size_t>(other);
-    std::uint32_t mask = filled * filled_[b] & ~(ghosts * ghost_[b]);
+    std::uint32_t mask = filled * filled_there & ~(ghosts * ghosts_there);
     if (chosen[n] == 0) mask &= kPairsWithinCluster;
-    if (excludes) mask &= ~std::uint32_t{part.excluded[b]};
+    if (excludes) mask &= ~std::uint32_t{part.excluded[static_cast<std::size_t>(other)]};
     if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
     if (mask == 0) continue;
     if (!has_row || shift - first_shift >= kMostShifts) {
@@ -284,17 +178,52 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   if (excludes) unmark_exclusions(*request.exclusions, c, clusters, part);
 }
 
+/// The same where every slot that is no padding is wanted in every pair.
+void ClusterPairFinder::append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift,
+                                         std::int32_t found, Part& part) const {
+  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
+  const Source* const from = part.source.data() + own;
+  const std::int32_t* chosen = part.chosen.data();
+  const std::uint32_t within = filled * filled_[static_cast<std::size_t>(c)] & kPairsWithinCluster;
+  const std::int32_t skipped = within == 0;  // a point alone in its cluster, which is the first one found
+  if (found == skipped) return;
+  const std::size_t before = part.entries.size();
+  part.rows.push_back({static_cast<std::int64_t>(before), c, first_shift});
+  part.entries.resize(before + static_cast<std::size_t>(found - skipped));
+  ClusterPairs::Entry* const to = part.entries.data() + before;
+  for (std::int32_t n = skipped; n < found; ++n) {
+    const Source& there = from[chosen[n]];
+    to[n - skipped] = {there.cluster, static_cast<std::uint16_t>(filled * there.filled),
+                       static_cast<std::uint16_t>(there.shift - first_shift)};
+  }
+  if (within != 0) to[0].mask = static_cast<std::uint16_t>(within);
+}
+
 /// All parts behind each other.
 void ClusterPairFinder::join(ClusterPairs& out) {
+  out.rows.clear();
+  out.entries.clear();
+  out.shift.clear();
+  if (parts_.size() == 1) {
+    out.rows.swap(parts_[0].rows);
+    out.entries.swap(parts_[0].entries);
+    out.shift.swap(parts_[0].shift);
+  } else {
+    append_parts(out);
+  }
+  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
+  out.torn.clear();
+  out.shift_vector.resize(out.shift.size());
+  out.shift_vector_float.resize(out.shift.size());
+}
+
+void ClusterPairFinder::append_parts(ClusterPairs& out) const {
   std::size_t rows = 0, entries = 0, shifts = 0;
   for (const Part& part : parts_) {
     rows += part.rows.size();
     entries += part.entries.size();
     shifts += part.shift.size();
   }
-  out.rows.clear();
-  out.entries.clear();
-  out.shift.clear();
   out.rows.reserve(rows + 1);
   out.entries.reserve(entries);
   out.shift.reserve(shifts);
@@ -306,10 +235,6 @@ void ClusterPairFinder::join(ClusterPairs& out) {
     out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());
     out.shift.insert(out.shift.end(), part.shift.begin(), part.shift.end());
   }
-  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
-  out.torn.clear();
-  out.shift_vector.resize(out.shift.size());
-  out.shift_vector_float.resize(out.shift.size());
 }
 
 #define DCH_INSTANTIATE(Metric) \

@@ -60,6 +60,7 @@ class ClusterPairFinder {
   /// Which cluster stands near a node, and by which of the part's shifts.
   struct Source {
     std::int32_t cluster, shift;
+    std::uint8_t filled, ghosts;  ///< a bit for each slot
   };
   /// What one part of the work finds and needs.
   struct Part {
@@ -73,19 +74,34 @@ class ClusterPairFinder {
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
   };
 
+  /// How the points of a node were ordered, which holds as long as it has the same ones and they have not
+  /// moved much. Both by slot of the node's clusters.
+  struct Cut {
+    std::int32_t first = 0, points = 0;
+    std::int32_t age = 0;  ///< searches since
+  };
+  struct Cuts {
+    std::vector<Cut> of_node;
+    std::vector<std::int32_t> id;     ///< points as PointBlocks has them
+    std::vector<std::int32_t> place;  ///< which of those comes next in the order
+  };
+
   template <class Metric>
   void cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
   template <class Metric>
   void cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
-                ClusterPairs& out);
-  void put_cluster(const LocalPoint* points, std::int32_t count, std::int32_t c, const ListParams& request,
-                   ClusterPairs& out);
+                std::vector<LocalPoint>& ordered, ClusterPairs& out);
+  bool order_as_before(std::int32_t k);
+  void put_cluster(const LocalPoint* points, const std::int32_t* ids, std::int32_t count, std::int32_t c,
+                   const ListParams& request, ClusterPairs& out);
   template <class Metric>
   void find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters, Part& part);
   void collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image, const ClusterPairs& clusters,
                Part& part);
   void append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift, const ListParams& request,
                   const ClusterPairs& clusters, Part& part);
+  void append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift, std::int32_t found,
+                        Part& part) const;
   template <class F>
   void for_each_excluded(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
                          const F& f) const;
@@ -97,6 +113,7 @@ class ClusterPairFinder {
                                              const ClusterPairs& clusters);
   double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
+  void append_parts(ClusterPairs& out) const;
 
   const ClusterKernels* kernels_ = nullptr;
   CellImages images_{Box()};
@@ -104,6 +121,7 @@ class ClusterPairFinder {
   bool drops_types_ = false;  ///< whether some pair of types has no cutoff
   float limit2_ = 0;          ///< squared reach with its margin
   std::vector<Node> nodes_;
+  Cuts cuts_, last_cuts_;              ///< of this search and of the one before
   Boxes boxes_;                        ///< of all clusters, each relative to its node
   std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost

@@ -60,6 +60,8 @@ std::size_t ClusterPairFinder::memory_bytes() const {
   };
   std::size_t bytes =
       bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
+  for (const Cuts* cuts : {&cuts_, &last_cuts_})
+    bytes += bytes_of(cuts->of_node) + bytes_of(cuts->id) + bytes_of(cuts->place);
   for (const Part& part : parts_)
     bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) +
              bytes_of_boxes(part.boxes) + bytes_of(part.near) + bytes_of(part.source) +

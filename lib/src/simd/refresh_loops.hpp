@@ -38,7 +38,9 @@ std::int32_t refresh_clusters(const RefreshTask& task, std::int32_t* far) {
     const FourDoubles y = FourDoubles{of[0]->y, of[1]->y, of[2]->y, of[3]->y} - origin.y;
     const FourDoubles z = FourDoubles{of[0]->z, of[1]->z, of[2]->z, of[3]->z} - origin.z;
     ClusterOfFour<double>& at = task.at[c];
-    const FourDoubles dx = x - FourDoubles{at.x[0], at.x[1], at.x[2], at.x[3]}, dy = y - FourDoubles{at.y[0], at.y[1], at.y[2], at.y[3]}, dz = z - FourDoubles{at.z[0], at.z[1], at.z[2], at.z[3]};
+    const FourDoubles dx = x - FourDoubles{at.x[0], at.x[1], at.x[2], at.x[3]},
+                      dy = y - FourDoubles{at.y[0], at.y[1], at.y[2], at.y[3]},
+                      dz = z - FourDoubles{at.z[0], at.z[1], at.z[2], at.z[3]};
     const FourDoubles moved2 = dx * dx + dy * dy + dz * dz;
     const auto stays = moved2 < task.safe2;
     if ((stays[0] & stays[1] & stays[2] & stays[3]) == 0) {
