@@ -142,6 +142,8 @@ void AtomOrder::begin_run() {
   next_ = 0;
   obstacle_.clear();
   if (when_ == OrderAtoms::never) obstacle_ = "'dch order no' was given";
+  if (when_ == OrderAtoms::automatic && atom->molecular != Atom::ATOMIC)
+    obstacle_ = "atoms have bonds, and nothing is gained ('dch order yes')";
   if (atom->sortfreq <= 0) obstacle_ = "'atom_modify sort' is off";
   const int ours = modify->find_fix_by_style(FixDCHOrder::kStyle);
   for (int k = 0; k < modify->nfix; ++k) {

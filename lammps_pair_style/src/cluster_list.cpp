@@ -114,7 +114,7 @@ void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::Hierarchy& hiera
                       list.pair_list);
 }
 
-void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list) {
+void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list) {
   list.in_box = points.in_box();
   dch::ListParams params;
   params.cutoffs = cutoffs(list);
@@ -131,11 +131,13 @@ void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, Clus
   // `dch skin auto` changes the radius.
   if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
   if (list.one_by_one) {
+    params.shell = skin;
     fill_pair_list(points, hierarchy, params, list);
     if (static_cast<double>(list.count()) <= kFewNeighbors * points.owned()) return;
     list.one_by_one = false;
     list.pair_list = {};
   }
+  params.shell = 0;
   hierarchy.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
 }

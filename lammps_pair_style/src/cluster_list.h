@@ -54,7 +54,8 @@ class ClusterListFiller : protected Pointers {
       : Pointers(lammps), special_(special), rules_(rules) {}
 
   /// @param hierarchy brought up to date with the points
-  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list);
+  /// @param skin that the cutoffs have now [length]
+  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list);
   /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
   /// (-1).
   const std::vector<std::int32_t>& order(const ClusterList& list) const {

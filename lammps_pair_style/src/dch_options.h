@@ -8,8 +8,9 @@
 
 namespace dch::lammps {
 
-/// When atoms are put in memory in the order of the structure. `automatic`: unless a fix is in use that may
-/// draw random numbers atom by atom, so that another order would be another trajectory.
+/// When atoms are put in memory in the order of the structure. `automatic`: unless they have bonds, where
+/// nothing was gained, or a fix is in use that may draw random numbers atom by atom, so that another order
+/// would be another trajectory.
 enum class OrderAtoms { automatic, always, never };
 
 /// What one `dch ...` line of an input script asks for.

@@ -272,7 +272,7 @@ void NeighborDCH::fill_lists() {
 void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
   for (const std::shared_ptr<ClusterList>& clusters : clusters_) {
-    cluster_filler_.fill(points_, *dch::hierarchy_of(*search_), *clusters);
+    cluster_filler_.fill(points_, *dch::hierarchy_of(*search_), present_skin(), *clusters);
     run_.entries += clusters->count();
     run_.clusters_seconds += seconds_since(clock);
   }
@@ -304,6 +304,7 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   params.order = dch::RowOrder::by_structure;
   params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
   params.cutoffs = dch::TypeCutoffs(cutneighmax);
+  params.shell = present_skin();
   if (served.ghost) return params;
   if (cutneighmin == cutneighmax) params.cutoffs = dch::TypeCutoffs(std::sqrt(cutneighsq[1][1]));
   if (served.by_radius) {
@@ -318,6 +319,8 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   }
   return params;
 }
+
+double NeighborDCH::present_skin() const { return tuner_ ? tuner_->skin() : skin; }
 
 dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
   const int n = atom->ntypes;

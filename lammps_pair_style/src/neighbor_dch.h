@@ -110,6 +110,7 @@ class NeighborDCH : public Neighbor {
   bool may_use_box() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
+  double present_skin() const;
   dch::SearchStats search_stats() const { return search_ ? search_->stats() : dch::SearchStats(); }
   void check_against_native();
 

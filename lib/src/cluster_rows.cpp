@@ -18,6 +18,7 @@ void start(NeighborList& list) {
   list.kind = ListKind::half;
   list.first.assign(1, 0);
   list.particle.clear();
+  list.near_end.clear();
   list.j.resize(list.j.capacity());
   list.margin = 0;
 }
@@ -126,6 +127,9 @@ void ClusterRows::append_pieces(Executor& executor, std::size_t list, NeighborLi
   }
   out.first.resize(first_row.back() + 1);
   out.particle.resize(first_row.back());
+  const bool has_shell = std::any_of(parts_.begin(), parts_.end(),
+                                     [&](const Part& part) { return !part.lists[list].near_end.empty(); });
+  out.near_end.resize(has_shell ? first_row.back() : 0);
   if (out.j.size() < first_entry.back()) out.j.resize(first_entry.back());
   executor.run(static_cast<int>(parts_.size()), [&](int part) {
     const auto p = static_cast<std::size_t>(part);
@@ -133,6 +137,8 @@ void ClusterRows::append_pieces(Executor& executor, std::size_t list, NeighborLi
     std::copy(piece.particle.begin(), piece.particle.end(),
               out.particle.begin() + static_cast<std::ptrdiff_t>(first_row[p]));
     std::copy_n(piece.j.data(), piece.first.back(), out.j.data() + first_entry[p]);
+    for (std::size_t r = 0; r < piece.near_end.size(); ++r)
+      out.near_end[first_row[p] + r] = static_cast<std::int64_t>(first_entry[p]) + piece.near_end[r];
     for (std::size_t r = 0; r < piece.size(); ++r)
       out.first[first_row[p] + r + 1] = static_cast<std::int64_t>(first_entry[p]) + piece.first[r + 1];
   });
@@ -164,6 +170,7 @@ void ClusterRows::find_by_distance(const Metric& metric, const ListSource& sourc
       }
       out.particle.push_back(i);
       out.first.push_back(static_cast<std::int64_t>(end));
+      if (filter.params().shell > 0) out.near_end.push_back(static_cast<std::int64_t>(end));
     }
   }
 }
@@ -174,6 +181,7 @@ std::size_t ClusterRows::memory_bytes() const {
     bytes += part.finder.memory_bytes();
     for (const NeighborList& piece : part.lists)
       bytes += piece.first.capacity() * sizeof(std::int64_t) +
+               piece.near_end.capacity() * sizeof(std::int64_t) +
                (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);
   }
   return bytes;

@@ -42,6 +42,7 @@ class ListAssembler {
   void assemble(std::size_t n, ListKind kind, std::int32_t first_ghost, const ForEachPair& for_each,
                 NeighborList& out) {
     out.particle.clear();
+    out.near_end.clear();
     out.margin = 0;
     if (kind == ListKind::half) {
       assemble_half(n, for_each, out);

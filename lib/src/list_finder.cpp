@@ -26,31 +26,38 @@ bool is_ready_as_found(const ListParams& request) {
 }
 
 /// From rows that hold each pair once, in either row, rows of the same particles in the same order that hold
-/// it in the rows of both (full) or of the one that is not a ghost.
+/// it in the rows of both (full) or of the one that is not a ghost. Near ones stay first.
 void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, std::int32_t first_ghost,
                       NeighborList& out) {
+  const std::size_t rows = found.particle.size();
+  const bool has_shell = !found.near_end.empty();
   const auto may_own = [&](std::int32_t particle) { return first_ghost < 0 || particle < first_ghost; };
-  const auto for_each_entry = [&](const auto& f) {  // f(owner, other)
-    for (std::size_t r = 0; r < found.particle.size(); ++r) {
-      const std::int32_t i = found.particle[r];
-      for (const std::int32_t j : found.row(r)) {
-        if (may_own(i)) f(i, j);
-        if (may_own(j) && (kind == ListKind::full || !may_own(i))) f(j, i);
-      }
+  const auto take_row = [&](std::size_t r, std::int64_t first, std::int64_t last, const auto& f) {
+    const std::int32_t i = found.particle[r];
+    for (std::int64_t k = first; k < last; ++k) {  // f(owner, other)
+      const std::int32_t j = found.j[static_cast<std::size_t>(k)];
+      if (may_own(i)) f(i, j);
+      if (may_own(j) && (kind == ListKind::full || !may_own(i))) f(j, i);
     }
   };
   std::vector<std::int32_t> row_of(n, kNone);
-  for (std::size_t r = 0; r < found.particle.size(); ++r)
-    row_of[found.particle[r]] = static_cast<std::int32_t>(r);
+  for (std::size_t r = 0; r < rows; ++r) row_of[found.particle[r]] = static_cast<std::int32_t>(r);
   out.kind = kind;
   out.particle = found.particle;
-  out.first.assign(found.particle.size() + 1, 0);
-  for_each_entry([&](std::int32_t owner, std::int32_t) { ++out.first[row_of[owner] + 1]; });
-  for (std::size_t r = 0; r < found.particle.size(); ++r) out.first[r + 1] += out.first[r];
+  out.first.assign(rows + 1, 0);
+  const auto count = [&](std::int32_t owner, std::int32_t) { ++out.first[row_of[owner] + 1]; };
+  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.first[r], found.first[r + 1], count);
+  for (std::size_t r = 0; r < rows; ++r) out.first[r + 1] += out.first[r];
   if (out.j.size() < static_cast<std::size_t>(out.first.back()))
     out.j.resize(static_cast<std::size_t>(out.first.back()));
   std::vector<std::int64_t> next(out.first.begin(), out.first.end());
-  for_each_entry([&](std::int32_t owner, std::int32_t other) { out.j[next[row_of[owner]]++] = other; });
+  const auto put = [&](std::int32_t owner, std::int32_t other) { out.j[next[row_of[owner]]++] = other; };
+  for (std::size_t r = 0; r < rows; ++r)
+    take_row(r, found.first[r], has_shell ? found.near_end[r] : found.first[r + 1], put);
+  out.near_end.clear();
+  if (!has_shell) return;
+  out.near_end.assign(next.begin(), next.end() - 1);
+  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.near_end[r], found.first[r + 1], put);
 }
 
 }  // namespace
@@ -93,6 +100,7 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
     for (const std::int32_t particle : scene.lone) {
       list->particle.push_back(particle);
       list->first.push_back(list->first.back());
+      if (!list->near_end.empty()) list->near_end.push_back(list->first.back());
     }
   }
   for (std::size_t r = 0; r < requests.size(); ++r)
@@ -119,7 +127,7 @@ void ListFinder::put_in_order(const ListParams& request, std::size_t n, const Ne
 std::size_t ListFinder::memory_bytes() const {
   std::size_t bytes = cluster_rows_.memory_bytes() + assembler_.memory_bytes();
   for (const NeighborList& list : found_)
-    bytes += list.first.capacity() * sizeof(std::int64_t) +
+    bytes += (list.first.capacity() + list.near_end.capacity()) * sizeof(std::int64_t) +
              (list.particle.capacity() + list.j.capacity()) * sizeof(std::int32_t);
   return bytes;
 }

@@ -27,6 +27,8 @@ class Rounding {
   double off() const { return off_; }
   std::int16_t in(double reach) const { return clamped(std::floor(limit(reach) - band(reach)) + 1); }
   std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
+  /// Without regard to rounding.
+  std::int16_t nearest(double reach) const { return clamped(std::round(limit(std::max(reach, 0.0)))); }
   /// How far beyond `reach` a pair with a square below limit(reach) + `above` may be [length].
   double margin(double reach, double above) const {
     return std::sqrt((limit(reach) + above + band(reach)) * kSquareScale) * unit_ - reach;
@@ -42,14 +44,16 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
     : by(filter.by()) {
   const Rounding rounding(point_unit, error);
   const ListParams& params = filter.params();
+  has_shell = params.shell > 0;
   const double largest = std::sqrt(filter.largest_distance2());
   const auto widen = [&](double pair_reach, double above) {
     margin = std::max(margin, rounding.margin(pair_reach, above));
   };
   switch (by) {
     case PairFilter::By::one_cutoff:
-      in = rounding.in(largest);
-      out = rounding.out(largest);
+      all.in = rounding.in(largest);
+      all.out = rounding.out(largest);
+      near.in = near.out = rounding.nearest(largest - params.shell);
       cutoff = largest / point_unit;
       off = rounding.off();
       widen(largest, rounding.band(largest) + 1);
@@ -62,8 +66,9 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       const double farthest_pair = std::min(largest, reach);
       const double sizes = (2 * kOff * farthest_pair / point_unit + kOff * kOff) / kSquareScale + 0.5;
       const double whole = std::floor(rounding.band(farthest_pair) + sizes) + 1;
-      band = clamped(whole);
-      skin = clamped(std::round(params.skin / point_unit));
+      all.band = clamped(whole);
+      all.skin = clamped(std::round(params.skin / point_unit));
+      near.skin = clamped(std::round((params.skin - params.shell) / point_unit));
       widen(2 * filter.least_radius() + params.skin, whole + sizes);
       return;
     }
@@ -73,13 +78,15 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
   const int types = params.cutoffs.types();
   per_pair = types > kKernelTypes;
   if (per_pair) {
-    out = rounding.out(largest);
+    all.out = rounding.out(largest);
+    near.in = near.out = rounding.nearest(largest - params.shell);
     return;  // decided pair by pair, whatever the margin
   }
   off = rounding.off();
   type_cutoff.resize(static_cast<std::size_t>(types));
-  type_in.resize(static_cast<std::size_t>(types));
-  type_out.resize(static_cast<std::size_t>(types));
+  all.type_in.resize(static_cast<std::size_t>(types));
+  all.type_out.resize(static_cast<std::size_t>(types));
+  near.type_in.resize(static_cast<std::size_t>(types));
   farthest = {};
   std::fill_n(farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
   for (int a = 0; a < types; ++a) {
@@ -87,12 +94,14 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       if (params.cutoffs(a, b) == 0) continue;
       const double far = params.cutoffs(a, b) + params.skin;
       type_cutoff[a][b] = far / point_unit;
-      type_in[a].limit[b] = rounding.in(far);
-      type_out[a].limit[b] = rounding.out(far);
-      farthest.limit[b] = std::max(farthest.limit[b], type_out[a].limit[b]);
+      all.type_in[a].limit[b] = rounding.in(far);
+      all.type_out[a].limit[b] = rounding.out(far);
+      near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
+      farthest.limit[b] = std::max(farthest.limit[b], all.type_out[a].limit[b]);
       widen(far, rounding.band(far) + 1);
     }
   }
+  near.type_out = near.type_in;
 }
 
 }  // namespace dch::detail

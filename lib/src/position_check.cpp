@@ -182,6 +182,12 @@ void check_skin(double skin) {
 
 void check_list_params(const ListParams& params, std::size_t n, double radius) {
   check_skin(params.skin);
+  if (!(std::isfinite(params.shell) && params.shell >= 0 &&
+        (params.radii.empty() || params.shell <= params.skin))) {
+    throw InvalidParameter(
+        "the shell is " + describe(params.shell) +
+        "; it must be finite, not negative and, where there are radii, not more than the skin");
+  }
   if (!params.radii.empty()) check_radii(params, n);
   if (!(std::isfinite(params.cutoff_error()) && params.cutoff_error() >= 0)) {
     throw InvalidParameter("the error of the test near the cutoff is " + describe(params.cutoff_error()) +

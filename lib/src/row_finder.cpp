@@ -155,11 +155,11 @@ std::int32_t RowFinder::filter(const ListLimits& limits, const BlockSpan& span, 
                                const Candidates& from, const std::uint32_t* valid, std::int32_t count,
                                const Candidates& to) const {
   if (limits.by == PairFilter::By::radii)
-    return kernels_->filter_by_size(span, static_cast<std::int16_t>(size + limits.skin), limits.band, from,
-                                    valid, count, to);
+    return kernels_->filter_by_size(span, static_cast<std::int16_t>(size + limits.all.skin), limits.all.band,
+                                    from, valid, count, to);
   if (limits.by == PairFilter::By::types && !limits.per_pair)
     return kernels_->filter_by_type(span, limits.farthest, from, valid, count, to);
-  return kernels_->filter(span, limits.out, from, valid, count, to);
+  return kernels_->filter(span, limits.all.out, from, valid, count, to);
 }
 
 // --- rows
@@ -209,29 +209,36 @@ void RowFinder::make_room_for_tests(std::int32_t count) {
   for (BlockTest& test : tests_) {
     test.near.make_room(room);
     test.mask.resize(entries);
+    test.near_mask.resize(entries);
   }
 }
 
 /// Tests a block against the candidates near it.
 void RowFinder::test_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                            BlockTest& test) {
-  const ListLimits& limits = request.limits;
+  test.chunks = rounded_up(test.count, kChunk) / kChunk;
+  // First, since unsettled_ has to be left as the other test leaves it.
+  if (request.limits.has_shell)
+    test_against(request.limits, request.limits.near, points, block, test, test.near_mask.data());
+  test.left = test_against(request.limits, request.limits.all, points, block, test, test.mask.data());
+}
+
+std::int32_t RowFinder::test_against(const ListLimits& limits, const PairLimits& pairs,
+                                     const ClusterPoints& points, std::int32_t block, BlockTest& test,
+                                     std::uint32_t* mask) {
   const Candidates candidates = test.near.at(0);
-  const std::int32_t count = test.count;
-  test.chunks = rounded_up(count, kChunk) / kChunk;
   if (limits.by == PairFilter::By::radii) {
     std::array<std::int16_t, kBlock> sizes = points.tags[block];
-    for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + limits.skin);
-    test.left = kernels_->test_by_size(points.points[block], sizes.data(), candidates, count, limits.band,
-                                       test.mask.data(), test.chunks, unsettled_.data());
-  } else if (limits.by == PairFilter::By::types && !limits.per_pair) {
-    test.left = kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, count,
-                                       limits.type_in.data(), limits.type_out.data(), test.mask.data(),
-                                       test.chunks, unsettled_.data());
-  } else {
-    test.left = kernels_->test(points.points[block], candidates, count, limits.in, limits.out,
-                               test.mask.data(), test.chunks, unsettled_.data());
+    for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + pairs.skin);
+    return kernels_->test_by_size(points.points[block], sizes.data(), candidates, test.count, pairs.band,
+                                  mask, test.chunks, unsettled_.data());
   }
+  if (limits.by == PairFilter::By::types && !limits.per_pair)
+    return kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, test.count,
+                                  pairs.type_in.data(), pairs.type_out.data(), mask, test.chunks,
+                                  unsettled_.data());
+  return kernels_->test(points.points[block], candidates, test.count, pairs.in, pairs.out, mask, test.chunks,
+                        unsettled_.data());
 }
 
 /// In units, without the roundings of the kernels' squares.
@@ -250,7 +257,7 @@ double RowFinder::cutoff_of(const ListLimits& limits, const ClusterPoints& point
                             std::int32_t row, std::int16_t tag) {
   switch (limits.by) {
     case PairFilter::By::radii:
-      return points.tags[block][row] + tag + limits.skin;
+      return points.tags[block][row] + tag + limits.all.skin;
     case PairFilter::By::types:
       return limits.type_cutoff[points.tags[block][row]][tag];
     default:
@@ -319,13 +326,27 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
   for (std::int32_t row = 0; row < rows; ++row) {
     std::uint32_t* const mask = test.mask.data() + std::ptrdiff_t{row} * test.chunks;
     if (meets_itself) mask[0] &= ~0u << (row + 1);
-    std::int32_t* const to = out.j.data() + written;
-    std::int32_t length = kernels_->compress(mask, test.chunks, test.near.id.data(), to);
-    if (request.limits.per_pair || request.filter->restricts(ids[row]))
-      length = restrict_row(request, ids[row], to, length);
-    written += static_cast<std::size_t>(length);
+    if (request.limits.has_shell) {
+      std::uint32_t* const near = test.near_mask.data() + std::ptrdiff_t{row} * test.chunks;
+      for (std::int32_t chunk = 0; chunk < test.chunks; ++chunk) {
+        near[chunk] &= mask[chunk];
+        mask[chunk] &= ~near[chunk];
+      }
+      written += append_some(request, ids[row], near, test, out.j.data() + written);
+      out.near_end.push_back(static_cast<std::int64_t>(written));
+    }
+    written += append_some(request, ids[row], mask, test, out.j.data() + written);
     row_end[row] = static_cast<std::int64_t>(written);
   }
+}
+
+/// Returns how many.
+std::size_t RowFinder::append_some(const Request& request, std::int32_t particle, const std::uint32_t* mask,
+                                   const BlockTest& test, std::int32_t* to) const {
+  std::int32_t length = kernels_->compress(mask, test.chunks, test.near.id.data(), to);
+  if (request.limits.per_pair || request.filter->restricts(particle))
+    length = restrict_row(request, particle, to, length);
+  return static_cast<std::size_t>(length);
 }
 
 /// Exclusions and ghosts, and cutoffs where the kernels did not know them. Returns how many are left.
@@ -353,7 +374,8 @@ std::size_t RowFinder::memory_bytes() const {
   for (const CandidateStore* store : {&around_part_, &around_request_, &around_group_})
     bytes += store->memory_bytes();
   for (const std::vector<BlockRange>& ranges : ranges_) bytes += bytes_of(ranges);
-  for (const BlockTest& test : tests_) bytes += test.near.memory_bytes() + bytes_of(test.mask);
+  for (const BlockTest& test : tests_)
+    bytes += test.near.memory_bytes() + bytes_of(test.mask) + bytes_of(test.near_mask);
   return bytes;
 }
 

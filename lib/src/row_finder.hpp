@@ -46,6 +46,7 @@ class RowFinder {
 
  private:
   using Cluster = ClusterPoints::Cluster;
+  using PairLimits = ListLimits::PairLimits;
   struct CandidateStore {
     AlignedVector<std::int16_t> x, y, z, tag;
     AlignedVector<std::int32_t> id;
@@ -60,6 +61,8 @@ class RowFinder {
     std::int32_t count = 0, chunks = 0;
     std::int32_t left = 0;              ///< entries of unsettled_
     AlignedVector<std::uint32_t> mask;  ///< row by chunk
+    AlignedVector<std::uint32_t>
+        near_mask;  ///< the same, of those that come first in their row, where asked for
   };
   /// A pair that the kernels could not decide.
   struct OpenPair {
@@ -92,6 +95,8 @@ class RowFinder {
                    const Candidates& around_part, std::int32_t count, NeighborList& out);
   void make_room_for_tests(std::int32_t count);
   void test_block(const Request& request, const ClusterPoints& points, std::int32_t block, BlockTest& test);
+  std::int32_t test_against(const ListLimits& limits, const PairLimits& pairs, const ClusterPoints& points,
+                            std::int32_t block, BlockTest& test, std::uint32_t* mask);
   static double cutoff_of(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
                           std::int32_t row, std::int16_t tag);
   static double squared_distance(const BlockPoints& points, std::int32_t row, const CandidateStore& near,
@@ -103,6 +108,8 @@ class RowFinder {
                                  std::int32_t last);
   void append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                     bool meets_itself, BlockTest& test, NeighborList& out);
+  std::size_t append_some(const Request& request, std::int32_t particle, const std::uint32_t* mask,
+                          const BlockTest& test, std::int32_t* to) const;
   std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,
                             std::int32_t count) const;
 

@@ -68,7 +68,10 @@ PairList pair_list_of(Hierarchy& hierarchy, const ListParams& request, const std
                       const Box& box) {
   NeighborList list;
   PairList pairs;
-  hierarchy.list(request, list);
+  ListParams by_structure = request;
+  by_structure.order = RowOrder::by_structure;
+  by_structure.shell = request.skin;
+  hierarchy.list(by_structure, list);
   const auto all = [](std::int32_t, std::int32_t) { return true; };
   make_pair_list(list, request.list_radius(), points, box, request.types, all, pairs);
   EXPECT_EQ(pairs.pairs(), list.pairs());

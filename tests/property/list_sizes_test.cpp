@@ -135,6 +135,58 @@ TEST_P(ListSizes, ExclusionsAndGhosts) {
   }
 }
 
+/// What is wrong with the order of near and far neighbors in the rows of a list with a shell; empty if
+/// nothing.
+std::string fault_of_shell(const NeighborList& list, const std::vector<Vec3>& points, const Box& box,
+                           const SizeModel& model, double shell) {
+  if (list.near_end.size() != list.size()) return "no end of near ones for each row";
+  const double off = 2e-3 * kReach * kReach;
+  for (std::size_t row = 0; row < list.size(); ++row) {
+    if (list.near_end[row] < list.first[row] || list.near_end[row] > list.first[row + 1])
+      return "end outside of row";
+    for (std::int64_t k = list.first[row]; k < list.first[row + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(list.particle[row]);
+      const auto j = static_cast<std::size_t>(list.j[static_cast<std::size_t>(k)]);
+      const double limit = std::max(model.reach(i, j) - shell, 0.0);
+      const double beyond = box.distance2(points[i], points[j]) - limit * limit;
+      if (k < list.near_end[row] ? beyond > off : beyond < -off)
+        return "pair " + std::to_string(i) + ", " + std::to_string(j) + " by " + std::to_string(beyond);
+    }
+  }
+  return "";
+}
+
+TEST_P(ListSizes, ShellComesLast) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::clustered(box, 400, 5);
+  std::vector<IndexPair> bonds;
+  for (std::int32_t i = 0; i + 1 < 400; ++i) bonds.push_back({i, i + 1});
+  const Exclusions exclusions = Exclusions::from_bonds(points.size(), bonds, 3);
+  const auto pool = make_thread_pool(3);
+  for (const SizeModel& model : size_models(points.size())) {
+    if (model.name == "20 types") continue;  // of which a list knows the largest cutoff alone
+    for (const double shell : {0.1, kSkin}) {
+      ListParams plain = model.params(), excluded = model.params(), ghosts = model.params();
+      excluded.exclusions = &exclusions;
+      excluded.kind = ListKind::full;
+      ghosts.first_ghost = 150;
+      for (ListParams params : {plain, excluded, ghosts}) {
+        params.shell = shell;
+        params.order = RowOrder::by_structure;
+        const NeighborList expected = all_pairs(points, box, params);
+        for (const bool size_classes : {false, true}) {
+          const auto search = search_with(size_classes, size_classes ? nullptr : pool.get());
+          search->update(points, box);
+          const NeighborList found = search->list(params);
+          ASSERT_EQ(first_difference(sorted_by_index(found, points.size()), expected), "") << model.name;
+          ASSERT_EQ(fault_of_shell(found, points, box, model, shell), "")
+              << model.name << ", shell " << shell;
+        }
+      }
+    }
+  }
+}
+
 // Particles move, come, go and change their sizes; named by keys or by their index.
 TEST_P(ListSizes, UnderMotion) {
   const Box box = GetParam().box;
@@ -353,6 +405,11 @@ TEST_P(ListSizes, BadInputIsRefusedAndForgotten) {
     ListParams wider = model.params();
     wider.skin = 2 * kSkin;
     EXPECT_THROW(search->list(wider), InvalidParameter) << "beyond the radius that the search was made for";
+    for (const double shell : {-0.1, std::nan(""), 1.1 * kSkin}) {
+      ListParams shelled = model.params();
+      shelled.shell = shell;
+      EXPECT_THROW(search->list(shelled), InvalidParameter) << shell;
+    }
     EXPECT_THROW(search->update(bad, box), InvalidPosition);
     EXPECT_THROW(search->list(model.params()), InvalidParameter) << "radii of particles that are not there";
     EXPECT_THROW(search->update(points, box, repeated), InvalidParameter);

@@ -28,6 +28,9 @@ struct NeighborList {
   std::vector<std::int64_t> first{0};
   std::vector<std::int32_t> j{};         ///< may be longer than first.back() if the order is by structure
   std::vector<std::int32_t> particle{};  ///< whose row it is; empty if row k is particle k
+  /// By row, the end of the neighbors before the shell (ListParams::shell); empty if none was asked for or
+  /// the order is by index.
+  std::vector<std::int64_t> near_end{};
   double margin =
       0;  ///< no pair is farther apart than its cutoff + skin + margin [length]; 0 for exact lists
 
@@ -109,6 +112,13 @@ struct ListParams {
   /// Particles from this index on are ghosts: pairs of two ghosts are left out, and the rows of ghosts are
   /// empty in full lists and in those ordered by structure. Negative: there are none.
   std::int32_t first_ghost = -1;
+
+  /// >= 0; where cutoffs go by radii, not more than the skin [length]. In lists by structure, neighbors that
+  /// are farther than their cutoff + skin less this come last in their row (NeighborList::near_end); 0 for no
+  /// such order. With the skin for a shell, a loop that tests the cutoff foretells what it finds. Squared
+  /// distances are rounded for this, by up to 2/1000 of that of the list radius; more than 16 types go by the
+  /// largest cutoff; and where the list radius reaches half the box, all count as nearer.
+  double shell = 0;
 
   /// Whether pairs a little farther apart than their cutoff + skin may be listed too, none being left out:
   /// cheaper, for callers that test the distance anyway. NeighborList::margin says how much farther.
