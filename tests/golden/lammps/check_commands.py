@@ -100,6 +100,13 @@ class OrderOfAtoms(unittest.TestCase):
         self.assertNotEqual(stock[0], told[0])
         self.assertIn(self.ORDERED, told[3])
 
+    def test_bonded_atoms_stay_where_they_are(self):
+        script = "include ${here}/in.chain\n"
+        for words in ("auto", "yes"):
+            output = run(f"include ${{load}}\ndch order {words}\n" + script, variables={"lists": "dch", "steps": 20})
+            self.assertEqual("atoms have bonds" in output, words == "auto")
+            self.assertEqual(self.ORDERED in output, words == "yes")
+
     def test_sorting_that_is_off_stays_off(self):
         output = self.last_frame(self.MELT.replace("sort 10 0", "sort 0 0") + "dch on\n")[3]
         self.assertIn("in LAMMPS's order: 'atom_modify sort' is off", output)
