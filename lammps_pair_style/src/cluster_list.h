@@ -54,7 +54,7 @@ class ClusterListFiller : protected Pointers {
       : Pointers(lammps), special_(special), rules_(rules) {}
 
   /// @param hierarchy brought up to date with the points
-  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list);
+  virtual void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list);
 
  private:
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;

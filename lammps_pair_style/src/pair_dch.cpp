@@ -169,13 +169,15 @@ void PairDCH::init_style() {
   clusters_.reset();
   pairs_of_types_.clear();
   has_kernel_ = false;
-  // The plain style checks its settings, and asks for a list, which is taken back.
+  // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
+  // this style's name, to compare with.
   const int requests = neighbor->nrequest;
   plain_->init_style();
   neighbor->nrequest = requests;
   const std::string reason = reason_for_plain();
-  clusters_ = NeighborDCH::install(lmp)->request_clusters(plain_name_ + "/dch", reason);
-  if (!clusters_) neighbor->request(this, instance_me);
+  NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
+  clusters_ = neighbor_dch->request_clusters(*this, plain_name_ + "/dch", reason);
+  if (!clusters_ || neighbor_dch->verifies()) neighbor->request(this, instance_me);
 }
 
 void PairDCH::init_list(int id, NeighList* neighbors) { plain_->init_list(id, neighbors); }

@@ -49,6 +49,7 @@ std::string work_table(const RunReport& r) {
       static_cast<long long>(r.refreshes));
   text += std::string("  points                  ") +
           (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";
+  text += "  instructions            " + r.instructions + "\n";
   if (r.skin > 0)
     text += line("  skin                    %g, %s", r.skin,
                  r.skin_settled ? "the fastest that was tried" : "still being looked for");

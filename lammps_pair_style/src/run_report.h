@@ -48,7 +48,8 @@ struct RunReport {
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
   double c = 0;
-  RunCounters counters;  ///< entries summed, builds and times the largest of any process
+  std::string instructions;  ///< name of the instruction set that the search uses
+  RunCounters counters;      ///< entries summed, builds and times the largest of any process
   std::int64_t atoms = 0;
   std::int64_t structures_built = 0, repairs = 0, refreshes = 0;          ///< the largest of any process
   std::int64_t promotions = 0, demotions = 0, inserted = 0, removed = 0;  ///< summed
