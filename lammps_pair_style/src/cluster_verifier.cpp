@@ -54,8 +54,8 @@ void ClusterVerifier::take_ours(const ClusterList& ours, double rounding, std::v
     out.push_back(pair_of(special.i, special.at, between(special.i, special.at), special.kind, rounding));
 }
 
-ClusterVerifier::Result ClusterVerifier::compare(const std::vector<ListEntry>& native, const ClusterList& ours,
-                                                 double rounding) const {
+ClusterVerifier::Result ClusterVerifier::compare(const std::vector<ListEntry>& native,
+                                                 const ClusterList& ours, double rounding) const {
   std::vector<AtomPair> pairs;
   take_native(native, ours.in_box, rounding, pairs);
   Result result;

@@ -66,8 +66,8 @@ void NeighborDCH::check_lists() {
 void NeighborDCH::check_clusters() {
   for (std::size_t k = 0; k < clusters_.size(); ++k) {
     if (clusters_[k].reference < 0) continue;
-    const ClusterVerifier::Result result = cluster_verifier_.compare(reference_entries_[k], *clusters_[k].list,
-                                                                     images_.error_within(cutneighmax));
+    const ClusterVerifier::Result result = cluster_verifier_.compare(
+        reference_entries_[k], *clusters_[k].list, images_.error_within(cutneighmax));
     if (!result.difference.empty())
       stop_at("the native list and the cluster pairs (" + list_name(*lists[clusters_[k].reference]) +
                   ") are not the same: " + result.difference,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// lmp-dch with mistakes in what force styles get in place of neighbor lists, to see that `dch verify` finds them:
+// lmp-dch with mistakes in what force styles get in place of neighbor lists, to see that `dch verify` finds
+// them:
 //     lmp_faulty_clusters none|drop|repeat|image|exclusions|bonds|weights [LAMMPS options]
 // From the third search on
 //     drop        a pair of cluster pairs, or of the pair list, is left out
@@ -115,7 +116,9 @@ std::string fault;
 class FaultyFiller : public ClusterListFiller {
  public:
   FaultyFiller(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::SpecialPairs& special, const LAMMPS_NS::PairRules& rules)
-      : ClusterListFiller(lammps, special, rules), forgotten_(lammps), forgetful_(lammps, special, forgotten_) {}
+      : ClusterListFiller(lammps, special, rules),
+        forgotten_(lammps),
+        forgetful_(lammps, special, forgotten_) {}
 
   void fill(AtomPoints& points, dch::Hierarchy& hierarchy, ClusterList& list) override {
     const bool is_faulty = ++fills_ >= 3;
