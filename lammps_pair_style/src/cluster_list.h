@@ -55,7 +55,7 @@ class ClusterListFiller : protected Pointers {
 
   /// @param hierarchy brought up to date with the points
   /// @param skin that the cutoffs have now [length]
-  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list);
+  virtual void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list);
   /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
   /// (-1).
   const std::vector<std::int32_t>& order(const ClusterList& list) const {

@@ -74,6 +74,11 @@ std::vector<AtomPair> unmatched(std::vector<AtomPair> pairs, double tolerance) {
   return out;
 }
 
+void drop_at_cutoff(std::vector<AtomPair>& pairs) {
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const AtomPair& p) { return p.at_cutoff; }),
+              pairs.end());
+}
+
 std::string describe(const AtomPair& pair) {
   char text[200];
   std::snprintf(text, sizeof text,

@@ -41,7 +41,8 @@ struct AtomPair {
   std::int64_t low = 0, high = 0;  ///< atom IDs, low <= high
   Vec3 displacement;               ///< from low to high [length]
   int special = 0;
-  bool native = false;  ///< seen in the native list, not in ours
+  bool native = false;     ///< seen in the native list, not in ours
+  bool at_cutoff = false;  ///< to within rounding: it may be in either alone
 
   double distance() const;
 };
@@ -55,6 +56,9 @@ AtomPair make_atom_pair(std::int64_t tag_i, std::int64_t tag_j, Vec3 d, int spec
 /// x_j - (x_i - L) differ in the last digits, but images are a whole box apart, so a small fraction of the
 /// box does as tolerance. O(n lg n).
 std::vector<AtomPair> unmatched(std::vector<AtomPair> pairs, double tolerance);
+
+/// Without those at their very cutoff.
+void drop_at_cutoff(std::vector<AtomPair>& pairs);
 
 /// "pair of atoms 17 and 1204 at distance 2.51, special bits 0: in the native list only".
 std::string describe(const AtomPair& pair);

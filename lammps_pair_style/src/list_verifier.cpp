@@ -109,9 +109,14 @@ std::string ListVerifier::compare(std::vector<ListEntry> native, std::vector<Lis
   std::vector<AtomPair> differences;
   append_pairs(local.native_only, true, differences);
   append_pairs(local.dch_only, false, differences);
-  if (served.newton) differences = exchange(differences);
-  differences = dch::lammps::unmatched(std::move(differences), served.newton ? image_tolerance() : -1.0);
+  return compare_pairs(std::move(differences), served.newton, served.newton ? image_tolerance() : -1.0);
+}
 
+std::string ListVerifier::compare_pairs(std::vector<AtomPair> pairs, bool over_processes,
+                                        double tolerance) const {
+  if (over_processes) pairs = exchange(pairs);
+  std::vector<AtomPair> differences = dch::lammps::unmatched(std::move(pairs), tolerance);
+  dch::lammps::drop_at_cutoff(differences);
   const auto mine = static_cast<std::int64_t>(differences.size());
   std::int64_t all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, world);

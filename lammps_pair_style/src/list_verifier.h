@@ -32,12 +32,20 @@ class ListVerifier : protected Pointers {
   std::string compare(std::vector<dch::lammps::ListEntry> native, std::vector<dch::lammps::ListEntry> ours,
                       const ServedList& served, double rounding) const;
 
+  /// The same message for pairs, of which each native one needs one of ours and the reverse.
+  /// @param over_processes whether the two may be with different processes
+  /// @param tolerance of displacements, as unmatched() has it [length]
+  std::string compare_pairs(std::vector<dch::lammps::AtomPair> pairs, bool over_processes,
+                            double tolerance) const;
+
+  /// Far more than rounding of displacements, far less than between two images of a pair [length].
+  double image_tolerance() const;
+
  private:
   bool is_at_cutoff(const dch::lammps::ListEntry& entry, const ServedList& served, double rounding) const;
   void append_pairs(const std::vector<dch::lammps::ListEntry>& entries, bool native,
                     std::vector<dch::lammps::AtomPair>& out) const;
   std::vector<dch::lammps::AtomPair> exchange(const std::vector<dch::lammps::AtomPair>& pairs) const;
-  double image_tolerance() const;
   std::string first_difference(const std::vector<dch::lammps::AtomPair>& differences) const;
 };
 

@@ -9,12 +9,12 @@
 #include <neigh_list.h>
 #include <new>
 #include <typeinfo>
-#include <update.h>
 #include <utility>
 
 #include <dch/error.hpp>
 
 #include "fix_dch_order.h"
+#include "neighbor_dch_only.h"
 
 namespace LAMMPS_NS {
 
@@ -42,38 +42,24 @@ std::unique_ptr<dch::PairSearch> dch::lammps::make_search(const HierarchyParams&
 
 namespace LAMMPS_NS {
 
-/// Restricts what Neighbor::build() builds to some of the perpetual lists while it lives.
-class NeighborDCH::OnlyTheseLists {
- public:
-  OnlyTheseLists(NeighborDCH& neighbor, std::vector<int>& lists)
-      : neighbor_(neighbor),
-        plist_(std::exchange(neighbor.plist, lists.data())),
-        npair_(std::exchange(neighbor.npair_perpetual, static_cast<int>(lists.size()))) {}
-  ~OnlyTheseLists() {
-    neighbor_.plist = plist_;
-    neighbor_.npair_perpetual = npair_;
-  }
-  OnlyTheseLists(const OnlyTheseLists&) = delete;
-  OnlyTheseLists& operator=(const OnlyTheseLists&) = delete;
+std::unique_ptr<ClusterListFiller> make_cluster_filler(LAMMPS* lammps, SpecialPairs& special,
+                                                       const PairRules& rules) {
+  return std::make_unique<ClusterListFiller>(lammps, special, rules);
+}
 
- private:
-  NeighborDCH& neighbor_;
-  int* plist_;
-  int npair_;
-};
-
-NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
+NeighborDCH::NeighborDCH(Neighbor* retired, const NeighborParts& parts)
     : Neighbor(*retired),
       retired_(retired),
       points_(lmp),
       order_(lmp),
       images_(lmp),
-      factory_(factory),
+      parts_(parts),
       special_(lmp),
       rules_(lmp),
       filler_(lmp, special_, rules_),
-      cluster_filler_(lmp, special_, rules_),
-      verifier_(lmp) {
+      cluster_filler_(parts.cluster_filler(lmp, special_, rules_)),
+      verifier_(lmp),
+      cluster_verifier_(lmp, verifier_, rules_) {
   // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
   // nothing.
   retired->*(&NeighborDCH::copymode) = 1;
@@ -81,7 +67,7 @@ NeighborDCH::NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory)
 
 NeighborDCH::~NeighborDCH() { show_bins(); }
 
-NeighborDCH* NeighborDCH::install(LAMMPS* lammps, dch::lammps::SearchFactory factory) {
+NeighborDCH* NeighborDCH::install(LAMMPS* lammps, const NeighborParts& parts) {
   const Neighbor& present = *lammps->neighbor;
   if (typeid(present) == typeid(NeighborDCH)) return static_cast<NeighborDCH*>(lammps->neighbor);
   if (lammps->kokkos) {
@@ -96,7 +82,7 @@ NeighborDCH* NeighborDCH::install(LAMMPS* lammps, dch::lammps::SearchFactory fac
         std::string("The dch command replaces LAMMPS's own neighbor class, but this LAMMPS runs another "
                     "one; use either, not both"));
   }
-  auto* ours = new NeighborDCH(lammps->neighbor, factory);
+  auto* ours = new NeighborDCH(lammps->neighbor, parts);
   lammps->neighbor = ours;
   return ours;
 }
@@ -127,17 +113,14 @@ void NeighborDCH::init() {
   before_run_ = {};
   clusters_ = std::exchange(requested_clusters_, {});
   notes_ = std::exchange(requested_notes_, {});
-  if (!enabled_) {
+  if (!enabled_ && clusters_.empty()) {
     served_.clear();
-    served_plist_.clear();
-    native_plist_.clear();
-    if (clusters_.empty()) {
-      tuner_.reset();
-      return;
-    }
+    tuner_.reset();
+    return;
   }
   rules_.copy_settings();
-  if (enabled_) classify_lists();
+  classify_references();
+  classify_lists();
   announce(before);
   if (served_.empty() && clusters_.empty()) {
     tuner_.reset();
@@ -184,7 +167,7 @@ void NeighborDCH::prepare_search() {
   try {
     if (threads != threads_) pool_ = threads_ > 1 ? dch::make_thread_pool(threads_) : nullptr;
     params_.executor = pool_.get();
-    search_ = factory_(params_);
+    search_ = parts_.search(params_);
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
   }
@@ -195,7 +178,7 @@ void NeighborDCH::prepare_search() {
 void NeighborDCH::hide_bins() {
   for (int m = 0; m < nlist; ++m) {
     const bool ours = std::find(served_plist_.begin(), served_plist_.end(), m) != served_plist_.end();
-    if (!ours && lists[m]->bin_method > 0) return;
+    if (!ours && is_needed(m) && lists[m]->bin_method > 0) return;
   }
   bins_hidden_ = true;
   all_bins_ = std::exchange(nbin, 0);
@@ -217,16 +200,15 @@ void NeighborDCH::show_bins() {
 
 void NeighborDCH::build(int topoflag) {
   if (tuner_) choose_skin();
-  if (!fills_lists()) {
-    if (!clusters_.empty()) build_ours();
+  if (!fills_lists() && clusters_.empty()) {
     Neighbor::build(topoflag);
     return;
   }
-  const bool verify = verify_every_ > 0 && run_.builds % verify_every_ == 0;
+  const bool verify = verifies_this_build();
   if (verify) build_native_reference();
   build_ours();
   if (verify) check_against_native();
-  OnlyTheseLists rest(*this, native_plist_);
+  OnlyTheseLists rest(*this, fills_lists() ? native_plist_ : needed_plist_);
   Neighbor::build(topoflag);
 }
 
@@ -271,9 +253,9 @@ void NeighborDCH::fill_lists() {
 
 void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
-  for (const std::shared_ptr<ClusterList>& clusters : clusters_) {
-    cluster_filler_.fill(points_, *dch::hierarchy_of(*search_), present_skin(), *clusters);
-    run_.entries += clusters->count();
+  for (const ServedClusters& clusters : clusters_) {
+    cluster_filler_->fill(points_, *dch::hierarchy_of(*search_), present_skin(), *clusters.list);
+    run_.entries += clusters.list->count();
     run_.clusters_seconds += seconds_since(clock);
   }
 }
@@ -281,7 +263,7 @@ void NeighborDCH::fill_clusters() {
 void NeighborDCH::order_atoms() {
   if (run_.builds == 0 || !order_.is_due()) return;
   const std::vector<std::int32_t>& points =
-      fills_lists() ? served_.front().rows.particle : cluster_filler_.order(*clusters_.back());
+      fills_lists() ? served_.front().rows.particle : cluster_filler_->order(*clusters_.back().list);
   std::vector<std::int32_t> atoms;
   atoms.reserve(points.size());
   for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
@@ -332,45 +314,6 @@ dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
     }
   }
   return dch::TypeCutoffs(n, std::move(matrix));
-}
-
-// --------------------------------------------------------------------------------------------------------------------
-// Checking them
-
-void NeighborDCH::build_native_reference() {
-  const bool were_hidden = bins_hidden_;
-  show_bins();
-  if (style != NSQ) setup_bins();
-  const bigint calls = ncalls;
-  double clock = MPI_Wtime();
-  {
-    OnlyTheseLists ours(*this, served_plist_);
-    Neighbor::build(0);
-  }
-  run_.verified_native_seconds += seconds_since(clock);
-  ncalls = calls;
-  if (were_hidden) hide_bins();
-  native_entries_.clear();
-  for (const ServedList& served : served_)
-    native_entries_.push_back(ListVerifier::entries(*lists[served.index], served));
-  run_.verified_dch_seconds -= run_.seconds();  // check_against_native() adds it again, this build included
-}
-
-void NeighborDCH::check_against_native() {
-  run_.verified_dch_seconds += run_.seconds();
-  for (std::size_t k = 0; k < served_.size(); ++k) {
-    const NeighList& list = *lists[served_[k].index];
-    std::vector<dch::lammps::ListEntry> ours = ListVerifier::entries(list, served_[k]);
-    const std::string difference = verifier_.compare(std::move(native_entries_[k]), std::move(ours),
-                                                     served_[k], images_.error_within(cutneighmax));
-    if (difference.empty()) continue;
-    error->all(FLERR, "dch verify: at step " + std::to_string(update->ntimestep) +
-                          " the native and the DCH list (" + list_name(list) +
-                          ") are not the same: " + difference +
-                          ". Give 'dch off' to go on with native lists, and please report the script");
-  }
-  ++run_.verified_builds;
-  run_.verified_entries += run_.entries;
 }
 
 }  // namespace LAMMPS_NS

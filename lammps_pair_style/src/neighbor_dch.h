@@ -16,6 +16,7 @@
 #include "atom_order.h"
 #include "atom_points.h"
 #include "cluster_list.h"
+#include "cluster_verifier.h"
 #include "ghost_images.h"
 #include "list_filler.h"
 #include "list_verifier.h"
@@ -33,6 +34,20 @@ std::unique_ptr<PairSearch> make_search(const HierarchyParams& params);
 
 namespace LAMMPS_NS {
 
+class Pair;
+
+/// Makes what fills cluster pairs; a ClusterListFiller, but for tests.
+using ClusterFillerFactory = std::unique_ptr<ClusterListFiller> (*)(LAMMPS*, SpecialPairs&, const PairRules&);
+
+std::unique_ptr<ClusterListFiller> make_cluster_filler(LAMMPS* lammps, SpecialPairs& special,
+                                                       const PairRules& rules);
+
+/// What a NeighborDCH is made of.
+struct NeighborParts {
+  dch::lammps::SearchFactory search = dch::lammps::make_search;
+  ClusterFillerFactory cluster_filler = make_cluster_filler;
+};
+
 /// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy: over the atoms in the
 /// periodic box where one process has it, else over owned and ghost atoms.
 ///
@@ -46,22 +61,23 @@ class NeighborDCH : public Neighbor {
  public:
   /// Takes over the state of `retired`, which is kept, emptied, until this object goes: parts of LAMMPS point
   /// into it until the next run initializes them. Lists are native until enable().
-  NeighborDCH(Neighbor* retired, dch::lammps::SearchFactory factory);
+  NeighborDCH(Neighbor* retired, const NeighborParts& parts);
   ~NeighborDCH() override;
   NeighborDCH(const NeighborDCH&) = delete;
   NeighborDCH& operator=(const NeighborDCH&) = delete;
 
   /// The NeighborDCH of this LAMMPS, put in the place of its stock Neighbor if there is none yet. Stops
   /// LAMMPS with a message if another class has taken that place.
-  static NeighborDCH* install(LAMMPS* lammps, dch::lammps::SearchFactory factory = dch::lammps::make_search);
+  static NeighborDCH* install(LAMMPS* lammps, const NeighborParts& parts = {});
 
   /// From the next run on, lists come from a hierarchy with this c (dch::HierarchyParams::c, at least 1.05).
   void enable(double c);
   /// All lists are native from their next build on.
   void disable();
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
-  /// compared.
+  /// compared. Cluster pairs are from the next run on, whose pair styles ask for the lists to compare with.
   void set_verify(int interval) { verify_every_ = interval; }
+  bool verifies() const { return verify_every_ > 0; }
   /// Threads that each process searches with, from the next run on.
   void set_threads(int threads) { threads_ = threads; }
   /// Whether runs from now on look for the skin with the least time a step, up to that of the script.
@@ -75,9 +91,11 @@ class NeighborDCH : public Neighbor {
   void order_atoms();
 
   /// Cluster pairs for the run that is about to begin, kept up at every build of lists from then on; whether
-  /// lists come from the hierarchy too or not. From a pair style's init_style().
+  /// lists come from the hierarchy too or not. From a pair style's init_style(). A half list that the style
+  /// asks LAMMPS for beside them is the one that they are compared with; it is built for that alone.
   /// @param obstacle why the style cannot use them, for dch stats; then there are none and null is returned
-  std::shared_ptr<ClusterList> request_clusters(const std::string& style_name, const std::string& obstacle);
+  std::shared_ptr<ClusterList> request_clusters(const Pair& asker, const std::string& style_name,
+                                                const std::string& obstacle);
 
   /// What the lists of the last run did, over all processes. Every process has to call it.
   dch::lammps::RunReport report() const;
@@ -89,7 +107,17 @@ class NeighborDCH : public Neighbor {
  private:
   class OnlyTheseLists;
 
+  /// Cluster pairs of a style, and the list that they are compared with.
+  struct ServedClusters {
+    std::shared_ptr<ClusterList> list;
+    const void* asker;   ///< the style, as LAMMPS knows who asked for a list
+    int reference = -1;  ///< in Neighbor::lists; -1 if there is none
+  };
+
   void classify_lists();
+  void classify_references();
+  void mark_needed(const NeighList* list, std::vector<char>& marks) const;
+  bool is_needed(int m) const { return needed_[static_cast<std::size_t>(m)] != 0; }
   std::string list_name(const NeighList& list) const;
   std::string native_reason(const NeighList& list) const;
   std::string reason_of_style(const NeighList& list) const;
@@ -112,7 +140,11 @@ class NeighborDCH : public Neighbor {
   dch::TypeCutoffs type_cutoffs() const;
   double present_skin() const;
   dch::SearchStats search_stats() const { return search_ ? search_->stats() : dch::SearchStats(); }
+  bool verifies_this_build() const;
   void check_against_native();
+  void check_lists();
+  void check_clusters();
+  [[noreturn]] void stop_at(const std::string& what, const std::string& remedy) const;
 
   std::unique_ptr<Neighbor> retired_;
   bool enabled_ = false;
@@ -126,8 +158,12 @@ class NeighborDCH : public Neighbor {
   std::vector<ServedList> served_;
   std::vector<int> served_plist_;  ///< perpetual lists that are ours
   std::vector<int> native_plist_;  ///< and those that are not, in LAMMPS's order of building
+  std::vector<int> needed_plist_;  ///< both: all but those that only `dch verify` looks at
+  std::vector<int>
+      verified_plist_;        ///< what it has LAMMPS build: ours, and what cluster pairs are compared with
+  std::vector<char> needed_;  ///< by list
   std::vector<dch::lammps::ListNote> notes_;
-  std::vector<std::shared_ptr<ClusterList>> clusters_, requested_clusters_;  ///< of this run, of the next
+  std::vector<ServedClusters> clusters_, requested_clusters_;  ///< of this run, of the next
   std::vector<dch::lammps::ListNote> requested_notes_;
   dch::ForcePrecision precision_ = dch::ForcePrecision::full;
   dch::HierarchyParams params_;
@@ -135,7 +171,7 @@ class NeighborDCH : public Neighbor {
   AtomPoints points_;
   AtomOrder order_;
   GhostImages images_;
-  dch::lammps::SearchFactory factory_;
+  NeighborParts parts_;
   int threads_ = 1;
   bool tunes_skin_ = false;
   std::optional<dch::lammps::SkinTuner> tuner_;  ///< in runs with a skin that is looked for
@@ -147,10 +183,11 @@ class NeighborDCH : public Neighbor {
   SpecialPairs special_;
   PairRules rules_;
   ListFiller filler_;
-  ClusterListFiller cluster_filler_;
+  std::unique_ptr<ClusterListFiller> cluster_filler_;
   ListVerifier verifier_;
-  std::vector<std::vector<dch::lammps::ListEntry>>
-      native_entries_;  ///< by served list, while one build is verified
+  ClusterVerifier cluster_verifier_;
+  /// By served list, by cluster pairs, while one build is verified.
+  std::vector<std::vector<dch::lammps::ListEntry>> native_entries_, reference_entries_;
 
   dch::lammps::RunCounters run_;
   dch::SearchStats before_run_;

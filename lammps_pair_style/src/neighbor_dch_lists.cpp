@@ -28,14 +28,50 @@ std::string derivation(const NeighList& list) {
 
 }  // namespace
 
+/// Marks a list and those that LAMMPS makes it from.
+void NeighborDCH::mark_needed(const NeighList* list, std::vector<char>& marks) const {
+  if (!list || std::exchange(marks[static_cast<std::size_t>(list->index)], 1)) return;
+  mark_needed(list->listcopy, marks);
+  mark_needed(list->listskip, marks);
+  mark_needed(list->listfull, marks);
+}
+
+/// Which lists are there for `dch verify` alone: those that styles with cluster pairs have asked for, and
+/// what only these are made from. LAMMPS may make a list that others read from one of them.
+void NeighborDCH::classify_references() {
+  const auto n = static_cast<std::size_t>(nlist);
+  std::vector<char> verified(n, 0);
+  needed_.assign(n, 0);
+  for (int m = 0; m < nlist; ++m) {
+    const NeighList& list = *lists[m];
+    const auto asks = [&](const ServedClusters& clusters) {
+      return list.requestor_type == NeighList::PAIR && list.requestor == clusters.asker && !list.occasional;
+    };
+    const auto asked = std::find_if(clusters_.begin(), clusters_.end(), asks);
+    if (asked != clusters_.end()) {
+      asked->reference = m;
+      mark_needed(&list, verified);
+    } else if (list.requestor_type != NeighList::NONE || list.occasional) {
+      mark_needed(&list, needed_);
+    }
+  }
+  needed_plist_.clear();
+  verified_plist_.clear();
+  for (int k = 0; k < npair_perpetual; ++k) {
+    const int m = plist[k];
+    if (is_needed(m)) needed_plist_.push_back(m);
+    const bool ours = enabled_ && is_needed(m) && native_reason(*lists[m]).empty();
+    if (ours || verified[static_cast<std::size_t>(m)]) verified_plist_.push_back(m);
+  }
+}
+
 void NeighborDCH::classify_lists() {
   served_plist_.clear();
   native_plist_.clear();
   std::vector<ServedList> served;
-  for (int k = 0; k < npair_perpetual; ++k) {
-    const int m = plist[k];
+  for (const int m : needed_plist_) {
     const NeighList& list = *lists[m];
-    if (!native_reason(list).empty()) {
+    if (!enabled_ || !native_reason(list).empty()) {
       native_plist_.push_back(m);
       continue;
     }
@@ -54,9 +90,10 @@ void NeighborDCH::classify_lists() {
     served_plist_.push_back(m);
   }
   served_ = std::move(served);
-  for (int m = 0; m < nlist; ++m) {
+  for (int m = 0; m < nlist && enabled_; ++m) {
     if (lists[m]->pair_method == 0) continue;
-    notes_.push_back({m + 1, list_name(*lists[m]), native_reason(*lists[m])});
+    const std::string reason = is_needed(m) ? native_reason(*lists[m]) : "for dch verify alone";
+    notes_.push_back({m + 1, list_name(*lists[m]), reason});
   }
 }
 
@@ -114,7 +151,7 @@ std::string NeighborDCH::native_reason(const NeighList& list) const {
   return {};
 }
 
-std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const std::string& style_name,
+std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const Pair& asker, const std::string& style_name,
                                                            const std::string& obstacle) {
   const std::string owner = "pair " + style_name;
   if (!obstacle.empty()) {
@@ -124,7 +161,7 @@ std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const std::string& st
   auto clusters = std::make_shared<ClusterList>();
   const auto n = static_cast<std::size_t>(atom->ntypes);
   clusters->interacts.assign(n * n, 0);
-  requested_clusters_.push_back(clusters);
+  requested_clusters_.push_back({clusters, &asker});
   requested_notes_.push_back({0, owner + ", cluster pairs", {}});
   return clusters;
 }

@@ -4,6 +4,8 @@
 #include <atom.h>
 #include <comm.h>
 
+#include <dch/instruction_set.hpp>
+
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -14,7 +16,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   for (const ServedList& served : served_)
     bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
              served.rows.first.capacity() * sizeof(std::int64_t);
-  for (const std::shared_ptr<ClusterList>& clusters : clusters_) bytes += clusters->memory_bytes();
+  for (const ServedClusters& clusters : clusters_) bytes += clusters.list->memory_bytes();
 
   std::array<std::int64_t, 8> sums{run_.entries,
                                    run_.verified_entries,
@@ -43,6 +45,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.in_box = points_.in_box();
   report.c = params_.c;
   report.order_obstacle = order_.obstacle();
+  report.instructions = dch::name(dch::instruction_set());
   report.counters = run_;
   report.counters.entries = sums[0];
   report.counters.verified_entries = sums[1];

@@ -17,6 +17,19 @@
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
+namespace {
+
+/// Takes back the requests for neighbor lists from the given one on. Their class is in a header that LAMMPS
+/// does not install; as all of LAMMPS's it derives from Pointers first, whose destructor is virtual.
+void withdraw_requests(Neighbor& neighbor, int first) {
+  for (int k = first; k < neighbor.nrequest; ++k) {
+    delete reinterpret_cast<Pointers*>(neighbor.requests[k]);
+    neighbor.requests[k] = nullptr;
+  }
+  neighbor.nrequest = first;
+}
+
+}  // namespace
 
 PairDCH::PairDCH(LAMMPS* lammps, std::string plain) : Pair(lammps), plain_name_(std::move(plain)) {
   int has_suffix = 0;
@@ -169,13 +182,15 @@ void PairDCH::init_style() {
   clusters_.reset();
   pairs_of_types_.clear();
   has_kernel_ = false;
-  // The plain style checks its settings, and asks for a list, which is taken back.
+  // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
+  // this style's name, to compare with.
   const int requests = neighbor->nrequest;
   plain_->init_style();
-  neighbor->nrequest = requests;
+  withdraw_requests(*neighbor, requests);
   const std::string reason = reason_for_plain();
-  clusters_ = NeighborDCH::install(lmp)->request_clusters(plain_name_ + "/dch", reason);
-  if (!clusters_) neighbor->request(this, instance_me);
+  NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
+  clusters_ = neighbor_dch->request_clusters(*this, plain_name_ + "/dch", reason);
+  if (!clusters_ || neighbor_dch->verifies()) neighbor->request(this, instance_me);
 }
 
 void PairDCH::init_list(int id, NeighList* neighbors) { plain_->init_list(id, neighbors); }

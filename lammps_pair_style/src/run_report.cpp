@@ -53,6 +53,7 @@ std::string work_table(const RunReport& r) {
           (r.order_obstacle.empty() ? "in the order of the structure"
                                     : "in LAMMPS's order: " + r.order_obstacle) +
           "\n";
+  text += "  instructions            " + r.instructions + "\n";
   if (r.skin > 0)
     text += line("  skin                    %g, %s", r.skin,
                  r.skin_settled ? "the fastest that was tried" : "still being looked for");

@@ -48,6 +48,7 @@ struct RunReport {
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
   double c = 0;
+  std::string instructions;    ///< name of the instruction set that the search uses
   RunCounters counters;        ///< entries summed, builds and times the largest of any process
   std::string order_obstacle;  ///< why atoms are not in the order of the structure; empty if they are
   std::int64_t atoms = 0;

@@ -29,7 +29,7 @@ int SpecialPairs::kind(int i, int j) const {
 bool SpecialPairs::are_as_before(int count) {
   bool same = tags_.size() == static_cast<std::size_t>(count) &&
               std::equal(tags_.begin(), tags_.end(), atom->tag) &&
-              std::equal(std::begin(flags_), std::end(flags_), neighbor->special_flag);
+              std::equal(flags_ + 1, flags_ + 4, neighbor->special_flag + 1);
   std::size_t at = 0;
   for (int i = 0; same && i < count; ++i) {
     const int* ends = atom->nspecial[i];
@@ -40,7 +40,7 @@ bool SpecialPairs::are_as_before(int count) {
   }
   if (same) return true;
   tags_.assign(atom->tag, atom->tag + count);
-  std::copy_n(neighbor->special_flag, 4, flags_);
+  std::copy_n(neighbor->special_flag + 1, 3, flags_ + 1);
   partners_.clear();
   ends_.clear();
   for (int i = 0; i < count; ++i) {

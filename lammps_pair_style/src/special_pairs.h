@@ -33,7 +33,7 @@ class SpecialPairs : protected Pointers {
   std::vector<tagint> tags_,
       partners_;           ///< what the exclusions were made from: IDs, and the partners of all atoms
   std::vector<int> ends_;  ///< nspecial of all atoms
-  int flags_[4] = {};
+  int flags_[4] = {};      ///< from 1, as LAMMPS has them
   dch::Exclusions exclusions_;
 };
 

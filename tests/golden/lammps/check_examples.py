@@ -67,6 +67,47 @@ class Scripts(unittest.TestCase):
             self.compare_lists("in.chain", ranks, data=data)
 
 
+class Python(unittest.TestCase):
+    """melt.py runs by its first line: the module lammps belongs to Debian's Python."""
+
+    def run_melt(self, *arguments):
+        return subprocess.run([EXAMPLES / "melt.py", *map(str, arguments)], env=host.environment, check=False, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def test_energies_and_lists_are_the_same(self):
+        library = host.loader.parent / "libdch_lammps.so"
+        done = self.run_melt(library, "--cells", 6, "--steps", 50, "--screen")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for line in ("pair lj/cut/dch, cluster pairs: DCH", "pair lj/cut, half, newton on: DCH"):
+            self.assertIn(line, done.stdout)
+        self.assertRegex(done.stdout, r"pairs ([1-9]\d+) \1: the same")
+        self.assertEqual(len(re.findall(r"largest relative difference", done.stdout)), 2)
+        done = self.run_melt(library, "--cells", 6, "--steps", 5, "--tolerance", -1)
+        self.assertEqual(done.returncode, 1, done.stdout)
+
+    def test_the_program_of_the_manual(self):
+        manual = (EXAMPLES.parents[1] / "docs" / "lammps" / "python.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"```python\n(.*?)```", manual, re.DOTALL)
+        self.assertEqual(len(blocks), 2)
+        program = "".join(blocks) + "lmp.command('dch stats')\nprint(sum(count for _, count, _ in neighbors), 'pairs read')\n"
+        for said, meant in (("/usr/local/lib", str(host.loader.parent)), ("in.melt", str(EXAMPLES / "in.melt")),
+                            ("lammps()", "lammps(cmdargs=['-log', 'none', '-var', 'cells', '6'])")):
+            self.assertEqual(program.count(said), 1)
+            program = program.replace(said, meant)
+        done = subprocess.run(["/usr/bin/python3", "-c", program], env=host.environment, check=False, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("pair lj/cut, half, newton on: DCH", done.stdout)
+        read = re.search(r"(\d+) pairs read", done.stdout)[1]
+        self.assertIn(f"pairs at the last build {read} (", done.stdout)
+
+    def test_a_library_that_cannot_be_used(self):
+        for library in (host.work / "absent.so", "libz.so.1"):
+            done = self.run_melt(library)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(f"{library} cannot be loaded, or is another library", done.stdout)
+
+
 class CompareRuns(unittest.TestCase):
     TABLE = "Step Temp E_pair\n0 1.44 {energy}\n100 0.7 -5.7\nLoop time of 2.5 on 1 procs\n"
     TIMES = "Neigh   | 0.5 | 0.5 | 0.5 |  0.0 | 20.0\nAve neighs/atom = 37.6\nNeighbor list builds = 5\n"

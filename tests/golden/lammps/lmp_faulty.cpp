@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   fault = kind == "drop" ? Fault::drop : kind == "repeat" ? Fault::repeat : Fault::none;
   auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(argc - 1, argv + 1, MPI_COMM_WORLD);
   if (dch_register(lammps.get()) != 0) return 1;
-  LAMMPS_NS::NeighborDCH::install(lammps.get(), make_faulty);
+  LAMMPS_NS::NeighborDCH::install(lammps.get(), {make_faulty});
   lammps->input->file();
   lammps.reset();
   MPI_Finalize();

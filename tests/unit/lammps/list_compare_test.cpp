@@ -91,5 +91,14 @@ TEST(Describe, NamesAtomsDistanceBitsAndList) {
             "pair of atoms 5 and 12 at distance 5, special bits 0: in the DCH list only");
 }
 
+TEST(Unmatched, PairsAtTheirCutoffMayBeDropped) {
+  std::vector<AtomPair> pairs{make_atom_pair(4, 9, {1, 2, 3}, 0, true),
+                              make_atom_pair(5, 9, {1, 2, 3}, 0, false)};
+  pairs[0].at_cutoff = true;
+  drop_at_cutoff(pairs);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].low, 5);
+}
+
 }  // namespace
 }  // namespace dch::lammps

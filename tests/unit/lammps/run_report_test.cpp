@@ -15,6 +15,7 @@ RunReport example() {
   r.enabled = true;
   r.radius = 2.8;
   r.c = 1.05;
+  r.instructions = "avx2";
   r.counters.builds = 4;
   r.counters.entries = 3000;
   r.counters.structure_seconds = 0.008;
@@ -46,6 +47,7 @@ TEST(RunReport, GivesCountsAndMeans) {
   EXPECT_THAT(text, HasSubstr("3000 (30 an atom)"));
   EXPECT_THAT(text, HasSubstr("3 ms: points 0, structure 2, rows 0, lists 1"));
   EXPECT_THAT(text, HasSubstr("3 Mbytes"));
+  EXPECT_THAT(text, HasSubstr("instructions            avx2\n"));
 }
 
 TEST(RunReport, SaysWhatThePointsAre) {

@@ -1,0 +1,194 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`dch verify` with force styles on cluster pairs and on pairs one by one: silent where they are right, and it finds
+each mistake that lmp_faulty_clusters plants into the third search, which is at step 10, or 5 if bonds were made before
+the run."""
+
+import re
+import unittest
+
+from lammps_run import largest_relative_difference, thermo_tables
+from script_tests import MELT, host, main, run
+
+VERIFIED = "suffix dch\ndch verify yes\n"
+CUTOFFS = {"clusters": "2.5", "one by one": "1.3"}
+
+# A lattice of atoms, all neighbors bonded.
+NETWORK = MELT.replace("atom_style atomic", "atom_style bond\nspecial_bonds lj 0.0 1.0 1.0").replace("fcc 0.8442", "sc 0.7") \
+    .replace("box block 0 6 0 6 0 6", "box block 0 8 0 8 0 8") \
+    .replace("create_box 1 box", "create_box 1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 40") \
+    .replace("pair_style lj/cut 2.5", "pair_style lj/cut ${cutoff}\nbond_style harmonic\nbond_coeff 1 50.0 1.1") \
+    .replace("neighbor 0.3 bin", "neighbor 0.3 bin\ngroup some id 1:300\ncreate_bonds many some some 1 0.9 1.15\n"
+             "special_bonds lj ${weights}")
+
+TWO_TYPES = MELT.replace("create_box 1", "create_box 2").replace("mass 1", "mass *") \
+    .replace("pair_coeff 1 1 1.0 1.0", "set type 1 type/fraction 2 0.3 4711\npair_coeff * * 1.0 1.0")
+
+
+def with_cutoff(script, cutoff):
+    return script.replace("lj/cut 2.5", f"lj/cut {cutoff}")
+
+
+class Silent(unittest.TestCase):
+    def check(self, script, pairs=None, builds=5, **options):
+        """Every build is compared, and so many pairs."""
+        output = run("include ${load}\n" + VERIFIED + script + "run 20\ndch stats\n", **options)
+        found = re.search(r"verified +(\d+) builds, (\d+) pairs, all equal", output)
+        self.assertIsNotNone(found, output)
+        self.assertEqual(int(found[1]), builds)
+        self.assertGreater(int(found[2]), 0)
+        if pairs is not None:
+            self.assertEqual(int(found[2]), pairs)
+        return output
+
+    def compare_with_plain(self, output, script, **options):
+        """The same energies as without `dch verify`. Sums may be in another order: what a hierarchy does is by its times."""
+        plain = run("include ${load}\nsuffix dch\n" + script + "run 20\ndch stats\n", **options)
+        self.assertIn("no build of the last run; see 'dch verify'", plain)
+        self.assertLess(largest_relative_difference(thermo_tables(plain)[0][-1], thermo_tables(output)[0][-1]), 1e-11)
+
+    def native_pairs(self, script):
+        """Pairs of the native half list with newton on, summed over the builds of 20 steps, by `dch on` and its checks."""
+        output = run("include ${load}\ndch on\ndch verify yes\n" + script + "run 20\ndch stats\n")
+        return int(re.search(r"verified +\d+ builds, (\d+) pairs, all equal", output)[1])
+
+    def test_melt(self):
+        for cutoff in CUTOFFS.values():
+            script = with_cutoff(MELT, cutoff)
+            pairs = self.native_pairs(script)
+            for ranks in (1, 2):
+                with self.subTest(cutoff=cutoff, ranks=ranks):
+                    self.compare_with_plain(self.check(script, pairs=pairs, ranks=ranks), script, ranks=ranks)
+
+    def test_newton_off(self):
+        for cutoff in CUTOFFS.values():
+            for newton, ranks in (("off", 1), ("off", 2), ("off on", 2)):
+                with self.subTest(cutoff=cutoff, newton=newton, ranks=ranks):
+                    self.check(f"newton {newton}\n" + with_cutoff(MELT, cutoff), ranks=ranks)
+
+    def test_exclusions(self):
+        for cutoff in CUTOFFS.values():
+            for ranks in (1, 2):
+                with self.subTest(cutoff=cutoff, ranks=ranks):
+                    self.check(with_cutoff(TWO_TYPES, cutoff) + "neigh_modify exclude type 1 2\n", ranks=ranks)
+
+    def test_bonds(self):
+        for cutoff in CUTOFFS.values():
+            for weights in ("0.0 1.0 1.0", "0.0 0.3 0.7"):
+                for ranks in (1, 2):
+                    with self.subTest(cutoff=cutoff, weights=weights, ranks=ranks):
+                        self.check(NETWORK, ranks=ranks, variables={"cutoff": cutoff, "weights": weights})
+
+    def test_cutoffs_by_type(self):
+        script = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 1.6\npair_coeff 2 2 1.0 1.0 1.2\nneighbor 0.3")
+        self.check(script)
+
+    def test_hybrid(self):
+        """The lists that are compared with are parts of one that LAMMPS makes for them alone, or of others'."""
+        script = TWO_TYPES.replace("pair_style lj/cut 2.5", "pair_style hybrid lj/cut 2.5 morse 2.0")
+        script = script.replace("pair_coeff * * 1.0 1.0",
+                                "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 2 lj/cut 1.0 1.0\npair_coeff 2 2 morse 0.1 5 1.1")
+        for lists in ("", "dch on\n"):
+            for ranks in (1, 2):
+                with self.subTest(lists=lists, ranks=ranks):
+                    self.compare_with_plain(self.check(lists + script, ranks=ranks), lists + script, ranks=ranks)
+
+    def test_a_list_that_lammps_copies_from_the_one_to_compare_with(self):
+        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 2.0")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 morse 0.1 5 1.1")
+        computed = "compute rdf all rdf 10\nthermo_style custom step temp epair c_rdf[5][2]\n"
+        for lists in ("", "dch on\n"):
+            for every in ("yes", "every 3"):
+                with self.subTest(lists=lists, every=every):
+                    plain = run("include ${load}\nsuffix dch\n" + lists + script + computed + "run 20\n")
+                    output = run(f"include ${{load}}\nsuffix dch\ndch verify {every}\n" + lists + script + computed +
+                                 "run 20\ndch stats\n")
+                    self.assertLess(largest_relative_difference(thermo_tables(plain)[0][-1], thermo_tables(output)[0][-1]),
+                                    1e-12)
+                    self.assertRegex(output, rf"verified +{5 if every == 'yes' else 2} builds, \d+ pairs, all equal")
+
+    def test_triclinic_and_narrow_boxes(self):
+        tilted = MELT.replace("box block 0 6 0 6 0 6", "box prism 0 6 0 6 0 6 2 -1 1.5")
+        narrow = MELT.replace("0 6 0 6 0 6", "0 3 0 3 0 8")  # of some atoms two images are near
+        for script in (tilted, narrow):
+            for ranks in (1, 2):
+                for newton in ("on", "off"):
+                    with self.subTest(script=script, ranks=ranks, newton=newton):
+                        self.check(f"newton {newton}\n" + script, ranks=ranks)
+
+    def test_open_space(self):
+        self.check(MELT.replace("units lj", "units lj\nboundary s s s"))
+
+    def test_a_tuned_skin(self):
+        script = MELT.replace("every 5 check no", "every 1 check yes").replace("neighbor 0.3", "neighbor 0.6")
+        output = run("include ${load}\ndch skin auto\n" + VERIFIED + script + "run 300\ndch stats\n")
+        self.assertRegex(output, r"skin +0\.\d+, ")
+        self.assertRegex(output, r"verified +\d+ builds, \d+ pairs, all equal")
+
+    def test_every_second_build_and_no_longer(self):
+        output = run("include ${load}\nsuffix dch\ndch verify every 2\n" + MELT +
+                     "run 20\ndch stats\ndch verify no\nrun 20\ndch stats\n")
+        self.assertRegex(output, r"verified +3 builds, \d+ pairs, all equal")
+        self.assertEqual(output.count("no build of the last run; see 'dch verify'"), 1)
+
+    def test_a_list_that_nobody_reads_needs_no_bins(self):
+        """Where bins are too many, verified builds alone stop."""
+        script = MELT.replace("units lj", "units lj\nboundary s s s\natom_modify map yes sort 0 0.0") \
+            .replace("box block 0 6 0 6 0 6", "box block 0 7e5 0 7e5 0 7e5\nregion drop block 0 6 0 6 0 6") \
+            .replace("create_atoms 1 box", "create_atoms 1 region drop\ncreate_atoms 1 single 1e6 1e6 1e6 units box")
+        run("include ${load}\nsuffix dch\n" + script + "run 20\n")
+        code, output = host.run_text("include ${load}\n" + VERIFIED + script + "run 20\n")
+        self.assertNotEqual(code, 0)
+        self.assertIn("Too many neighbor bins", output)
+
+
+class Faults(unittest.TestCase):
+    MESSAGE = (r"dch verify: at step (5|10) the native list and the cluster pairs \(pair lj/cut/dch, half, newton on\) are not "
+               r"the same: {count} pairs differ, the first: pair of atoms \d+ and \d+ at distance {distance}, special bits "
+               r"{bits}: in the {where} list only. Give 'suffix off' before the pair style")
+
+    def run_faulty(self, kind, script, ranks=1, variables=()):
+        path = host.work / "in.faulty"
+        path.write_text(VERIFIED + script + "run 20\n")
+        return host.run(ranks, [host.tools / "lmp_faulty_clusters", kind, "-in", path], dict(variables))
+
+    def expect(self, kind, script, ranks=1, count=r"\d+", where="native", distance=r"[012]\.\d+", bits="0", variables=()):
+        with self.subTest(kind=kind, ranks=ranks, variables=variables):
+            code, output = self.run_faulty(kind, script, ranks, variables)
+            self.assertNotEqual(code, 0, output)
+            self.assertRegex(output, self.MESSAGE.format(count=count, where=where, distance=distance, bits=bits))
+
+    def test_no_fault(self):
+        for cutoff in CUTOFFS.values():
+            code, output = self.run_faulty("none", with_cutoff(MELT, cutoff))
+            self.assertEqual(code, 0, output)
+
+    def test_missing_and_repeated_pairs(self):
+        for cutoff in CUTOFFS.values():
+            for ranks in (1, 2):
+                self.expect("drop", with_cutoff(MELT, cutoff), ranks, count="[12]")
+                self.expect("repeat", with_cutoff(MELT, cutoff), ranks, count="[12]", where="DCH")
+
+    def test_wrong_images(self):
+        for cutoff in CUTOFFS.values():
+            self.expect("image", with_cutoff(MELT, cutoff))
+
+    def test_pairs_that_are_excluded(self):
+        for cutoff in CUTOFFS.values():
+            for ranks in (1, 2):
+                self.expect("exclusions", with_cutoff(TWO_TYPES, cutoff) + "neigh_modify exclude type 1 2\n", ranks,
+                            where="DCH")
+
+    def test_bonded_pairs_without_weight(self):
+        for cutoff in CUTOFFS.values():
+            for ranks in (1, 2):
+                self.expect("bonds", NETWORK, ranks, where="DCH", variables={"cutoff": cutoff, "weights": "0.0 1.0 1.0"})
+
+    def test_a_bonded_pair_with_another_weight(self):
+        for ranks in (1, 2):
+            self.expect("weights", NETWORK, ranks, count="[24]", where="(native|DCH)", bits="[123]",
+                        variables={"cutoff": "2.5", "weights": "0.2 0.3 0.7"})
+
+
+if __name__ == "__main__":
+    main(__doc__)
