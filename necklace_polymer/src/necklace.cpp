@@ -103,8 +103,9 @@ NecklaceMeasure Necklace::measure(Span<const Vec3> positions, const Box& box) co
 
 void require(const NecklaceMeasure& measure, const NecklaceLimits& limits) {
   if (measure.alpha > limits.max_alpha) {
-    throw NotANecklace("the largest radius is " + number(measure.alpha) + " times the smallest, the limit is " +
-                       number(limits.max_alpha) + "; allow more or give the beads more even radii");
+    throw NotANecklace("the largest radius is " + number(measure.alpha) +
+                       " times the smallest, the limit is " + number(limits.max_alpha) +
+                       "; allow more or give the beads more even radii");
   }
   if (measure.beta < limits.min_beta) {
     throw NotANecklace(bond_name(measure.deepest_overlap) + " lets beads overlap to an angle of " +

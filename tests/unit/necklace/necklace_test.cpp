@@ -70,8 +70,7 @@ TEST(NecklaceTest, CountsBondsAlongChainsAndAroundRings) {
 TEST(NecklaceTest, MeasuresTheConstants) {
   const Necklace necklace(one_chain(3), {3, 4, 2});
   // Radii 3 and 4 at distance 5 meet at a right angle; 4 and 2 leave a gap of 1.
-  const NecklaceMeasure m =
-      necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
+  const NecklaceMeasure m = necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
   EXPECT_DOUBLE_EQ(m.alpha, 2);
   EXPECT_NEAR(m.beta, kPi / 2, 1e-15);
   EXPECT_EQ(m.deepest_overlap, (IndexPair{0, 1}));
@@ -118,8 +117,7 @@ TEST(NecklaceTest, WithoutBondsThereIsNothingToBreak) {
 
 TEST(NecklaceTest, RequireNamesWhatIsBroken) {
   const Necklace necklace(one_chain(3), {3, 4, 2});
-  const NecklaceMeasure m =
-      necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
+  const NecklaceMeasure m = necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
   EXPECT_NO_THROW(require(m, {}));
   EXPECT_NO_THROW(require(m, {2, kPi / 2 - 1e-9, 1, 1.4}));
   const auto message = [&](const NecklaceLimits& limits) {
@@ -148,8 +146,7 @@ TEST(NecklaceTest, RefusesBadRadiiAndPositions) {
   EXPECT_THAT(radii_error({std::nan(""), 1}), HasSubstr("the radius of bead 0 is"));
   EXPECT_THAT(radii_error({1, std::numeric_limits<double>::infinity()}), HasSubstr("radius of bead 1"));
   const Necklace necklace(one_chain(2), 1);
-  EXPECT_THAT(message_of<InvalidParameter>(
-                  [&] { necklace.measure(std::vector<Vec3>(3), Box::none()); }),
+  EXPECT_THAT(message_of<InvalidParameter>([&] { necklace.measure(std::vector<Vec3>(3), Box::none()); }),
               HasSubstr("there are 3 positions for a necklace of 2 particles"));
   EXPECT_THAT(message_of<InvalidPosition>([&] {
                 necklace.measure(std::vector<Vec3>{{0, 0, 0}, {0, std::nan(""), 0}}, Box::none());

@@ -39,8 +39,8 @@ struct NecklaceMeasure {
 /// What a caller asks of the constants; the defaults accept every chain.
 struct NecklaceLimits {
   double max_alpha = kAnything;
-  double min_beta = 0;               ///< [rad]
-  double max_gap = kAnything;        ///< [length]; 0 asks for connected chains
+  double min_beta = 0;                ///< [rad]
+  double max_gap = kAnything;         ///< [length]; 0 asks for connected chains
   double max_bond_ratio = kAnything;  ///< longest bond over shortest, >= 1
 
   static constexpr double kAnything = 1e300;
