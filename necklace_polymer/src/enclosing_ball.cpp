@@ -29,9 +29,8 @@ EnclosingBall enclosing_ball(Span<const Ball> balls, const Basis& guess) {
   Basis first = guess;
   if (first.size == 0) first = {{0, -1, -1, -1}, 1};
   EnclosingBall found = detail::ball_of_basis(balls, first);
-  detail::pivot(balls, found, [&](const EnclosingBall& now, double& reach) {
-    return farthest_of(balls, now, reach);
-  });
+  detail::pivot(balls, found,
+                [&](const EnclosingBall& now, double& reach) { return farthest_of(balls, now, reach); });
   return found;
 }
 

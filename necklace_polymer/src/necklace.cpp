@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -76,6 +77,14 @@ Necklace::Necklace(Chains chains, std::vector<double> radii)
 
 Necklace::Necklace(Chains chains, double radius)
     : Necklace(chains, std::vector<double>(chains.particles(), radius)) {}
+
+Necklace Necklace::chain(std::vector<double> radii, bool closed) {
+  std::vector<std::int32_t> order(radii.size());
+  std::iota(order.begin(), order.end(), 0);
+  Chains chains(radii.size());
+  if (!order.empty()) chains.add(order, closed);
+  return {std::move(chains), std::move(radii)};
+}
 
 std::int32_t Necklace::bonds_between(std::int32_t place, std::int32_t other) const {
   const std::size_t chain = chain_at(place);

@@ -62,8 +62,8 @@ inline std::vector<NamedBalls> hard_balls() {
   for (int k = 0; k < 64; ++k) {
     grid.balls.push_back({{double(k & 3), double(k >> 2 & 3), double(k >> 4)}, 0.49});
   }
-  for (NamedBalls* scene : {&cube, &sphere, &circle, &line, &same, &points, &nested, &touching, &far, &distant,
-                            &flat, &grid}) {
+  for (NamedBalls* scene :
+       {&cube, &sphere, &circle, &line, &same, &points, &nested, &touching, &far, &distant, &flat, &grid}) {
     scenes.push_back(*scene);
   }
   return scenes;

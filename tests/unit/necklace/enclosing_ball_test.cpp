@@ -116,7 +116,8 @@ TEST(EnclosingBall, AnyGuessGivesTheSameBall) {
       Basis guess;
       guess.size = size;
       for (int k = 0; k < size; ++k) {
-        guess.members[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(10 * k + int(random.below(10)));
+        guess.members[static_cast<std::size_t>(k)] =
+            static_cast<std::int32_t>(10 * k + int(random.below(10)));
       }
       const EnclosingBall found = enclosing_ball(balls, guess);
       EXPECT_NEAR(found.ball.radius, radius, 1e-12 * radius) << "seed " << seed << ", guess of " << size;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -27,14 +26,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const double kPi = std::acos(-1.0);
-
-Chains one_chain(std::int32_t beads, bool closed = false) {
-  Chains chains(static_cast<std::size_t>(beads));
-  std::vector<std::int32_t> order(static_cast<std::size_t>(beads));
-  std::iota(order.begin(), order.end(), 0);
-  chains.add(order, closed);
-  return chains;
-}
 
 /// Particle 3 is solvent; the ring is 4-5-6-7, the chain 2-0-1.
 Necklace ring_and_chain() {
@@ -68,7 +59,7 @@ TEST(NecklaceTest, CountsBondsAlongChainsAndAroundRings) {
 }
 
 TEST(NecklaceTest, MeasuresTheConstants) {
-  const Necklace necklace(one_chain(3), {3, 4, 2});
+  const Necklace necklace = Necklace::chain({3, 4, 2});
   // Radii 3 and 4 at distance 5 meet at a right angle; 4 and 2 leave a gap of 1.
   const NecklaceMeasure m = necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
   EXPECT_DOUBLE_EQ(m.alpha, 2);
@@ -81,7 +72,7 @@ TEST(NecklaceTest, MeasuresTheConstants) {
 }
 
 TEST(NecklaceTest, MeasuresAcrossTheBoundaryAndTheClosingBond) {
-  const Necklace necklace(one_chain(3, true), 0.5);
+  const Necklace necklace = Necklace::chain({0.5, 0.5, 0.5}, true);
   const NecklaceMeasure m = necklace.measure(std::vector<Vec3>{{9.75, 5, 5}, {0.25, 5, 5}, {0.25, 6, 5}},
                                              Box::orthorhombic({10, 10, 10}));
   EXPECT_NEAR(m.shortest_bond, 0.5, 1e-14);
@@ -91,23 +82,21 @@ TEST(NecklaceTest, MeasuresAcrossTheBoundaryAndTheClosingBond) {
 }
 
 TEST(NecklaceTest, MeasuresBeadsInsideOthersAndPoints) {
-  const Necklace inside(one_chain(2), {3, 1});
+  const Necklace inside = Necklace::chain({3, 1});
   EXPECT_EQ(inside.measure(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none()).beta, 0);
-  const Necklace points(one_chain(2), 0);
+  const Necklace points = Necklace::chain({0, 0});
   const NecklaceMeasure m = points.measure(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none());
   EXPECT_EQ(m.alpha, 1);
   EXPECT_DOUBLE_EQ(m.beta, kPi);
-  const Necklace mixed(one_chain(2), {0, 1});
+  const Necklace mixed = Necklace::chain({0, 1});
   EXPECT_EQ(mixed.measure(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, Box::none()).alpha,
             std::numeric_limits<double>::infinity());
 }
 
 TEST(NecklaceTest, WithoutBondsThereIsNothingToBreak) {
-  for (const std::int32_t beads : {0, 1}) {
-    Chains chains = beads == 0 ? Chains(0) : one_chain(1);
-    const Necklace necklace(chains, 1);
-    const NecklaceMeasure m =
-        necklace.measure(std::vector<Vec3>(static_cast<std::size_t>(beads)), Box::none());
+  for (const std::size_t beads : {0U, 1U}) {
+    const Necklace necklace = Necklace::chain(std::vector<double>(beads, 1.0));
+    const NecklaceMeasure m = necklace.measure(std::vector<Vec3>(beads), Box::none());
     EXPECT_EQ(m.alpha, 1);
     EXPECT_DOUBLE_EQ(m.beta, kPi);
     EXPECT_EQ(m.largest_gap, 0);
@@ -116,7 +105,7 @@ TEST(NecklaceTest, WithoutBondsThereIsNothingToBreak) {
 }
 
 TEST(NecklaceTest, RequireNamesWhatIsBroken) {
-  const Necklace necklace(one_chain(3), {3, 4, 2});
+  const Necklace necklace = Necklace::chain({3, 4, 2});
   const NecklaceMeasure m = necklace.measure(std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {5, 7, 0}}, Box::none());
   EXPECT_NO_THROW(require(m, {}));
   EXPECT_NO_THROW(require(m, {2, kPi / 2 - 1e-9, 1, 1.4}));
@@ -139,13 +128,13 @@ TEST(NecklaceTest, RequireNamesWhatIsBroken) {
 
 TEST(NecklaceTest, RefusesBadRadiiAndPositions) {
   const auto radii_error = [](std::vector<double> radii) {
-    return message_of<InvalidParameter>([&] { Necklace(one_chain(2), radii); });
+    return message_of<InvalidParameter>([&] { Necklace(Chains(2), radii); });
   };
   EXPECT_THAT(radii_error({1}), HasSubstr("there are 1 radii for chains over 2 particles"));
   EXPECT_THAT(radii_error({1, -1}), HasSubstr("the radius of bead 1 is -1"));
   EXPECT_THAT(radii_error({std::nan(""), 1}), HasSubstr("the radius of bead 0 is"));
   EXPECT_THAT(radii_error({1, std::numeric_limits<double>::infinity()}), HasSubstr("radius of bead 1"));
-  const Necklace necklace(one_chain(2), 1);
+  const Necklace necklace = Necklace::chain({1, 1});
   EXPECT_THAT(message_of<InvalidParameter>([&] { necklace.measure(std::vector<Vec3>(3), Box::none()); }),
               HasSubstr("there are 3 positions for a necklace of 2 particles"));
   EXPECT_THAT(message_of<InvalidPosition>([&] {

@@ -60,6 +60,9 @@ class Necklace {
   Necklace(Chains chains, std::vector<double> radii);
   /// The same radius for all.
   Necklace(Chains chains, double radius);
+  /// One chain of all particles in order of index.
+  /// @throws InvalidParameter as above, and for a ring of fewer than three beads.
+  static Necklace chain(std::vector<double> radii, bool closed = false);
 
   const Chains& chains() const { return chains_; }
   std::size_t particles() const { return chains_.particles(); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Minimum enclosing balls against those of CGAL, whose library is GPL-3.0-or-later; so is this test once compiled.
+// Minimum enclosing balls against those of CGAL, whose library is GPL-3.0-or-later; so is this test once
+// compiled.
 #include <CGAL/Cartesian.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
 #include <cmath>
@@ -50,7 +51,8 @@ TEST(EnclosingBallAgainstCgal, BallsAlongRandomWalks) {
   for (int seed = 1; seed <= dch::effort(300); ++seed) {
     dch::scenes::Random random(static_cast<std::uint64_t>(seed));
     std::vector<Ball> walk{{{}, 0.5}};
-    for (int k = 0; k < 500; ++k) walk.push_back({walk.back().center + random.in_ball(1), random.uniform(0.1, 1)});
+    for (int k = 0; k < 500; ++k)
+      walk.push_back({walk.back().center + random.in_ball(1), random.uniform(0.1, 1)});
     const double expected = cgal_radius(walk);
     EXPECT_NEAR(enclosing_ball(walk).ball.radius, expected, 1e-12 * expected) << "seed " << seed;
   }
