@@ -18,7 +18,7 @@ enum class Verification {
 
 struct WrappedParams {
   /// Nodes of this many beads and fewer are leaves, whose beads are looked at one by one, 1 .. 64. 1 gives
-  /// the hierarchy of the thesis; searches are several times faster with leaves of eight.
+  /// the hierarchy of the thesis; with more there are fewer cages to keep and to compare.
   int leaf_beads = 8;
   Verification verification = Verification::cascade;
 };
