@@ -1,38 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <dch/necklace/melt.hpp>
+
+#include "random.hpp"
 
 namespace dch::necklace {
 
 namespace {
 
-/// Random numbers whose bits do not depend on the platform: the standard fixes std::mt19937_64 but not what
-/// its distributions do with it, and sine and cosine differ between mathematics libraries.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  /// In [0, 1), a multiple of 2^-53.
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-
-  /// Uniform on the unit sphere (Marsaglia, Ann. Math. Stat. 43:645, 1972).
-  Vec3 direction() {
-    for (;;) {
-      const double u = 2 * uniform() - 1;
-      const double v = 2 * uniform() - 1;
-      const double s = u * u + v * v;
-      if (s >= 1) continue;
-      const double radius = 2 * std::sqrt(1 - s);
-      return {u * radius, v * radius, 1 - 2 * s};
-    }
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using detail::Random;
 
 /// Cube root by Newton's method from above, which decreases until rounding stops it. std::cbrt may differ in
 /// the last bit between platforms.

@@ -6,6 +6,8 @@
 
 #include <dch/necklace/chains.hpp>
 
+#include "error_message.hpp"
+
 namespace {
 
 using dch::Box;
@@ -15,23 +17,12 @@ using dch::Vec3;
 using dch::necklace::Chains;
 using dch::necklace::Undetermined;
 using dch::necklace::unwrap;
+using dch::test::message_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::vector<std::int32_t> beads(const Chains& chains, std::size_t k) {
   return {chains.beads(k).begin(), chains.beads(k).end()};
-}
-
-/// The message of the exception that a call throws.
-template <class Exception, class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
 }
 
 std::string bond_error(std::size_t particles, const std::vector<IndexPair>& bonds) {

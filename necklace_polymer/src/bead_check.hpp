@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <dch/box.hpp>
+#include <dch/necklace/necklace.hpp>
+#include <dch/span.hpp>
+
+namespace dch::necklace::detail {
+
+/// Refuses positions that no structure over the beads can work with; those of particles in no chain are not
+/// looked at.
+/// @throws InvalidParameter for another number of positions than particles, InvalidPosition.
+void check_positions(const Necklace& necklace, Span<const Vec3> positions);
+
+}  // namespace dch::necklace::detail
