@@ -29,7 +29,7 @@ inline std::vector<std::string> dch_platforms() {
     return true;
   }();
   (void)loaded;
-  return {"Reference"};
+  return {"Reference", "CPU"};
 }
 
 /// How far forces and energies may be from exact ones: in single precision as OpenMM's own tests have it.
