@@ -187,6 +187,11 @@ class DCHNonbondedForce : public OpenMM::Force {
   %pythoncode %{
     def __deepcopy__(self, memo):
         return self.__copy__()
+
+    def __setstate__(self, text):
+        # What OpenMM reads is a plain Force to Python, and goes with its last reference.
+        force = openmm.XmlSerializer.deserialize(text)
+        self.this = DCHNonbondedForce.cast(force).__copy__().this
   %}
 };
 
