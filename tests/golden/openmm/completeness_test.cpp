@@ -2,6 +2,8 @@
 //
 // No pair is missing in skewed boxes of any size, wherever particles stand: in boxes that are small against
 // the cutoff OpenMM's own lists miss some.
+#include <algorithm>
+
 #include "all_pairs_oracle.hpp"
 
 namespace OpenMMDCH {
@@ -24,23 +26,31 @@ std::vector<Cell> cells() {
   return {dodecahedron, octahedron};
 }
 
-/// Particles at random places, no two nearer than 0.25 cutoffs, some of them where lists go wrong easily.
-std::vector<Vec3> scatter(const Vec3* box, int n, double closest, std::uint64_t seed) {
+/// Particles at random places, some of them where lists go wrong easily. No two images are closer than that,
+/// and none so near the cutoff that it takes double precision to tell whether they interact.
+std::vector<Vec3> scatter(const Vec3* box, int n, double closest, double cutoff, std::uint64_t seed) {
   dch::scenes::Random random(seed);
   std::vector<Vec3> positions{Vec3(-1e-17, -1e-17, -1e-17), Vec3(box[0][0], 0.5 * box[1][1], -1e-17),
                               box[0] * 0.5 + box[1] * (1 - 1e-16) + box[2] * 0.5};
-  const auto near_another = [&](const Vec3& p) {
-    for (const Vec3& other : positions) {
-      Vec3 d = p - other;
-      for (int axis = 2; axis >= 0; --axis) d -= box[axis] * std::floor(d[axis] / box[axis][axis] + 0.5);
-      if (d.dot(d) < closest * closest) return true;
+  const auto fits_beside = [&](const Vec3& p, const Vec3& other) {
+    Vec3 d = p - other;
+    for (int axis = 2; axis >= 0; --axis) d -= box[axis] * std::floor(d[axis] / box[axis][axis] + 0.5);
+    for (int n_image = 0; n_image < 27; ++n_image) {
+      const Vec3 e =
+          d + box[0] * (n_image % 3 - 1) + box[1] * (n_image / 3 % 3 - 1) + box[2] * (n_image / 9 - 1);
+      const double r = std::sqrt(e.dot(e));
+      if (r < closest || std::abs(r - cutoff) < 1e-5 * cutoff) return false;
     }
-    return false;
+    return true;
+  };
+  const auto fits = [&](const Vec3& p) {
+    return std::all_of(positions.begin(), positions.end(),
+                       [&](const Vec3& other) { return fits_beside(p, other); });
   };
   for (int trial = 0; trial < 100 * n && static_cast<int>(positions.size()) < n; ++trial) {
     Vec3 p = box[0] * random.uniform() + box[1] * random.uniform() + box[2] * random.uniform();
     if (random.below(10) == 0) p[static_cast<int>(random.below(3))] = -1e-17;
-    if (!near_another(p)) positions.push_back(p);
+    if (fits(p)) positions.push_back(p);
   }
   for (std::size_t i = 3; i < positions.size(); i += 5) {  // far outside
     const auto cells_away = [&] { return static_cast<double>(random.below(21)) - 10; };
@@ -61,7 +71,7 @@ TEST_P(CompletenessTest, ForcesAreThoseOfAllPairs) {
         Case gas;
         const double cutoff = 1;
         const Vec3 box[3] = {cell.box[0] * height, cell.box[1] * height, cell.box[2] * height};
-        for (const Vec3& p : scatter(box, height < 4 ? 120 : 350, 0.3, seed))
+        for (const Vec3& p : scatter(box, height < 4 ? 120 : 300, 0.3, cutoff, seed))
           gas.add(gas.positions.size() % 2 == 0 ? 0.5 : -0.5, 0.3, 1, p);
         gas.set_box(box[0], box[1], box[2]);
         gas.set_method(DCHNonbondedForce::CutoffPeriodic, cutoff);
