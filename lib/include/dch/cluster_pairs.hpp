@@ -126,7 +126,7 @@ struct ClusterPairs {
   /// Takes new positions of the same particles, indexed as before, without a new search. They may be wrapped
   /// into the cell or not, and the cell may have changed its shape (not its periodicity); each particle is
   /// taken to have moved less than half the smallest height since the last time. The pairs stay complete as
-  /// long as VerletList's condition holds. O(n), a few nanoseconds a particle.
+  /// long as StaleTest's condition holds. O(n), a few nanoseconds a particle.
   /// @throws InvalidParameter for another number of positions, InvalidBox for another periodicity,
   ///   InvalidPosition for a coordinate that is not finite.
   void refresh(Span<const Vec3> positions, const Box& now);

@@ -5,11 +5,19 @@
 #include <vector>
 
 #include <dch/cluster_pairs.hpp>
+#include <dch/executor.hpp>
 #include <dch/pair_list.hpp>
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
 namespace dch {
+
+namespace detail {
+enum class ForceKind;
+enum class LjParameters;
+template <class Real>
+struct LjConstants;
+}  // namespace detail
 
 /// How pairs are computed.
 enum class ForcePrecision {
@@ -25,14 +33,25 @@ struct LennardJonesPair {
   double cutoff = 0;   ///< >= 0; the pair does not interact if it is 0 [length]
 };
 
+/// The same of a single particle. A pair has the mean of its particles' sigma and the geometric mean of their
+/// epsilon (the rules of Lorentz and Berthelot).
+struct LennardJonesParticle {
+  double epsilon = 1;  ///< >= 0 [energy]
+  double sigma = 1;    ///< >= 0 [length]
+};
+
 /// How charges act on each other within a cutoff: with the energy constant q_i q_j / r or, where `splitting`
 /// is positive, with what an Ewald sum leaves to pairs, constant q_i q_j erfc(splitting r) / r. erfc is taken
 /// from formula 7.1.26 of Abramowitz and Stegun, Handbook of Mathematical Functions (1964), as in LAMMPS:
-/// within 1.5e-7.
+/// within 1.5e-7. Where `quadratic` or `offset` is not 0 they act in a reaction field, with the energy
+/// constant q_i q_j (1/r + quadratic r^2 - offset) (Tironi, Sperb, Smith and van Gunsteren, J. Chem. Phys.
+/// 102:5451, 1995).
 struct CoulombTerm {
   double constant = 1;          ///< >= 0 [energy length / charge^2]
   double splitting = 0;         ///< >= 0 [1/length]
   std::vector<double> cutoffs;  ///< >= 0, for all pairs of types as Lennard-Jones pairs are given [length]
+  double quadratic = 0;         ///< [1/length^3]
+  double offset = 0;            ///< [1/length]
 };
 
 /// Sums over the pairs, each counted once.
@@ -46,9 +65,9 @@ struct LennardJonesSums {
 /// instruction set in use.
 ///
 /// Every pair in the masks of the ClusterPairs acts, at its distance now, if that is below the cutoff. Forces
-/// of different instruction sets differ by rounding (fused operations, order of sums); those of one set are
-/// the same every time. One object belongs to one thread at a time; it keeps scratch memory of 96 bytes a
-/// cluster, 128 with charges.
+/// of different instruction sets differ by rounding (fused operations, order of sums); those of one set
+/// and one number of threads are the same every time. One object belongs to one thread at a time; it keeps
+/// scratch memory of 96 bytes a cluster and thread, 32 more a cluster with charges.
 class LennardJones {
  public:
   /// One type. With `shifted` each pair's energy is lowered by what it is at the cutoff.
@@ -58,13 +77,29 @@ class LennardJones {
   /// A symmetric matrix of pairs of types, row-major, types x types.
   /// @throws as above, and InvalidParameter if the matrix is not square or not symmetric.
   LennardJones(int types, const std::vector<LennardJonesPair>& matrix, bool shifted = false);
+  /// Parameters of each particle, mixed pair by pair as they are met: for more kinds of particles than a
+  /// table for pairs of types serves well, that is than four. For cluster pairs only.
+  /// @throws InvalidParameter for a cutoff that is not positive and finite, for a negative or non-finite
+  ///   sigma or epsilon.
+  LennardJones(double cutoff, Span<const LennardJonesParticle> particles);
 
   /// Has charges act too.
   /// @throws InvalidParameter for a negative or non-finite number, another number of cutoffs than pairs of
-  ///   types, and cutoffs that are not symmetric.
+  ///   types, and cutoffs that are not symmetric; for a reaction field beside an Ewald sum, or with cutoffs
+  ///   that are not all the same and that of Lennard-Jones; for an Ewald sum with parameters of particles or
+  ///   a switch.
   void set_coulomb(const CoulombTerm& term);
+  /// Multiplies the Lennard-Jones energy by 1 + t^3 (-10 + t (15 - 6 t)), t = (r - from) / (cutoff - from),
+  /// where r > from: energy and force go to 0 smoothly at the cutoff. For cluster pairs only.
+  /// @throws InvalidParameter unless 0 <= from < cutoff, and if the energy is shifted, cutoffs differ, or
+  ///   charges act as beside an Ewald sum or have another cutoff.
+  void set_switch(double from);
+  /// Threads to compute forces of cluster pairs with; null for that of the caller alone. Not owned.
+  void set_executor(Executor* executor) { executor_ = executor; }
 
   int types() const { return types_; }
+  /// Whether single precision can hold the coefficients: else only ForcePrecision::full is to be had.
+  bool fits_single() const { return fits_single_; }
   /// Of charges too.
   double largest_cutoff() const { return largest_cutoff_; }
 
@@ -83,8 +118,8 @@ class LennardJones {
   /// The same for pairs one by one, always in double precision.
   /// @param positions of the particles now, which have not been wrapped since the list was made [length]
   /// @param now the cell now; of the same periodicity
-  /// @throws InvalidParameter as above, and if positions are not one per particle; InvalidBox for another
-  ///   periodicity
+  /// @throws InvalidParameter as above, if positions are not one per particle, and for a switch, a reaction
+  ///   field or parameters of particles; InvalidBox for another periodicity
   void add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
                   Span<const double> charges = {}) const;
   LennardJonesSums add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions, const Box& now,
@@ -92,19 +127,27 @@ class LennardJones {
 
  private:
   template <class Real>
-  struct alignas(4 * sizeof(Real)) FourCharges {
-    Real q[4];
+  struct alignas(4 * sizeof(Real)) FourNumbers {
+    Real slot[4];
   };
   /// Scratch memory for one precision.
   template <class Real>
   struct Scratch {
-    std::vector<ClusterOfFour<Real>> force;
-    std::vector<FourCharges<Real>> charge;
+    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< by thread
+    std::vector<FourNumbers<Real>> charge, half_sigma, root_epsilon;
   };
   /// Each for all pairs of types: cutoff2, force12, force6, energy12, energy6, energy_shift, coulomb_cutoff2.
   template <class Real>
   using Tables = std::array<std::vector<Real>, 7>;
 
+  void take_matrix(const std::vector<LennardJonesPair>& matrix, bool shifted);
+  void check_coulomb_kind(const CoulombTerm& term) const;
+  detail::ForceKind kind() const;
+  detail::LjParameters parameters() const;
+  template <class Real>
+  detail::LjConstants<Real> constants() const;
+  /// The one cutoff of all pairs, of charges too, or 0 if they differ.
+  double common_cutoff() const;
   void add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces, Span<const double> charges,
            LennardJonesSums* sums);
   template <class Real>
@@ -118,9 +161,15 @@ class LennardJones {
 
   int types_ = 1;
   double largest_cutoff_ = 0;
-  bool fits_single_ = true;  ///< whether single precision can hold the coefficients
-  bool has_charges_ = false;
+  bool shifted_ = false;
+  bool fits_single_ = true;
+  bool has_charges_ = false, has_reaction_field_ = false;
   double charge_unit_ = 1, splitting_ = 0;  ///< the former squared is the CoulombTerm's constant
+  double quadratic_ = 0, offset_ = 0;
+  double switch_from_ = -1;                        ///< negative: there is no switch
+  bool mixes_ = false;                             ///< parameters are those of particles
+  std::vector<double> half_sigma_, root_epsilon_;  ///< by particle then; 4 epsilon of a pair is the product
+  Executor* executor_ = nullptr;
   Tables<double> full_;
   Tables<float> mixed_;
   Scratch<double> scratch_;

@@ -14,7 +14,7 @@ namespace dch {
 
 /// Pairs of particles one by one, each with the image of the second particle that is meant: for force loops
 /// where neighbors are few, so that clusters of four (ClusterPairs) would look at many pairs in vain. It
-/// holds no positions, and stays complete as long as VerletList's condition holds for the list that it was
+/// holds no positions, and stays complete as long as StaleTest's condition holds for the list that it was
 /// made from.
 struct PairList {
   /// Pairs of the same image, up to the next group.

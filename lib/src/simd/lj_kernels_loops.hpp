@@ -20,11 +20,12 @@ enum Coefficient {
 };
 
 /// The coefficients of 16 pairs, part by part; those of one type are the same for all.
-template <class S, bool kOneType>
+template <class S, LjParameters kParameters>
 struct PairCoefficients;
 
 template <class S>
-struct PairCoefficients<S, true> {
+struct PairCoefficients<S, LjParameters::one_type> {
+  static constexpr bool kMixes = false;
   using V = typename S::V;
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task) : PairCoefficients(task.coefficients) {}
@@ -41,7 +42,8 @@ struct PairCoefficients<S, true> {
 };
 
 template <class S>
-struct PairCoefficients<S, false> {
+struct PairCoefficients<S, LjParameters::by_type> {
+  static constexpr bool kMixes = false;
   using V = typename S::V;
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task)
@@ -61,6 +63,32 @@ struct PairCoefficients<S, false> {
   const Real* table[kCoefficients];
   std::int32_t row[4]{};
   const std::int32_t* of_j = nullptr;
+};
+
+/// Mixed by the rules of Lorentz and Berthelot: mean sigma, geometric mean of epsilon. One cutoff for all.
+template <class S>
+struct PairCoefficients<S, LjParameters::by_particle> {
+  static constexpr bool kMixes = true;
+  using V = typename S::V;
+  using Real = typename S::Real;
+  explicit PairCoefficients(const LjTask<Real>& task)
+      : half_sigma(task.half_sigma),
+        root_epsilon(task.root_epsilon),
+        cutoff2(S::set1(*task.coefficients.cutoff2)) {}
+  void choose_i(std::int32_t cluster) {
+    for (int p = 0; p < S::kParts; ++p) {
+      sigma_of_i[p] = S::spread(half_sigma + 4 * cluster, p);
+      epsilon_of_i[p] = S::spread(root_epsilon + 4 * cluster, p);
+    }
+  }
+  void choose_j(std::int32_t cluster) { of_j = 4 * cluster; }
+  V operator()(int, int) const { return cutoff2; }
+  V sigma(int p) const { return S::add(sigma_of_i[p], S::repeat(half_sigma + of_j)); }
+  V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], S::repeat(root_epsilon + of_j)); }
+
+  const Real *half_sigma, *root_epsilon;
+  V cutoff2, sigma_of_i[S::kParts], epsilon_of_i[S::kParts];
+  std::int32_t of_j = 0;
 };
 
 /// Displacements, squared distances and their inverse of an entry's pairs; the latter are 0 where nothing
@@ -121,16 +149,28 @@ EwaldFactors<S> ewald_factors(typename S::V x) {
   return {erfc, S::madd(S::mul(S::set1(Real(1.12837917)), x), expm2, erfc)};
 }
 
+/// LjConstants in all lanes.
+template <class S>
+struct Constants {
+  explicit Constants(const LjConstants<typename S::Real>& c)
+      : splitting(S::set1(c.splitting)),
+        quadratic(S::set1(c.quadratic)),
+        offset(S::set1(c.offset)),
+        switch_from(S::set1(c.switch_from)),
+        over_width(S::set1(c.over_width)) {}
+  typename S::V splitting, quadratic, offset, switch_from, over_width;
+};
+
 /// Charges of a row's cluster, for the pairs of each part.
 template <class S>
 struct RowCharges {
-  typename S::V splitting, of_i[S::kParts];
+  typename S::V of_i[S::kParts];
 };
 
-template <class S, bool kOneType, CoulombKind kKind>
+template <class S, LjParameters kParameters, ForceKind kKind>
 Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row,
                        const Coordinates<S>& i, const ClusterPairs::Entry& entry,
-                       PairCoefficients<S, kOneType>& coefficient) {
+                       PairCoefficients<S, kParameters>& coefficient) {
   using V = typename S::V;
   const auto j = S::load_cluster(task.at[entry.cluster], task.shift[row.first_shift + entry.shift],
                                  task.at[row.cluster]);
@@ -144,7 +184,7 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
     found.d.z[p] = dz;
     found.r2[p] = r2;
     V reach2 = coefficient(kCutoff2, p);
-    if constexpr (kKind != CoulombKind::none) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
+    if constexpr (has_two_cutoffs(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
     found.s[p] = S::keep(S::less(r2, reach2, entry.mask, p), S::inverse(r2));
   }
   return found;
@@ -156,33 +196,87 @@ struct PairTerms {
   typename S::V force, energy, coulomb_energy;
 };
 
+/// Of Lennard-Jones alone. The energy is not shifted, and not computed unless it is wanted.
+template <class S, bool kEnergy, class Coefficients>
+PairTerms<S> lennard_jones_terms(const Coefficients& coefficient, int p, typename S::V s) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  PairTerms<S> terms{S::zero(), S::zero(), S::zero()};
+  if constexpr (Coefficients::kMixes) {
+    const V sigma = coefficient.sigma(p), s2 = S::mul(S::mul(sigma, sigma), s);
+    const V s6 = S::mul(S::mul(s2, s2), s2), attraction = S::mul(coefficient.four_epsilon(p), s6);
+    const V inner = S::msub(S::set1(Real(12)), s6, S::set1(Real(6)));
+    terms.force = S::mul(S::mul(attraction, inner), s);
+    if constexpr (kEnergy) terms.energy = S::msub(attraction, s6, attraction);
+  } else {
+    const V s3 = S::mul(S::mul(s, s), s);
+    terms.force = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
+    if constexpr (kEnergy)
+      terms.energy = S::mul(s3, S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p)));
+  }
+  return terms;
+}
+
+/// Multiplies the energy by 1 + t^3 (-10 + t (15 - 6 t)), t = max(0, (r - from) / width); nothing acts beyond
+/// t = 1.
+template <class S>
+void switch_off(typename S::V r, typename S::V over_r, const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  const V t = S::max(S::zero(), S::mul(S::sub(r, constants.switch_from), constants.over_width));
+  const V t2 = S::mul(t, t);
+  const V tail = S::madd(t, S::madd(t, S::set1(Real(-6)), S::set1(Real(15))), S::set1(Real(-10)));
+  const V value = S::madd(S::mul(t2, t), tail, S::set1(Real(1)));
+  const V bend = S::madd(t, S::madd(t, S::set1(Real(-30)), S::set1(Real(60))), S::set1(Real(-30)));
+  const V slope = S::mul(S::mul(t2, bend), constants.over_width);
+  terms.force = S::msub(value, terms.force, S::mul(S::mul(slope, terms.energy), over_r));
+  terms.energy = S::mul(value, terms.energy);
+}
+
+/// Charges in a reaction field, which ends where Lennard-Jones does.
+template <class S, bool kSums>
+void add_reaction_field(typename S::V r2, typename S::V s, typename S::V over_r, typename S::V charge,
+                        const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  const V field = S::mul(constants.quadratic, r2);
+  terms.force = S::madd(S::mul(charge, s), S::sub(over_r, S::add(field, field)), terms.force);
+  if constexpr (kSums) {
+    const V energy = S::mul(charge, S::add(over_r, S::sub(field, constants.offset)));
+    terms.coulomb_energy = S::keep(S::less(S::zero(), s, 0xFFFF, 0), energy);
+  }
+}
+
 /// @param s inverse squared distances, 0 where nothing acts
 /// @param charge products of charges
-template <class S, bool kSums, CoulombKind kKind, class Coefficients>
+template <class S, bool kSums, ForceKind kKind, class Coefficients>
 PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
-                        typename S::V charge, typename S::V splitting) {
+                        typename S::V charge, const Constants<S>& constants) {
   using V = typename S::V;
-  const V s3 = S::mul(S::mul(s, s), s);
-  PairTerms<S> terms{S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p))),
-                     S::zero(), S::zero()};
-  if constexpr (kSums) {
-    const V bound = S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p));
+  PairTerms<S> terms = lennard_jones_terms < S, kSums || is_switched(kKind) > (coefficient, p, s);
+  if constexpr (kSums && !is_switched(kKind) && !Coefficients::kMixes) {
     const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
-    terms.energy = S::msub(s3, bound, above);
+    terms.energy = S::sub(terms.energy, above);
   }
-  if constexpr (kKind != CoulombKind::none) {
-    const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
-    const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
-    const V over_r = S::sqrt(s), bare = S::mul(charge, over_r);
-    EwaldFactors<S> factors{bare, bare};
-    if constexpr (kKind == CoulombKind::ewald) {
-      const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(splitting, S::mul(r2, over_r)));
-      factors = {S::mul(bare, ewald.energy), S::mul(bare, ewald.force)};
-    }
-    terms.force = S::add(S::keep(is_near, terms.force), S::keep(charges_are_near, S::mul(factors.force, s)));
-    if constexpr (kSums) {
-      terms.energy = S::keep(is_near, terms.energy);
-      terms.coulomb_energy = S::keep(charges_are_near, factors.energy);
+  if constexpr (has_charges(kKind) || is_switched(kKind)) {
+    const V over_r = S::sqrt(s);
+    if constexpr (is_switched(kKind)) switch_off<S>(S::mul(r2, over_r), over_r, constants, terms);
+    if constexpr (has_reaction_field(kKind))
+      add_reaction_field<S, kSums>(r2, s, over_r, charge, constants, terms);
+    if constexpr (has_two_cutoffs(kKind)) {
+      const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
+      const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
+      const V bare = S::mul(charge, over_r);
+      EwaldFactors<S> factors{bare, bare};
+      if constexpr (kKind == ForceKind::ewald) {
+        const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(constants.splitting, S::mul(r2, over_r)));
+        factors = {S::mul(bare, ewald.energy), S::mul(bare, ewald.force)};
+      }
+      terms.force =
+          S::add(S::keep(is_near, terms.force), S::keep(charges_are_near, S::mul(factors.force, s)));
+      if constexpr (kSums) {
+        terms.energy = S::keep(is_near, terms.energy);
+        terms.coulomb_energy = S::keep(charges_are_near, factors.energy);
+      }
     }
   }
   return terms;
@@ -195,20 +289,20 @@ struct RowSums {
 };
 
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
-template <class S, bool kOneType, bool kSums, CoulombKind kKind>
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
 void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
-           const Separations<S>& separation, PairCoefficients<S, kOneType>& coefficient,
-           const RowCharges<S>& charges, RowSums<S>& sum) {
+           const Separations<S>& separation, PairCoefficients<S, kParameters>& coefficient,
+           const RowCharges<S>& charges, const Constants<S>& constants, RowSums<S>& sum) {
   using V = typename S::V;
   coefficient.choose_j(entry.cluster);
   Coordinates<S> force;
   for (int p = 0; p < S::kParts; ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
     V charge = S::zero();
-    if constexpr (kKind != CoulombKind::none)
+    if constexpr (has_charges(kKind))
       charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
     const PairTerms<S> terms =
-        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, charge, charges.splitting);
+        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, charge, constants);
     // The force on J, which the displacement points to.
     force.x[p] = S::mul(terms.force, dx);
     force.y[p] = S::mul(terms.force, dy);
@@ -218,8 +312,7 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
     sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
     if constexpr (kSums) {
       sum.energy = S::add(sum.energy, terms.energy);
-      if constexpr (kKind != CoulombKind::none)
-        sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+      if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
       sum.virial[0] = S::madd(dx, force.x[p], sum.virial[0]);
       sum.virial[1] = S::madd(dy, force.y[p], sum.virial[1]);
       sum.virial[2] = S::madd(dz, force.z[p], sum.virial[2]);
@@ -233,16 +326,16 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
 
 /// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
 /// than what a processor can look ahead over.
-template <class S, bool kOneType, bool kSums, CoulombKind kKind>
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
 void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
-  PairCoefficients<S, kOneType> coefficient(task);
-  RowCharges<S> charges;
-  charges.splitting = S::set1(task.splitting);
+  PairCoefficients<S, kParameters> coefficient(task);
+  const Constants<S> constants(task.constants);
+  RowCharges<S> charges{};
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
     const Coordinates<S> i = spread<S>(task.at[row.cluster]);
     coefficient.choose_i(row.cluster);
-    if constexpr (kKind != CoulombKind::none)
+    if constexpr (has_charges(kKind))
       for (int p = 0; p < S::kParts; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
     RowSums<S> sum;
     for (int p = 0; p < S::kParts; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
@@ -250,31 +343,46 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
     for (auto& v : sum.virial) v = S::zero();
     const ClusterPairs::Entry* entry = task.entries + row.first;
     const ClusterPairs::Entry* const last = task.entries + task.rows[r + 1].first - 1;
-    Separations<S> separation = measure<S, kOneType, kKind>(task, row, i, *entry, coefficient);
+    Separations<S> separation = measure<S, kParameters, kKind>(task, row, i, *entry, coefficient);
     for (; entry != last; ++entry) {
-      const Separations<S> next = measure<S, kOneType, kKind>(task, row, i, entry[1], coefficient);
-      apply<S, kOneType, kSums, kKind>(task, *entry, separation, coefficient, charges, sum);
+      const Separations<S> next = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
+      apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
       separation = next;
     }
-    apply<S, kOneType, kSums, kKind>(task, *entry, separation, coefficient, charges, sum);
+    apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
     S::subtract_over_j(sum.force, task.force[row.cluster]);
     if constexpr (kSums) {
       sums.energy += S::sum(sum.energy);
-      if constexpr (kKind != CoulombKind::none) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+      if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
       for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(sum.virial[k]);
     }
   }
 }
 
-template <class S, CoulombKind kKind>
+template <class S, ForceKind kKind>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_of_kind{
-    lennard_jones<S, true, false, kKind>, lennard_jones<S, true, true, kKind>,
-    lennard_jones<S, false, false, kKind>, lennard_jones<S, false, true, kKind>};
+    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
+      lennard_jones<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_type, false, kKind>,
+      lennard_jones<S, LjParameters::by_type, true, kKind>},
+     {nullptr, nullptr}}};
+
+/// With parameters by particle too.
+template <class S, ForceKind kKind>
+constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_that_mix{
+    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
+      lennard_jones<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_type, false, kKind>,
+      lennard_jones<S, LjParameters::by_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_particle, false, kKind>,
+      lennard_jones<S, LjParameters::by_particle, true, kKind>}}};
 
 template <class S>
 constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
-    {lj_functions_of_kind<S, CoulombKind::none>, lj_functions_of_kind<S, CoulombKind::plain>,
-     lj_functions_of_kind<S, CoulombKind::ewald>}};
+    {lj_functions_that_mix<S, ForceKind::lennard_jones>, lj_functions_of_kind<S, ForceKind::plain>,
+     lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
+     lj_functions_that_mix<S, ForceKind::switched>,
+     lj_functions_that_mix<S, ForceKind::switched_reaction_field>}};
 
 }  // namespace
 }  // namespace dch::detail

@@ -9,17 +9,18 @@ namespace dch::detail {
 namespace {
 
 /// The coefficients of kLanes pairs; those of one type are the same for all.
-template <class S, bool kOneType>
+template <class S, LjParameters kParameters>
 struct LaneCoefficients;
 
 template <class S>
-struct LaneCoefficients<S, true> : PairCoefficients<S, true> {
-  using PairCoefficients<S, true>::PairCoefficients;
+struct LaneCoefficients<S, LjParameters::one_type> : PairCoefficients<S, LjParameters::one_type> {
+  using PairCoefficients<S, LjParameters::one_type>::PairCoefficients;
   void choose(const LjPairTask&, const std::int32_t*, const std::int32_t*) {}
 };
 
 template <class S>
-struct LaneCoefficients<S, false> {
+struct LaneCoefficients<S, LjParameters::by_type> {
+  static constexpr bool kMixes = false;
   using V = typename S::V;
   explicit LaneCoefficients(const LjCoefficients<double>& c)
       : table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift, c.coulomb_cutoff2} {}
@@ -38,9 +39,9 @@ struct LaneSums {
 };
 
 /// kLanes pairs of which only those in `mask` act.
-template <class S, bool kSums, CoulombKind kKind, class Coefficients>
+template <class S, bool kSums, ForceKind kKind, class Coefficients>
 void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t* j, std::uint32_t mask,
-               const Coordinates<S>& shift, typename S::V splitting, Coefficients& coefficient,
+               const Coordinates<S>& shift, const Constants<S>& constants, Coefficients& coefficient,
                LaneSums<S>& sum) {
   using V = typename S::V;
   const double* const positions = &task.positions->x;
@@ -52,21 +53,20 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
   const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
   coefficient.choose(task, i, j);
   V reach2 = coefficient(kCutoff2, 0);
-  if constexpr (kKind != CoulombKind::none) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
+  if constexpr (has_charges(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
   const auto near = S::less(r2, reach2, mask, 0);
   const std::uint32_t lanes = S::bits(near);
   if (lanes == 0) return;
   const V s = S::keep(near, S::inverse(r2));
   V charge = S::zero();
-  if constexpr (kKind != CoulombKind::none)
+  if constexpr (has_charges(kKind))
     charge = S::mul(S::mul(S::gather(task.charge, i), S::gather(task.charge, j)),
                     S::set1(task.charge_unit * task.charge_unit));
-  const PairTerms<S> terms = pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, charge, splitting);
+  const PairTerms<S> terms = pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, charge, constants);
   const V fx = S::mul(terms.force, dx), fy = S::mul(terms.force, dy), fz = S::mul(terms.force, dz);
   if constexpr (kSums) {
     sum.energy = S::add(sum.energy, terms.energy);
-    if constexpr (kKind != CoulombKind::none)
-      sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+    if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
     sum.virial[0] = S::madd(dx, fx, sum.virial[0]);
     sum.virial[1] = S::madd(dy, fy, sum.virial[1]);
     sum.virial[2] = S::madd(dz, fz, sum.virial[2]);
@@ -77,10 +77,10 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
   add_to_both<S>(lanes, i, j, fx, fy, fz, task.forces);
 }
 
-template <class S, bool kOneType, bool kSums, CoulombKind kKind>
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
 void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
-  LaneCoefficients<S, kOneType> coefficient(task.coefficients);
-  const typename S::V splitting = S::set1(task.splitting);
+  LaneCoefficients<S, kParameters> coefficient(task.coefficients);
+  const Constants<S> constants(task.constants);
   Coordinates<S> shift;
   shift.x[0] = S::set1(task.shift.x);
   shift.y[0] = S::set1(task.shift.y);
@@ -91,7 +91,7 @@ void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
   std::int64_t k = task.first;
   for (; k + S::kLanes <= task.last; k += S::kLanes)
-    add_pairs<S, kSums, kKind>(task, task.i + k, task.j + k, kAll, shift, splitting, coefficient, sum);
+    add_pairs<S, kSums, kKind>(task, task.i + k, task.j + k, kAll, shift, constants, coefficient, sum);
   if (k < task.last) {
     // Lanes without a pair repeat the first one, whose mask bit they lack.
     std::int32_t i[S::kLanes], j[S::kLanes];
@@ -101,24 +101,31 @@ void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
       j[lane] = task.j[from];
     }
     const auto mask = kAll >> (S::kLanes - (task.last - k));
-    add_pairs<S, kSums, kKind>(task, i, j, mask, shift, splitting, coefficient, sum);
+    add_pairs<S, kSums, kKind>(task, i, j, mask, shift, constants, coefficient, sum);
   }
   if constexpr (kSums) {
     sums.energy += S::sum(sum.energy);
-    if constexpr (kKind != CoulombKind::none) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+    if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
     for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
   }
 }
 
-template <class S, CoulombKind kKind>
+template <class S, ForceKind kKind>
 constexpr LjFunctions<LjPairTask>::OfKind lj_pair_functions_of_kind{
-    lennard_jones_of_pairs<S, true, false, kKind>, lennard_jones_of_pairs<S, true, true, kKind>,
-    lennard_jones_of_pairs<S, false, false, kKind>, lennard_jones_of_pairs<S, false, true, kKind>};
+    {{lennard_jones_of_pairs<S, LjParameters::one_type, false, kKind>,
+      lennard_jones_of_pairs<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones_of_pairs<S, LjParameters::by_type, false, kKind>,
+      lennard_jones_of_pairs<S, LjParameters::by_type, true, kKind>},
+     {nullptr, nullptr}}};
 
 template <class S>
-constexpr LjFunctions<LjPairTask> lj_pair_functions_of{{lj_pair_functions_of_kind<S, CoulombKind::none>,
-                                                        lj_pair_functions_of_kind<S, CoulombKind::plain>,
-                                                        lj_pair_functions_of_kind<S, CoulombKind::ewald>}};
+constexpr LjFunctions<LjPairTask> lj_pair_functions_of{
+    {lj_pair_functions_of_kind<S, ForceKind::lennard_jones>,
+     lj_pair_functions_of_kind<S, ForceKind::plain>,
+     lj_pair_functions_of_kind<S, ForceKind::ewald>,
+     {},
+     {},
+     {}}};
 
 }  // namespace
 }  // namespace dch::detail

@@ -19,10 +19,36 @@ struct LjCoefficients {
   const Real *cutoff2, *force12, *force6, *energy12, *energy6, *energy_shift, *coulomb_cutoff2;
 };
 
-/// How charges act: not at all, with energy q_i q_j / r, or with that part of it which is left to pairs by an
-/// Ewald sum, q_i q_j erfc(splitting r) / r.
-enum class CoulombKind { none, plain, ewald };
-inline constexpr int kCoulombKinds = 3;
+/// Which terms act: Lennard-Jones alone; with charges, whose energy is q_i q_j / r, what an Ewald sum leaves
+/// of that, q_i q_j erfc(splitting r) / r, or that with a reaction field, q_i q_j (1/r + quadratic r^2 -
+/// offset); and Lennard-Jones multiplied by a switching function, alone or with charges and their reaction
+/// field. Where there is a reaction field or a switch, all pairs have one cutoff.
+enum class ForceKind { lennard_jones, plain, ewald, reaction_field, switched, switched_reaction_field };
+inline constexpr int kForceKinds = 6;
+
+constexpr bool has_reaction_field(ForceKind kind) {
+  return kind == ForceKind::reaction_field || kind == ForceKind::switched_reaction_field;
+}
+constexpr bool has_charges(ForceKind kind) {
+  return kind == ForceKind::plain || kind == ForceKind::ewald || has_reaction_field(kind);
+}
+constexpr bool is_switched(ForceKind kind) {
+  return kind == ForceKind::switched || kind == ForceKind::switched_reaction_field;
+}
+/// Whether charges may have a cutoff of their own.
+constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_reaction_field(kind); }
+
+/// Where sigma and epsilon come from: they are the same for all pairs, stand in a table of pairs of types, or
+/// are mixed from those of the particles.
+enum class LjParameters { one_type, by_type, by_particle };
+
+/// What is the same for all pairs.
+template <class Real>
+struct LjConstants {
+  Real splitting = 0;                    ///< of an Ewald sum [1/length]
+  Real quadratic = 0, offset = 0;        ///< of a reaction field [1/length^3, 1/length]
+  Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
+};
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.
 template <class Real>
@@ -35,8 +61,10 @@ struct LjTask {
   const std::int32_t* type;  ///< by slot
   std::int32_t types;
   LjCoefficients<Real> coefficients;
-  const Real* charge;          ///< by slot, aligned; null without charges
-  Real splitting;              ///< of an Ewald sum [1/length]
+  const Real* half_sigma;    ///< by slot, aligned; null unless parameters are mixed
+  const Real* root_epsilon;  ///< the same: the product of two is 4 epsilon of the pair
+  const Real* charge;        ///< by slot, aligned; null without charges
+  LjConstants<Real> constants;
   ClusterOfFour<Real>* force;  ///< by cluster; added to
 };
 
@@ -51,8 +79,8 @@ struct LjPairTask {
   LjCoefficients<double> coefficients;
   const double* charge;  ///< by particle; null without charges
   double charge_unit;    ///< what charges are multiplied by
-  double splitting;      ///< of an Ewald sum [1/length]
-  Vec3* forces;          ///< by particle; added to
+  LjConstants<double> constants;
+  Vec3* forces;  ///< by particle; added to
 };
 
 /// Energies, and the virial sum of d f over pairs: xx, yy, zz, xy, xz, yz.
@@ -61,19 +89,19 @@ struct LjSums {
   double virial[6]{};
 };
 
-/// Which sums are made, for how many types and which charges, is decided when this is compiled.
+/// Which sums are made, whose parameters and which terms, is decided when this is compiled. Functions that
+/// nobody asks for are null: an Ewald sum with parameters by particle, and for pairs one by one all but the
+/// first three kinds and parameters by particle.
 template <class Task>
 struct LjFunctions {
   using Function = void (*)(const Task&, LjSums&);
   struct OfKind {
-    Function one_type, one_type_sums;
-    Function many_types, many_types_sums;
+    Function of_parameters[3][2];  ///< without sums and with them
   };
-  OfKind of_kind[kCoulombKinds];
+  OfKind of_kind[kForceKinds];
 
-  Function choose(CoulombKind kind, bool one, bool sums) const {
-    const OfKind& f = of_kind[static_cast<int>(kind)];
-    return one ? (sums ? f.one_type_sums : f.one_type) : (sums ? f.many_types_sums : f.many_types);
+  Function choose(ForceKind kind, LjParameters parameters, bool sums) const {
+    return of_kind[static_cast<int>(kind)].of_parameters[static_cast<int>(parameters)][sums ? 1 : 0];
   }
 };
 

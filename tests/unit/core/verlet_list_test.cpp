@@ -167,6 +167,26 @@ Box strained(const Box& box, double largest, scenes::Random& random) {
 }
 
 // Motion and strain of any size: as long as the list says that it is good, it holds every pair.
+TEST(StaleTest, RemembersOnePlaceUntilItForgets) {
+  const Box box = Box::orthorhombic({10, 10, 10});
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}}, near{{1.2, 1, 1}, {9, 9, 9}},
+      far{{1.3, 1, 1}, {9, 9, 9}};
+  StaleTest test(0.5);
+  EXPECT_TRUE(test.is_stale(points, box)) << "nothing remembered";
+  test.remember(points, box);
+  EXPECT_FALSE(test.is_stale(points, box));
+  EXPECT_FALSE(test.is_stale(near, box));
+  EXPECT_TRUE(test.is_stale(far, box));
+  test.remember(far, box);
+  EXPECT_FALSE(test.is_stale(near, box));
+  test.forget();
+  EXPECT_TRUE(test.is_stale(far, box));
+  test.remember({}, box);
+  EXPECT_FALSE(test.is_stale({}, box));
+  EXPECT_THROW(StaleTest(-1), InvalidParameter);
+  EXPECT_THROW(StaleTest(std::numeric_limits<double>::quiet_NaN()), InvalidParameter);
+}
+
 TEST(VerletList, NeverMissesAPairBetweenRebuilds) {
   const double cutoff = 1.2, skin = 0.5;
   for (const auto& [name, box] : scenes::all_boxes(5)) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_PARAMETER_SET_H_
+#define OPENMM_DCH_PARAMETER_SET_H_
+
+#include <map>
+#include <openmm/internal/ContextImpl.h>
+#include <string>
+#include <vector>
+
+#include "DCHNonbondedForce.h"
+
+namespace OpenMMDCH {
+
+/// The parameters of a DCHNonbondedForce with those offsets added that the Context's global parameters ask
+/// for.
+class DCHParameterSet {
+ public:
+  struct Particle {
+    double charge, sigma, epsilon;
+  };
+  struct Exception {
+    int particle1, particle2;
+    double chargeProd, sigma, epsilon;
+    bool acts() const { return chargeProd != 0 || epsilon != 0; }
+  };
+
+  explicit DCHParameterSet(const DCHNonbondedForce& force);
+
+  /// Takes the parameters of a force anew.
+  /// @throws OpenMMException if the number of particles or exceptions has changed, or the particles of an
+  ///   exception.
+  void take(const DCHNonbondedForce& force);
+
+  /// Follows the Context's global parameters. Says whether anything has changed since the last call.
+  /// @throws OpenMMException if an offset makes a sigma or an epsilon negative.
+  bool follow(OpenMM::ContextImpl& context);
+
+  const std::vector<Particle>& particles() const { return nowParticles; }
+  const std::vector<Exception>& exceptions() const { return nowExceptions; }
+  /// Whether a particle has a charge.
+  bool hasCharges() const { return anyCharge; }
+
+ private:
+  struct Offset {
+    std::string parameter;
+    int index;
+    double charge, sigma, epsilon;
+  };
+  void evaluate(OpenMM::ContextImpl& context);
+
+  std::vector<Particle> baseParticles, nowParticles;
+  std::vector<Exception> baseExceptions, nowExceptions;
+  std::vector<Offset> particleOffsets, exceptionOffsets;
+  std::map<std::string, double> globals;  ///< that offsets depend on, as of the last evaluation
+  bool isCurrent = false, anyCharge = false;
+};
+
+}  // namespace OpenMMDCH
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_CLUSTER_PAIR_KEEPER_H_
+#define OPENMM_DCH_CLUSTER_PAIR_KEEPER_H_
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <dch/cluster_pairs.hpp>
+#include <dch/executor.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/stale_test.hpp>
+
+namespace OpenMMDCH {
+
+/// Keeps cluster pairs complete while particles move and the box changes.
+class ClusterPairKeeper {
+ public:
+  /// @param executor, exclusions  outlive this
+  ClusterPairKeeper(double cutoffDistance, const dch::Exclusions& exclusions, dch::Executor& executor);
+
+  /// Types of the particles, from 0 to typeCount - 1. Empty for one type.
+  void setTypes(std::vector<std::int32_t> types, int typeCount);
+
+  /// Whether pairs can be kept in this box. If not, all pairs of particles have to be looked at.
+  bool fits(const dch::Box& box) const;
+  /// The pairs at these positions, searched for anew if some might be missing. For a box that fits.
+  const dch::ClusterPairs& at(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+
+ private:
+  void chooseSkin(const dch::Box& box);
+
+  double cutoff;
+  dch::Executor& pool;
+  dch::ListParams request;
+  std::vector<std::int32_t> particleTypes;
+  std::unique_ptr<dch::PairSearch> search;
+  std::optional<dch::StaleTest> staleTest;
+  dch::ClusterPairs pairs;
+};
+
+}  // namespace OpenMMDCH
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// The plugin of the CPU platform.
+#include <CpuPlatform.h>
+#include <openmm/KernelFactory.h>
+#include <openmm/OpenMMException.h>
+#include <openmm/Platform.h>
+#include <openmm/PluginInitializer.h>
+
+#include "CpuDCHKernels.h"
+
+namespace {
+
+class CpuDCHKernelFactory : public OpenMM::KernelFactory {
+ public:
+  OpenMM::KernelImpl* createKernelImpl(std::string name, const OpenMM::Platform& platform,
+                                       OpenMM::ContextImpl& context) const override {
+    if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
+      return new OpenMMDCH::CpuCalcDCHNonbondedForceKernel(
+          name, platform, OpenMM::CpuPlatform::getPlatformData(context).threads);
+    throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
+  }
+};
+
+}  // namespace
+
+extern "C" OPENMM_EXPORT void registerPlatforms() {}
+
+extern "C" OPENMM_EXPORT void registerKernelFactories() {
+  for (int k = 0; k < OpenMM::Platform::getNumPlatforms(); ++k) {
+    OpenMM::Platform& platform = OpenMM::Platform::getPlatform(k);
+    if (platform.getName() == "CPU")
+      platform.registerKernelFactory(OpenMMDCH::CalcDCHNonbondedForceKernel::Name(),
+                                     new CpuDCHKernelFactory());
+  }
+}

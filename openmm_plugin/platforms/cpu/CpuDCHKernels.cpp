@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "CpuDCHKernels.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace OpenMMDCH {
+namespace {
+
+// Kinds of particles whose pairs the kernels can keep in registers. With more, parameters are mixed pair by
+// pair: as fast whatever their number.
+constexpr std::size_t kMostKinds = 4;
+
+}  // namespace
+
+void CpuCalcDCHNonbondedForceKernel::initialize(const OpenMM::System& system,
+                                                const DCHNonbondedForce& force) {
+  DCHNonbondedKernelBase::initialize(system, force);
+  if (potential().hasCutoff()) keeper.emplace(potential().cutoffDistance(), exclusions(), executor);
+}
+
+void CpuCalcDCHNonbondedForceKernel::parametersChanged() {
+  if (keeper) makeForces();
+}
+
+void CpuCalcDCHNonbondedForceKernel::makeForces() {
+  const auto& particles = parameters().particles();
+  const double cutoff = potential().cutoffDistance();
+  std::map<std::pair<double, double>, std::int32_t> kinds;  // sigma and epsilon
+  std::vector<std::int32_t> kindOf;
+  std::vector<dch::LennardJonesParticle> parametersOf;
+  for (const auto& p : particles) {
+    const std::pair<double, double> kind(p.epsilon > 0 ? p.sigma : 0, p.epsilon);
+    kindOf.push_back(kinds.try_emplace(kind, static_cast<std::int32_t>(kinds.size())).first->second);
+    parametersOf.push_back({p.epsilon, p.sigma});
+  }
+  std::size_t side = kinds.size();
+  if (side <= kMostKinds) {
+    std::vector<dch::LennardJonesPair> matrix(side * side);
+    for (const auto& [a, kindA] : kinds)
+      for (const auto& [b, kindB] : kinds)
+        matrix[static_cast<std::size_t>(kindA) * side + static_cast<std::size_t>(kindB)] = {
+            std::sqrt(a.second * b.second), 0.5 * (a.first + b.first), cutoff};
+    forces.emplace(static_cast<int>(side), matrix);
+  } else {
+    forces.emplace(cutoff, parametersOf);
+    side = 1;
+    kindOf.clear();
+  }
+  forces->set_executor(&executor);
+  keeper->setTypes(std::move(kindOf), static_cast<int>(side));
+  charges.clear();
+  if (parameters().hasCharges()) {
+    for (const auto& p : particles) charges.push_back(p.charge);
+    forces->set_coulomb({PairPotential::coulombConstant(), 0, std::vector<double>(side * side, cutoff),
+                         potential().reactionFieldK(), potential().reactionFieldC()});
+  }
+  if (potential().isSwitched()) forces->set_switch(potential().switchingDistance());
+}
+
+double CpuCalcDCHNonbondedForceKernel::addPairs(OpenMM::ContextImpl&, const HostState& state,
+                                                bool includeEnergy) {
+  if (!keeper || !keeper->fits(state.box)) return addAllPairs(state);
+  const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
+  const auto precision = forces->fits_single() ? dch::ForcePrecision::mixed : dch::ForcePrecision::full;
+  if (!includeEnergy) {
+    forces->add_forces(pairs, precision, state.forces, charges);
+    return 0;
+  }
+  const dch::LennardJonesSums sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);
+  return sums.energy + sums.coulomb_energy;
+}
+
+double CpuCalcDCHNonbondedForceKernel::addAllPairs(const HostState& state) {
+  const auto threads = static_cast<std::size_t>(executor.threads());
+  std::vector<double> energies(threads);
+  forcesByThread.resize(threads);
+  executor.run(executor.threads(), [&](int thread) {
+    const auto k = static_cast<std::size_t>(thread);
+    forcesByThread[k].assign(state.positions.size(), {});
+    energies[k] = addRows(state, k, threads, forcesByThread[k]);
+  });
+  double energy = 0;
+  for (std::size_t k = 0; k < threads; ++k) {
+    energy += energies[k];
+    for (std::size_t i = 0; i < state.forces.size(); ++i)
+      state.forces[i] = state.forces[i] + forcesByThread[k][i];
+  }
+  return energy;
+}
+
+}  // namespace OpenMMDCH

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_CPU_KERNELS_H_
+#define OPENMM_DCH_CPU_KERNELS_H_
+
+#include <optional>
+#include <vector>
+
+#include <dch/lennard_jones.hpp>
+
+#include "ClusterPairKeeper.h"
+#include "DCHNonbondedKernelBase.h"
+#include "PoolExecutor.h"
+
+namespace OpenMMDCH {
+
+/// A DCHNonbondedForce on the CPU platform: cluster pairs from double positions, SIMD kernels in single
+/// precision with sums in double, on the threads of the platform. Without a cutoff, and in the few boxes
+/// where lists cannot be made, all pairs in double.
+class CpuCalcDCHNonbondedForceKernel : public DCHNonbondedKernelBase {
+ public:
+  CpuCalcDCHNonbondedForceKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
+                                 OpenMM::ThreadPool& threads)
+      : DCHNonbondedKernelBase(kernelName, onPlatform), executor(threads) {}
+
+  void initialize(const OpenMM::System& system, const DCHNonbondedForce& force) override;
+
+ protected:
+  double addPairs(OpenMM::ContextImpl& context, const HostState& state, bool includeEnergy) override;
+  void parametersChanged() override;
+
+ private:
+  void makeForces();
+  double addAllPairs(const HostState& state);
+
+  PoolExecutor executor;
+  std::optional<ClusterPairKeeper> keeper;             ///< with a cutoff
+  std::optional<dch::LennardJones> forces;             ///< the same
+  std::vector<double> charges;                         ///< empty if all are 0
+  std::vector<std::vector<dch::Vec3>> forcesByThread;  ///< of all pairs
+};
+
+}  // namespace OpenMMDCH
+
+#endif

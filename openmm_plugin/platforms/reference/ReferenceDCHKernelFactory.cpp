@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// The plugin of the Reference platform.
+#include <openmm/KernelFactory.h>
+#include <openmm/OpenMMException.h>
+#include <openmm/Platform.h>
+#include <openmm/PluginInitializer.h>
+
+#include "ReferenceDCHKernels.h"
+
+namespace {
+
+class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
+ public:
+  OpenMM::KernelImpl* createKernelImpl(std::string name, const OpenMM::Platform& platform,
+                                       OpenMM::ContextImpl&) const override {
+    if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
+      return new OpenMMDCH::ReferenceCalcDCHNonbondedForceKernel(name, platform);
+    throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
+  }
+};
+
+}  // namespace
+
+extern "C" OPENMM_EXPORT void registerPlatforms() {}
+
+extern "C" OPENMM_EXPORT void registerKernelFactories() {
+  for (int k = 0; k < OpenMM::Platform::getNumPlatforms(); ++k) {
+    OpenMM::Platform& platform = OpenMM::Platform::getPlatform(k);
+    // By name: the CPU platform is a ReferencePlatform too.
+    if (platform.getName() == "Reference")
+      platform.registerKernelFactory(OpenMMDCH::CalcDCHNonbondedForceKernel::Name(),
+                                     new ReferenceDCHKernelFactory());
+  }
+}

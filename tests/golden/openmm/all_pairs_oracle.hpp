@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <utility>
+
+#include "openmm_case.hpp"
+
+namespace OpenMMDCH {
+
+/// Energy of a pair of particles and -dE/dr, from the textbook's formulas.
+struct RadialTerms {
+  double energy = 0, force = 0;
+};
+
+inline RadialTerms lennard_jones(double sigma, double epsilon, double r) {
+  const double s6 = std::pow(sigma / r, 6);
+  return {4 * epsilon * (s6 * s6 - s6), 24 * epsilon * (2 * s6 * s6 - s6) / r};
+}
+
+inline RadialTerms pair_terms(const DCHNonbondedForce& force, int i, int j, double r) {
+  double qi, si, ei, qj, sj, ej;
+  force.getParticleParameters(i, qi, si, ei);
+  force.getParticleParameters(j, qj, sj, ej);
+  RadialTerms terms = lennard_jones((si + sj) / 2, std::sqrt(ei) * std::sqrt(ej), r);
+  const double qq = kCoulomb * qi * qj;
+  if (force.getNonbondedMethod() == DCHNonbondedForce::NoCutoff)
+    return {terms.energy + qq / r, terms.force + qq / (r * r)};
+  const double rc = force.getCutoffDistance(), rs = force.getSwitchingDistance();
+  if (force.getUseSwitchingFunction() && r > rs) {
+    const double x = (r - rs) / (rc - rs);
+    const double s = 1 - 10 * std::pow(x, 3) + 15 * std::pow(x, 4) - 6 * std::pow(x, 5);
+    const double slope = (-30 * x * x + 60 * std::pow(x, 3) - 30 * std::pow(x, 4)) / (rc - rs);
+    terms = {s * terms.energy, s * terms.force - slope * terms.energy};
+  }
+  const double e = force.getReactionFieldDielectric();
+  const double k = (e - 1) / (2 * e + 1) / (rc * rc * rc), c = 3 * e / (2 * e + 1) / rc;
+  return {terms.energy + qq * (1 / r + k * r * r - c), terms.force + qq * (1 / (r * r) - 2 * k * r)};
+}
+
+/// Energy and forces by all pairs of particles and all their images within the cutoff, and by all exceptions,
+/// in plain double. The dispersion correction is left out. `box` may be null.
+inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Vec3>& positions,
+                            const Vec3* box) {
+  Evaluation result{0, std::vector<Vec3>(positions.size())};
+  const auto act = [&](std::size_t i, std::size_t j, const Vec3& apart, const RadialTerms& terms) {
+    const Vec3 f = apart * (terms.force / std::sqrt(apart.dot(apart)));
+    result.forces[j] += f;
+    result.forces[i] -= f;
+    result.energy += terms.energy;
+  };
+  // Boxes of OpenMM have vectors with ever more components: x, xy, xyz.
+  const auto wrapped = [&](Vec3 d) {
+    for (int axis = 2; axis >= 0; --axis) d -= box[axis] * std::floor(d[axis] / box[axis][axis] + 0.5);
+    return d;
+  };
+  std::set<std::pair<int, int>> excluded;
+  for (int k = 0; k < force.getNumExceptions(); ++k) {
+    int i, j;
+    double qq, sigma, epsilon;
+    force.getExceptionParameters(k, i, j, qq, sigma, epsilon);
+    excluded.insert({std::min(i, j), std::max(i, j)});
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    Vec3 apart = positions[b] - positions[a];
+    if (box && force.getExceptionsUsePeriodicBoundaryConditions()) apart = wrapped(apart);
+    const double r = std::sqrt(apart.dot(apart));
+    RadialTerms terms = lennard_jones(sigma, epsilon, r);
+    act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
+  }
+  const double cutoff = force.getNonbondedMethod() == DCHNonbondedForce::NoCutoff
+                            ? std::numeric_limits<double>::infinity()
+                            : force.getCutoffDistance();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (std::size_t j = i + 1; j < positions.size(); ++j) {
+      if (excluded.count({static_cast<int>(i), static_cast<int>(j)}) > 0) continue;
+      const auto act_within_cutoff = [&](const Vec3& apart) {
+        if (const double r2 = apart.dot(apart); r2 < cutoff * cutoff)
+          act(i, j, apart, pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2)));
+      };
+      const Vec3 apart = positions[j] - positions[i];
+      if (!box) {
+        act_within_cutoff(apart);
+        continue;
+      }
+      const Vec3 near = wrapped(apart);
+      for (int n = 0; n < 27; ++n)
+        act_within_cutoff(near + box[0] * (n % 3 - 1) + box[1] * (n / 3 % 3 - 1) + box[2] * (n / 9 - 1));
+    }
+  return result;
+}
+
+/// Root mean square difference of forces over the root mean square of the expected ones.
+inline double force_error(const Evaluation& expected, const Evaluation& found) {
+  double error2 = 0, size2 = 0;
+  for (std::size_t i = 0; i < expected.forces.size(); ++i) {
+    const Vec3 d = found.forces.at(i) - expected.forces[i];
+    error2 += d.dot(d);
+    size2 += expected.forces[i].dot(expected.forces[i]);
+  }
+  return std::sqrt(error2 / size2);
+}
+
+}  // namespace OpenMMDCH

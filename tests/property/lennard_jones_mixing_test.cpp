@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+//
+// Switched Lennard-Jones forces, charges in a reaction field and parameters mixed from those of particles, on
+// one thread and several, equal those of all pairs in plain double.
+#include <gtest/gtest.h>
+#include <limits>
+
+#include <dch/error.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/lennard_jones.hpp>
+
+#include "instruction_sets.hpp"
+#include "lj_oracle.hpp"
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+constexpr double kCutoff = 2.4, kSkin = 0.3;
+
+struct Terms {
+  double switch_from = -1;  ///< negative: none
+  bool has_charges = false;
+  double quadratic = 0, offset = 0;
+};
+
+/// A gas of particles of several kinds, no two too close to each other, with charges.
+struct Gas {
+  std::vector<Vec3> points;
+  std::vector<LennardJonesParticle> particles;
+  std::vector<std::int32_t> kind;
+  std::vector<double> charges;
+  std::vector<LennardJonesParticle> of_kind;
+};
+
+Gas make_gas(const Box& box, std::size_t n, int kinds, std::uint64_t seed) {
+  scenes::Random random(seed);
+  Gas gas;
+  for (int k = 0; k < kinds; ++k) gas.of_kind.push_back({k == 1 ? 0 : 0.5 + 0.1 * k, 0.8 + 0.02 * k});
+  for (int trial = 0; trial < 200000 && gas.points.size() < n; ++trial) {
+    const Vec3 p = scenes::from_fractional(box, {random.uniform(), random.uniform(), random.uniform()});
+    bool fits = true;
+    for (const Vec3 q : gas.points) fits = fits && norm2(box.nearest_image(p - q)) > 0.8 * 0.8;
+    if (!fits) continue;
+    gas.kind.push_back(static_cast<std::int32_t>(gas.points.size()) % kinds);
+    gas.particles.push_back(gas.of_kind[static_cast<std::size_t>(gas.kind.back())]);
+    gas.charges.push_back(random.uniform(-1, 1));
+    gas.points.push_back(p);
+  }
+  return gas;
+}
+
+/// By the formulas, with a numerical look at nothing but pairs.
+LennardJonesResult all_pairs_of(const Gas& gas, const Box& box, const Terms& terms) {
+  LennardJonesResult result;
+  result.force.resize(gas.points.size());
+  for (std::size_t i = 0; i < gas.points.size(); ++i)
+    for (std::size_t j = i + 1; j < gas.points.size(); ++j) {
+      const Vec3 d = box.nearest_image(gas.points[j] - gas.points[i]);
+      const double r = std::sqrt(norm2(d));
+      if (r >= kCutoff) continue;
+      const double sigma = (gas.particles[i].sigma + gas.particles[j].sigma) / 2;
+      const double epsilon = std::sqrt(gas.particles[i].epsilon * gas.particles[j].epsilon);
+      const double s6 = std::pow(sigma / r, 6);
+      double energy = 4 * epsilon * (s6 * s6 - s6), force = 24 * epsilon * (2 * s6 * s6 - s6) / r;
+      if (terms.switch_from >= 0 && r > terms.switch_from) {
+        const double width = kCutoff - terms.switch_from, t = (r - terms.switch_from) / width;
+        const double value = 1 - 10 * std::pow(t, 3) + 15 * std::pow(t, 4) - 6 * std::pow(t, 5);
+        const double slope = (-30 * std::pow(t, 2) + 60 * std::pow(t, 3) - 30 * std::pow(t, 4)) / width;
+        force = value * force - slope * energy;
+        energy *= value;
+      }
+      result.sums.energy += energy;
+      if (terms.has_charges) {
+        const double qq = 3.5 * gas.charges[i] * gas.charges[j];
+        result.sums.coulomb_energy += qq * (1 / r + terms.quadratic * r * r - terms.offset);
+        force += qq * (1 / (r * r) - 2 * terms.quadratic * r);
+      }
+      const Vec3 f = (force / r) * d;
+      result.force[j] = result.force[j] + f;
+      result.force[i] = result.force[i] - f;
+      const double virial[6] = {d.x * f.x, d.y * f.y, d.z * f.z, d.x * f.y, d.x * f.z, d.y * f.z};
+      for (std::size_t k = 0; k < 6; ++k) result.sums.virial[k] += virial[k];
+    }
+  return result;
+}
+
+/// The potential with parameters of particles, or with a table for all pairs of kinds.
+LennardJones potential_of(const Gas& gas, const Terms& terms, bool by_particle) {
+  const auto side = gas.of_kind.size();
+  std::vector<LennardJonesPair> matrix;
+  for (const LennardJonesParticle& a : gas.of_kind)
+    for (const LennardJonesParticle& b : gas.of_kind)
+      matrix.push_back({std::sqrt(a.epsilon * b.epsilon), 0.5 * (a.sigma + b.sigma), kCutoff});
+  LennardJones potential =
+      by_particle ? LennardJones(kCutoff, gas.particles) : LennardJones(static_cast<int>(side), matrix);
+  CoulombTerm coulomb;
+  coulomb.constant = 3.5;
+  coulomb.cutoffs.assign(by_particle ? 1 : side * side, kCutoff);
+  coulomb.quadratic = terms.quadratic;
+  coulomb.offset = terms.offset;
+  if (terms.has_charges) potential.set_coulomb(coulomb);
+  if (terms.switch_from >= 0) potential.set_switch(terms.switch_from);
+  return potential;
+}
+
+void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs, LennardJones& potential,
+                  const std::vector<double>& charges, const std::string& what) {
+  const RestoreInstructionSet restore;
+  for (const InstructionSet set : supported_sets())
+    for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
+      set_instruction_set(set);
+      const bool full = precision == ForcePrecision::full;
+      const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
+      std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
+      const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces, charges);
+      potential.add_forces(pairs, precision, once_more, charges);
+      EXPECT_LT(force_error(forces, expected.force), full ? 1e-13 : 1e-5) << where;
+      EXPECT_LT(force_error(once_more, expected.force), full ? 1e-13 : 1e-5) << where;
+      double scale = std::abs(expected.sums.energy) + std::abs(expected.sums.coulomb_energy);
+      for (const double v : expected.sums.virial) scale += std::abs(v);
+      EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-5) * scale) << where;
+      EXPECT_NEAR(sums.coulomb_energy, expected.sums.coulomb_energy, (full ? 1e-13 : 1e-5) * scale) << where;
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-5) * scale) << where << k;
+    }
+}
+
+TEST(LennardJonesMixingTest, EqualsAllPairs) {
+  const std::vector<Terms> all_terms{{-1, false, 0, 0},  {-1, true, 0, 0},     {-1, true, 0.03, 0.5},
+                                     {1.9, false, 0, 0}, {0, true, 0.03, 0.5}, {1.2, true, 0, 0}};
+  for (const Box& box : {Box::none(), Box::triclinic({7, 0, 0}, {1, 7, 0}, {0.5, -1, 7})})
+    for (const int kinds : {1, 2, 6}) {
+      const Box scatter = box.any_periodic() ? box : Box::orthorhombic({7, 7, 7});
+      const Gas gas = make_gas(scatter, 300, kinds, static_cast<std::uint64_t>(kinds));
+      HierarchyParams params;
+      params.radius = kCutoff + kSkin;
+      Hierarchy hierarchy(params);
+      hierarchy.build(gas.points, box);
+      ListParams request;
+      request.skin = kSkin;
+      const auto side = static_cast<std::size_t>(kinds);
+      request.cutoffs = TypeCutoffs(kinds, std::vector<double>(side * side, kCutoff));
+      request.types = gas.kind;
+      ClusterPairs pairs;
+      hierarchy.cluster_pairs(request, pairs);
+      for (std::size_t t = 0; t < all_terms.size(); ++t) {
+        const LennardJonesResult expected = all_pairs_of(gas, box, all_terms[t]);
+        for (const bool by_particle : {false, true}) {
+          LennardJones potential = potential_of(gas, all_terms[t], by_particle);
+          const std::vector<double> charges = all_terms[t].has_charges ? gas.charges : std::vector<double>();
+          const std::string what = std::to_string(kinds) + " kinds, terms " + std::to_string(t) +
+                                   (by_particle ? ", by particle" : ", by type");
+          expect_equal(expected, pairs, potential, charges, what);
+          const auto threads = make_thread_pool(3);
+          potential.set_executor(threads.get());
+          expect_equal(expected, pairs, potential, charges, what + ", three threads");
+        }
+      }
+    }
+}
+
+TEST(LennardJonesMixingTest, FewerParticlesThanThreads) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}};
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  ListParams request;
+  request.cutoffs = TypeCutoffs(2);
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request, pairs);
+  LennardJones potential({1, 1, 2});
+  const auto threads = make_thread_pool(8);
+  potential.set_executor(threads.get());
+  std::vector<Vec3> forces(2);
+  potential.add_forces(pairs, ForcePrecision::full, forces);
+  EXPECT_EQ(forces[1].x, 24);
+  EXPECT_EQ(forces[0].x, -24);
+}
+
+TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<LennardJonesParticle> two(2);
+  EXPECT_THROW(LennardJones(0, two), InvalidParameter);
+  EXPECT_THROW(LennardJones(nan, two), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, std::vector<LennardJonesParticle>{{1, -1}}), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, std::vector<LennardJonesParticle>{{nan, 1}}), InvalidParameter);
+
+  const auto coulomb = [](double splitting, double cutoff, double quadratic, double offset) {
+    return CoulombTerm{1, splitting, {cutoff}, quadratic, offset};
+  };
+  EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb(coulomb(0, 2, nan, 0)), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb(coulomb(1, 2, 0.1, 0)), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb(coulomb(0, 1.5, 0.1, 0)), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, two).set_coulomb(coulomb(1, 2, 0, 0)), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, two).set_coulomb(coulomb(0, 1.5, 0, 0)), InvalidParameter);
+
+  LennardJones plain({1, 1, 2}), shifted({1, 1, 2}, true), ewald({1, 1, 2});
+  ewald.set_coulomb(coulomb(1, 2, 0, 0));
+  EXPECT_THROW(plain.set_switch(-0.1), InvalidParameter);
+  EXPECT_THROW(plain.set_switch(2), InvalidParameter);
+  EXPECT_THROW(plain.set_switch(nan), InvalidParameter);
+  EXPECT_THROW(shifted.set_switch(1), InvalidParameter);
+  EXPECT_THROW(ewald.set_switch(1), InvalidParameter);
+  EXPECT_THROW(LennardJones(2, {{1, 1, 2}, {1, 1, 2}, {1, 1, 2}, {1, 1, 1.5}}).set_switch(1),
+               InvalidParameter);
+  plain.set_switch(1);
+  EXPECT_THROW(plain.set_coulomb(coulomb(1, 2, 0, 0)), InvalidParameter);
+
+  const std::vector<Vec3> points(3);
+  HierarchyParams params;
+  params.radius = 2;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  ListParams request;
+  request.cutoffs = TypeCutoffs(2);
+  ClusterPairs pairs;
+  hierarchy.cluster_pairs(request, pairs);
+  NeighborList list;
+  hierarchy.list(request, list);
+  PairList one_by_one;
+  make_pair_list(
+      list, 2, points, Box::none(), {}, [](std::int32_t, std::int32_t) { return true; }, one_by_one);
+  std::vector<Vec3> forces(3);
+  LennardJones mixing(2, two), switched({1, 1, 2});
+  switched.set_switch(1);
+  EXPECT_THROW(mixing.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
+  EXPECT_THROW(switched.add_forces(one_by_one, points, Box::none(), forces), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace dch
