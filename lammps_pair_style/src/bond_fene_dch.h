@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#pragma once
+#ifdef BOND_CLASS
+// clang-format off
+BondStyle(fene/dch,BondFENEDCH);
+// clang-format on
+#elif !defined(LMP_BOND_FENE_DCH_H)
+#define LMP_BOND_FENE_DCH_H
 
 #include <bond.h>
 #include <lammps_host.h>
@@ -43,3 +48,5 @@ class BondFENEDCH : public Bond {
 };
 
 }  // namespace LAMMPS_NS
+
+#endif

@@ -9,7 +9,7 @@
 #include <dch/error.hpp>
 
 #include "dch_options.h"
-#include "dch_register.h"
+#include "force_styles.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -21,7 +21,7 @@ void DchCommand::command(int narg, char** arg) {
   } catch (const dch::InvalidParameter& e) {
     error->all(FLERR, std::string(e.what()));
   }
-  dch::lammps::register_styles(*lmp);  // again after `clear`, which forgets them
+  register_styles_dch(*lmp);  // again after `clear`, which forgets them
   NeighborDCH* neighbor_dch = NeighborDCH::install(lmp);
   switch (request.action) {
     case Request::Action::on:

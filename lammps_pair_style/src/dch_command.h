@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#pragma once
+#ifdef COMMAND_CLASS
+// clang-format off
+CommandStyle(dch,DchCommand);
+// clang-format on
+#elif !defined(LMP_DCH_COMMAND_H)
+#define LMP_DCH_COMMAND_H
 
 #include <lammps_host.h>
 
@@ -13,3 +18,5 @@ class DchCommand : public Command {
 };
 
 }  // namespace LAMMPS_NS
+
+#endif

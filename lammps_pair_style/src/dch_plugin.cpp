@@ -45,20 +45,19 @@ void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
   entry.version = static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version;
   entry.author = "the authors of DCH";
   entry.handle = handle;
+  entry.info = "neighbor lists from a discrete center hierarchy";
   entry.style = "command";
   entry.name = "dch";
-  entry.info = "neighbor lists from a discrete center hierarchy";
   entry.creator.v1 = &create_command;
   enter(&entry, lammps);
   const auto enter_all = [&](const char* kind, const auto& styles) {
     entry.style = kind;
     for (const auto& style : styles) {
       entry.name = style.name;
-      entry.info = style.info;
       entry.creator.v1 = reinterpret_cast<Factory*>(style.create);  // LAMMPS casts it back
       enter(&entry, lammps);
     }
   };
-  enter_all("pair", LAMMPS_NS::kPairStyles);
-  enter_all("bond", LAMMPS_NS::kBondStyles);
+  enter_all("pair", LAMMPS_NS::pair_styles_dch());
+  enter_all("bond", LAMMPS_NS::bond_styles_dch());
 }

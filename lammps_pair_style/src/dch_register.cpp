@@ -2,7 +2,6 @@
 #include "dch_register.h"
 
 #include <cstdio>
-#include <force.h>
 #include <input.h>
 #include <lammps_host.h>
 #include <library.h>
@@ -38,11 +37,6 @@ int dch_register(void* handle) {
   if (!dch::lammps::fits_version(handle)) return 1;
   auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   lmp->input->command_map->emplace("dch", &create_command);
-  dch::lammps::register_styles(*lmp);
+  LAMMPS_NS::register_styles_dch(*lmp);
   return 0;
-}
-
-void dch::lammps::register_styles(LAMMPS_NS::LAMMPS& lmp) {
-  for (const auto& style : LAMMPS_NS::kPairStyles) lmp.force->pair_map->emplace(style.name, style.create);
-  for (const auto& style : LAMMPS_NS::kBondStyles) lmp.force->bond_map->emplace(style.name, style.create);
 }

@@ -17,15 +17,9 @@ extern "C" DCH_EXPORT int dch_register(void* lammps);
 /// enters commands and styles. Enters nothing if the version does not fit.
 extern "C" DCH_EXPORT void lammpsplugin_init(void* lammps, void* handle, void* register_function);
 
-namespace LAMMPS_NS {
-class LAMMPS;
-}
 namespace dch::lammps {
 
 /// Whether the library was built for the version of this LAMMPS; if not, a message on stderr says so.
 bool fits_version(void* lammps);
-
-/// Makes the styles with the suffix dch known, if they are not yet.
-void register_styles(LAMMPS_NS::LAMMPS& lmp);
 
 }  // namespace dch::lammps

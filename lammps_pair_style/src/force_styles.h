@@ -2,31 +2,25 @@
 #pragma once
 
 #include <lammps_host.h>
-
-#include "bond_fene_dch.h"
-#include "pair_lj_dch.h"
+#include <vector>
 
 namespace LAMMPS_NS {
 
-/// A style of ours, as LAMMPS and its command `plugin load` want to know it.
+class Bond;
+class Pair;
+
+/// A style with the suffix dch, under the name that scripts give it.
 template <class Base>
 struct ForceStyle {
   const char* name;
-  const char* info;
   Base* (*create)(LAMMPS* lammps);
 };
 
-inline constexpr ForceStyle<Pair> kPairStyles[] = {
-    {"lj/cut/dch", "lj/cut on cluster pairs of a discrete center hierarchy",
-     [](LAMMPS* lmp) -> Pair* { return new PairLJDCH(lmp, "lj/cut", PairLJDCH::Charges::none); }},
-    {"lj/cut/coul/cut/dch", "lj/cut/coul/cut on cluster pairs of a discrete center hierarchy",
-     [](LAMMPS* lmp) -> Pair* { return new PairLJDCH(lmp, "lj/cut/coul/cut", PairLJDCH::Charges::cut); }},
-    {"lj/cut/coul/long/dch", "lj/cut/coul/long on cluster pairs of a discrete center hierarchy",
-     [](LAMMPS* lmp) -> Pair* { return new PairLJDCH(lmp, "lj/cut/coul/long", PairLJDCH::Charges::ewald); }},
-};
+/// All that the headers of styles enter by LAMMPS's macros PairStyle and BondStyle.
+std::vector<ForceStyle<Pair>> pair_styles_dch();
+std::vector<ForceStyle<Bond>> bond_styles_dch();
 
-inline constexpr ForceStyle<Bond> kBondStyles[] = {
-    {"fene/dch", "fene with SIMD kernels", [](LAMMPS* lmp) -> Bond* { return new BondFENEDCH(lmp); }},
-};
+/// Makes the styles known to this LAMMPS, if they are not yet.
+void register_styles_dch(LAMMPS& lmp);
 
 }  // namespace LAMMPS_NS

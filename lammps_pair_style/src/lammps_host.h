@@ -5,6 +5,8 @@
 #include <lammps.h>
 #include <pointers.h>
 
+static_assert(sizeof(LAMMPS_NS::tagint) == 4, "DCH neighbor lists know LAMMPS built with LAMMPS_SMALLBIG");
+
 #if __has_include(<command.h>)
 #include <command.h>
 #else

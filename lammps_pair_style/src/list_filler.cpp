@@ -9,18 +9,9 @@
 #include <neighbor.h>
 #include <string>
 
+#include "lammps_versions.h"
+
 namespace LAMMPS_NS {
-namespace {
-
-// FixNeighHistory's mark of a pair that touches; it has a bit of its own in later versions.
-#ifdef HISTBITS
-constexpr int kTouching = 1 << HISTBITS;
-#else
-constexpr int kTouching = static_cast<int>(3u << SBBITS);
-#endif
-
-}  // namespace
-
 // The neighbor that a point of row i stands for, -1 if it is none of this row.
 int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const {
   const ServedList& served = scene.served;
@@ -44,7 +35,9 @@ int ListFiller::neighbor_of(const Scene& scene, int i, std::int32_t point, bool 
 int ListFiller::mark_of(const ServedList& served, int i, int j) const {
   if (!served.history) return 0;
   const double *xi = atom->x[i], *xj = atom->x[j], reach = atom->radius[i] + atom->radius[j];
-  return norm2(dch::Vec3{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}) < reach * reach ? kTouching : 0;
+  return norm2(dch::Vec3{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}) < reach * reach
+             ? dch::lammps::kTouching
+             : 0;
 }
 
 int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count) const {

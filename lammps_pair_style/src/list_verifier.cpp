@@ -89,7 +89,7 @@ double ListVerifier::image_tolerance() const {
 }
 
 std::string ListVerifier::first_difference(const std::vector<AtomPair>& differences) const {
-  const int mine = differences.empty() ? comm->nprocs : comm->me;
+  int mine = differences.empty() ? comm->nprocs : comm->me;
   int holder = 0;
   MPI_Allreduce(&mine, &holder, 1, MPI_INT, MPI_MIN, world);
   AtomPair pair;
@@ -117,9 +117,8 @@ std::string ListVerifier::compare_pairs(std::vector<AtomPair> pairs, bool over_p
   if (over_processes) pairs = exchange(pairs);
   std::vector<AtomPair> differences = dch::lammps::unmatched(std::move(pairs), tolerance);
   dch::lammps::drop_at_cutoff(differences);
-  const auto mine = static_cast<std::int64_t>(differences.size());
-  std::int64_t all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, world);
+  bigint mine = static_cast<bigint>(differences.size()), all = 0;  // not const for LAMMPS's stand-in for MPI
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0) return {};
   return std::to_string(all) + " pairs differ, the first: " + first_difference(differences);
 }

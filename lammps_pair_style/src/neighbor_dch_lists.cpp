@@ -10,6 +10,7 @@
 #include <pair.h>
 #include <utility>
 
+#include "lammps_versions.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -122,6 +123,10 @@ std::string NeighborDCH::reason_of_style(const NeighList& list) const {
   if (mask & NP_BOND) return "bonds in the list";
   if (mask & (NP_SSA | NP_INTEL | NP_KOKKOS_DEVICE | NP_KOKKOS_HOST))
     return "layout of an accelerator package";
+  const bool of_sub_style = list.requestor_type == NeighList::PAIR && list.requestor != force->pair;
+  if (of_sub_style && !(mask & NP_SIZE) && cutneighmin < cutneighmax &&
+      dch::lammps::wants_own_cutoff(*static_cast<const Pair*>(list.requestor)))
+    return "one cutoff for all types, by pair_style hybrid (pair_modify neigh/trim)";
   if (mask & (NP_COPY | NP_SKIP | NP_HALF_FULL)) return "derived from another list";
   return {};
 }

@@ -26,10 +26,11 @@ dch::lammps::RunReport NeighborDCH::report() const {
                                    now.removed - before_run_.removed,
                                    static_cast<std::int64_t>(bytes),
                                    atom->nlocal};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_INT64_T, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_LMP_BIGINT, MPI_SUM, world);
   std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
                                       now.levels, now.refreshes - before_run_.refreshes};
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_INT64_T, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_LMP_BIGINT, MPI_MAX,
+                world);
   std::array<double, 7> times{run_.points_seconds,  run_.structure_seconds,       run_.rows_seconds,
                               run_.fill_seconds,    run_.verified_native_seconds, run_.verified_dch_seconds,
                               run_.clusters_seconds};

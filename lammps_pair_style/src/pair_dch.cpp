@@ -14,6 +14,7 @@
 
 #include <dch/error.hpp>
 
+#include "lammps_versions.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -114,6 +115,7 @@ double PairDCH::init_one(int i, int j) {
   plain_->cutsq[i][j] = plain_->cutsq[j][i] = cutoff * cutoff;
   etail_ij = plain_->etail_ij;
   ptail_ij = plain_->ptail_ij;
+  dch::lammps::copy_mixing<Pair>(*plain_, *this);
   has_kernel_ = false;
   const auto known = std::find_if(pairs_of_types_.begin(), pairs_of_types_.end(),
                                   [&](const PairOfTypes& p) { return p.a == i && p.b == j; });

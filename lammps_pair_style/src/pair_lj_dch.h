@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#pragma once
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(lj/cut/dch,PairLJCutDCH);
+PairStyle(lj/cut/coul/cut/dch,PairLJCutCoulCutDCH);
+PairStyle(lj/cut/coul/long/dch,PairLJCutCoulLongDCH);
+// clang-format on
+#elif !defined(LMP_PAIR_LJ_DCH_H)
+#define LMP_PAIR_LJ_DCH_H
 
 #include <lammps_host.h>
 #include <memory>
@@ -12,7 +19,7 @@
 
 namespace LAMMPS_NS {
 
-/// lj/cut/dch, lj/cut/coul/cut/dch and lj/cut/coul/long/dch
+/// What lj/cut/dch and the same with charges have in common.
 class PairLJDCH : public PairDCH {
  public:
   enum class Charges { none, cut, ewald };
@@ -35,4 +42,24 @@ class PairLJDCH : public PairDCH {
   std::unique_ptr<dch::LennardJones> kernel_;
 };
 
+/// lj/cut/dch
+class PairLJCutDCH : public PairLJDCH {
+ public:
+  explicit PairLJCutDCH(LAMMPS* lammps) : PairLJDCH(lammps, "lj/cut", Charges::none) {}
+};
+
+/// lj/cut/coul/cut/dch
+class PairLJCutCoulCutDCH : public PairLJDCH {
+ public:
+  explicit PairLJCutCoulCutDCH(LAMMPS* lammps) : PairLJDCH(lammps, "lj/cut/coul/cut", Charges::cut) {}
+};
+
+/// lj/cut/coul/long/dch
+class PairLJCutCoulLongDCH : public PairLJDCH {
+ public:
+  explicit PairLJCutCoulLongDCH(LAMMPS* lammps) : PairLJDCH(lammps, "lj/cut/coul/long", Charges::ewald) {}
+};
+
 }  // namespace LAMMPS_NS
+
+#endif

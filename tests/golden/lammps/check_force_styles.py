@@ -56,6 +56,20 @@ class ForceStyles(unittest.TestCase):
         self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
         self.assertIn("pair morse, half, newton on: DCH", output)
 
+    def test_sub_styles_whose_cutoffs_differ_by_type(self):
+        """From 2022 on, hybrid asks for a list with each sub-style's largest cutoff for all types."""
+        script = MELT.replace("create_box 1", "create_box 2").replace("mass 1", "set type 1 type/fraction 2 0.5 881\nmass *")
+        script = script.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 1.3")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff * * lj/cut 1.0 1.0 1.4\n"
+                                "pair_coeff 1 1 lj/cut 1.0 1.0 2.5\npair_coeff * * morse 0.1 5 1.1")
+        script += "compute near all rdf 50 1 1 cutoff 2.0\ncomm_modify cutoff 3.0\nfix 2 all ave/time 1 1 20 c_near[*] mode vector\n"
+        script += "variable sum equal sum(f_2[2])\nthermo_style custom step temp epair press v_sum\nrun 20\n"
+        plain = thermo_tables(run(script))
+        for switch in ("dch on\ndch verify yes\n", "suffix dch\n", "suffix dch\ndch on\ndch verify yes\n"):
+            ours = thermo_tables(run("include ${load}\n" + switch + script))
+            for columns in zip(plain[0], ours[0]):
+                self.assertLess(largest_relative_difference(*columns), 1e-9)
+
     def test_tail_corrections_and_compute_pair(self):
         script = MELT.replace("neighbor 0.3", "pair_modify tail yes\nneighbor 0.3")
         script += "compute lj all pair lj/cut${end}\nthermo_style custom step temp epair etail press c_lj\nrun 20\n"
