@@ -3,6 +3,7 @@
 // The lists of a hierarchy that is kept up over many configurations of a scene, each compared with a search
 // that shares no code with it: see benchmarks/README.md.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
@@ -22,11 +23,12 @@ struct Options {
   SceneOptions scene;
   int frames = 2000, structures = 10, superset_every = 1;
   bool lammps = false;
+  std::string state;
 };
 
 std::unique_ptr<Scene> scene_of(const std::string& name, const Options& options) {
 #ifdef DCH_BENCH_HAS_LAMMPS
-  if (options.lammps) return make_lammps_scene(name);
+  if (options.lammps) return make_lammps_scene(name, options.state);
 #endif
   SceneOptions scene_options = options.scene;
   scene_options.most_frames = static_cast<std::size_t>(options.frames);
@@ -53,6 +55,10 @@ void check_scene(const std::string& name, const Options& options) {
       "{} of them; {} updates refreshed, {} repaired, {} built\n",
       name, scene->origin, scene->positions.size(), checked.expected, checked.pairs, checked.structures,
       stats.refreshes, stats.repairs, stats.builds);
+#ifdef DCH_BENCH_HAS_LAMMPS
+  if (auto* running = dynamic_cast<LammpsScene*>(scene.get()); running && !options.state.empty())
+    running->save(options.state);
+#endif
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -69,9 +75,14 @@ int parse_and_run(int argc, char** argv) {
                  "Compare the structure with all pairs at so many of them; 0: never")
       ->check(CLI::NonNegativeNumber);
 #ifdef DCH_BENCH_HAS_LAMMPS
-  app.add_flag(
+  CLI::Option* const lammps = app.add_flag(
       "--lammps", options.lammps,
       "Take the melts from a LAMMPS that runs beside the check, for more frames than files can hold");
+  app.add_option(
+         "--state", options.state,
+         "Begin with the configuration that this file keeps, if it is there; put the next one into it "
+         "once all are compared")
+      ->needs(lammps);
 #endif
   app.add_option("--scale", options.scene.scale,
                  "Particles of artificial scenes, relative to the usual number")
@@ -80,6 +91,15 @@ int parse_and_run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
+  }
+  if (!options.state.empty() && options.scenes.size() > 1) {
+    fmt::print(stderr, "--state is of one scene, not of {}: name one\n", options.scenes.size());
+    return kUsage;
+  }
+  if (const auto folder = std::filesystem::path(options.state).parent_path();
+      !folder.empty() && !std::filesystem::is_directory(folder)) {
+    fmt::print(stderr, "{}: no such folder; make it first\n", folder.string());
+    return kUsage;
   }
   for (const std::string& name : options.scenes) {
     check_scene(name, options);

@@ -2,6 +2,8 @@
 #include "lammps_scene.hpp"
 
 #include <array>
+#include <cmath>
+#include <filesystem>
 #include <future>
 #include <library.h>
 #include <string>
@@ -26,12 +28,19 @@ struct Close {
   void operator()(void* lammps) const { lammps_close(lammps); }
 };
 
-class LammpsScene final : public Scene {
+class RunningMelt final : public LammpsScene {
  public:
-  explicit LammpsScene(const Melt& melt) : melt_(melt) {
+  RunningMelt(const Melt& melt, const std::string& state)
+      : melt_(melt), state_(std::filesystem::exists(state) ? state : "") {
     list_radii = {2.8};
-    origin = "LAMMPS as it runs";
+    origin = state_.empty() ? "LAMMPS as it runs" : "LAMMPS as it goes on";
     start();
+  }
+  void save(const std::string& path) override {
+    next_.wait();
+    const std::string written = path + ".new";
+    command("write_restart " + written);
+    std::filesystem::rename(written, path);
   }
   /// Never false: there is always a next one.
   bool step() override {
@@ -66,15 +75,36 @@ class LammpsScene final : public Scene {
     for (std::size_t k = 0; k < words.size(); ++k) arguments[k] = words[k].data();
     lammps_.reset(lammps_open_no_mpi(static_cast<int>(arguments.size()), arguments.data(), nullptr));
     if (!lammps_ || dch_register(lammps_.get()) != 0) throw Error("LAMMPS does not start");
-    lammps_command(lammps_.get(), "dch precision mixed");
+    command("dch precision mixed");
+    if (!state_.empty())
+      go_on();
+    else
+      settle();
+    const double atoms = lammps_get_natoms(lammps_.get()), expected = 4 * std::pow(melt_.cells, 3);
+    if (atoms != expected)
+      throw Error(state_ + " has " + std::to_string(std::llround(atoms)) + " atoms, " + melt_.name + " has " +
+                  std::to_string(std::llround(expected)) + ": give a state that this scene has saved");
+  }
+
+  void settle() {
     for (const std::string& variable :
          {"cells equal " + std::to_string(melt_.cells), "settle equal " + std::to_string(melt_.settle),
           std::string("steps equal 0"), std::string("data string /dev/null"),
           std::string("frames string /dev/null")})
-      lammps_command(lammps_.get(), ("variable " + variable).c_str());
+      command("variable " + variable);
     lammps_file(lammps_.get(), DCH_MELT_INPUT);
-    lammps_command(lammps_.get(), "undump frames");
+    command("undump frames");
   }
+
+  /// What in.melt says and a restart file does not keep.
+  void go_on() {
+    command("read_restart " + state_);
+    command("neighbor 0.3 bin");
+    command("neigh_modify delay 0 every 5 check yes");
+    command("fix move all nve");
+  }
+
+  void command(const std::string& line) { lammps_command(lammps_.get(), line.c_str()); }
 
   /// Copies what LAMMPS has now, in the order of the atoms' IDs.
   void take() {
@@ -90,14 +120,15 @@ class LammpsScene final : public Scene {
                                     {true, true, true}, {low[0], low[1], low[2]});
   }
 
-  void advance(const char* command) {
-    next_ = std::async(std::launch::async, [this, command] {
-      lammps_command(lammps_.get(), command);
+  void advance(const char* run) {
+    next_ = std::async(std::launch::async, [this, run] {
+      command(run);
       take();
     });
   }
 
   Melt melt_;
+  std::string state_;  ///< to begin with; empty: as a crystal
   std::unique_ptr<void, Close> lammps_;
   std::vector<Vec3> coming_;
   Box coming_box_;
@@ -107,10 +138,10 @@ class LammpsScene final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_lammps_scene(const std::string& name) {
+std::unique_ptr<LammpsScene> make_lammps_scene(const std::string& name, const std::string& state) {
   for (const Melt& melt : kMelts) {
     if (melt.name != name) continue;
-    auto scene = std::make_unique<LammpsScene>(melt);
+    auto scene = std::make_unique<RunningMelt>(melt, state);
     scene->name = name;
     return scene;
   }
