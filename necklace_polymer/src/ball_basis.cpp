@@ -101,10 +101,16 @@ Touching touching(const std::array<const Ball*, 4>& balls, int size) {
   return touching_more(first.center, d, f, dual, size - 1);
 }
 
-/// Picks the members of `few` whose bit is set.
-std::array<const Ball*, 4> members(const Few& few, unsigned subset, int& size) {
+int members_in(unsigned subset) {
+  int count = 0;
+  for (; subset != 0; subset &= subset - 1) ++count;
+  return count;
+}
+
+/// Picks the members of `few` whose bit is set; at most four bits are.
+std::array<const Ball*, 4> members(const Few& few, unsigned subset) {
   std::array<const Ball*, 4> result{};
-  size = 0;
+  int size = 0;
   for (unsigned k = 0; k < static_cast<unsigned>(few.size); ++k) {
     if (subset >> k & 1) result[static_cast<std::size_t>(size++)] = few.ball[k];
   }
@@ -137,10 +143,8 @@ EnclosingBall least(const Few& few, unsigned required) {
   EnclosingBall result;
   for (int size = 1; size <= std::min(few.size, 4); ++size) {
     for (unsigned subset = 1; subset < 1U << few.size; ++subset) {
-      int count = 0;
-      const auto chosen = members(few, subset, count);
-      if (count != size || (subset & required) != required) continue;
-      const Touching found = touching(chosen, count);
+      if (members_in(subset) != size || (subset & required) != required) continue;
+      const Touching found = touching(members(few, subset), size);
       for (std::size_t k = 0; k < static_cast<std::size_t>(found.count); ++k) {
         const double radius = reach(few, found.center[k]);
         if (!(radius < best * (1 - 1e-15))) continue;
