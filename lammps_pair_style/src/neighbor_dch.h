@@ -80,6 +80,8 @@ class NeighborDCH : public Neighbor {
   bool verifies() const { return verify_every_ > 0; }
   /// Threads that each process searches with, from the next run on.
   void set_threads(int threads) { threads_ = threads; }
+  /// Those threads; null for one. Good for a run.
+  dch::Executor* executor() const { return pool_.get(); }
   /// Whether runs from now on look for the skin with the least time a step, up to that of the script.
   void set_skin_tuning(bool on) { tunes_skin_ = on; }
   void set_precision(dch::ForcePrecision precision) { precision_ = precision; }

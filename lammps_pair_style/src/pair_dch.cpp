@@ -249,7 +249,8 @@ dch::Box PairDCH::box(const ClusterList& wanted) const {
 }
 
 void PairDCH::refresh() {
-  if (!clusters_->one_by_one) clusters_->pairs.refresh(positions(*clusters_), box(*clusters_));
+  if (!clusters_->one_by_one)
+    clusters_->pairs.refresh(positions(*clusters_), box(*clusters_), NeighborDCH::install(lmp)->executor());
 }
 
 void PairDCH::prepare_kernel() {

@@ -7,6 +7,8 @@
 #include <kspace.h>
 #include <utility>
 
+#include "neighbor_dch.h"
+
 namespace LAMMPS_NS {
 namespace {
 
@@ -73,6 +75,7 @@ void PairLJDCH::add_forces(const ClusterList& wanted, dch::ForcePrecision precis
   dch::Span<const double> charges;
   if (has_charges()) charges = {atom->q, wanted.points()};
   dch::LennardJonesSums sums;
+  kernel_->set_executor(NeighborDCH::install(lmp)->executor());
   if (wanted.one_by_one) {
     const auto x = positions(wanted);
     if (with_sums) {

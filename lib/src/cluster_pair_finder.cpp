@@ -211,6 +211,7 @@ void ClusterPairFinder::join(ClusterPairs& out) {
   } else {
     append_parts(out);
   }
+  cut_into_parts(out);
   out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
   out.torn.clear();
   out.shift_vector.resize(out.shift.size());

@@ -74,6 +74,10 @@ class ClusterPairFinder {
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
   };
 
+  /// Some of ClusterPairs::shift.
+  struct Shifts {
+    std::int64_t first, last;
+  };
   /// How the points of a node were ordered, which holds as long as it has the same ones and they have not
   /// moved much. Both by slot of the node's clusters.
   struct Cut {
@@ -114,6 +118,8 @@ class ClusterPairFinder {
   double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
   void append_parts(ClusterPairs& out) const;
+  void cut_into_parts(ClusterPairs& out);
+  void append_ranges(Shifts shifts, std::int32_t first_cluster, ClusterPairs& out);
 
   const ClusterKernels* kernels_ = nullptr;
   CellImages images_{Box()};
@@ -127,6 +133,8 @@ class ClusterPairFinder {
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
   std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
   std::vector<Part> parts_;
+  std::vector<std::int32_t> part_of_node_;  ///< the last one of ClusterPairs::parts that names it
+  std::vector<std::int32_t> named_nodes_;   ///< by one of them
 };
 
 }  // namespace dch::detail

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "binary_grid.hpp"
 #include "cell_images.hpp"
+#include "cluster_points.hpp"
 #include "describe.hpp"
 #include "simd/cluster_kernels.hpp"
 
@@ -116,7 +118,7 @@ std::int64_t ClusterPairs::slot_pairs() const {
   return pairs;
 }
 
-void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
+void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now, Executor* executor) {
   if (positions.size() != particles)
     throw InvalidParameter("refresh() got " + std::to_string(positions.size()) +
                            " positions for cluster pairs of " + std::to_string(particles) +
@@ -124,24 +126,24 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now) {
   if (!same_periodicity(now, box))
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
-  refresh_clusters(positions, now);
+  refresh_clusters(positions, now, executor);
   refresh_shifts(now);
   box = now;
 }
 
-void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now) {
+void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor) {
   const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
-  const detail::RefreshTask task{clusters(),
-                                 particle.data(),
-                                 origin_of.data(),
-                                 origin.data(),
-                                 positions.data(),
-                                 safe2,
-                                 detail::BinaryGrid(list_radius).addend(),
-                                 at.data(),
-                                 at_float.data()};
-  std::vector<std::int32_t> far(at.size());
-  far.resize(static_cast<std::size_t>(detail::cluster_kernels(instruction_set()).refresh(task, far.data())));
+  const auto refresh = detail::cluster_kernels(instruction_set()).refresh;
+  std::vector<std::int32_t> far(at.size(), kPadding);
+  detail::for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
+    const detail::RefreshTask task{first,           last,
+                                   particle.data(), origin_of.data(),
+                                   origin.data(),   positions.data(),
+                                   safe2,           detail::BinaryGrid(list_radius).addend(),
+                                   at.data(),       at_float.data()};
+    refresh(task, far.data() + first);
+  });
+  far.erase(std::remove(far.begin(), far.end(), kPadding), far.end());
   TornClusters taker(*this, positions, now, safe2);
   std::vector<Torn> now_torn;
   now_torn.reserve(far.size());
@@ -161,11 +163,11 @@ void ClusterPairs::refresh_shifts(const Box& now) {
     const Vec3 between =
         origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
     const Vec3 vector = between + images.vector(shift[s].image);
-    ClusterShift<float>& parts = shift_vector_float[s];
+    ClusterShift<float>& rounded = shift_vector_float[s];
     for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s].whole);
     for (int axis = 0; axis < 3; ++axis) {
-      parts.high[axis] = static_cast<float>(grid(vector[axis]));
-      parts.low[axis] = static_cast<float>(vector[axis] - double{parts.high[axis]});
+      rounded.high[axis] = static_cast<float>(grid(vector[axis]));
+      rounded.low[axis] = static_cast<float>(vector[axis] - double{rounded.high[axis]});
     }
   }
 }
@@ -174,7 +176,8 @@ std::size_t ClusterPairs::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return bytes_of(rows) + bytes_of(entries) + bytes_of(particle) + bytes_of(type) + bytes_of(origin_of) +
          bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_float) + bytes_of(shift_vector) +
-         bytes_of(shift_vector_float) + bytes_of(torn);
+         bytes_of(shift_vector_float) + bytes_of(torn) + bytes_of(parts) + bytes_of(ranges) +
+         bytes_of(is_named_before);
 }
 
 }  // namespace dch

@@ -2,6 +2,8 @@
 //
 // LennardJones at work: its kernels over cluster pairs, on one thread or several, and over pairs one by one.
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <type_traits>
 
@@ -37,45 +39,80 @@ struct Kernels<float> {
   static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
 };
 
-/// Part `part` of `parts` of 0 .. count.
-struct Range {
-  Range(std::size_t count, int part, int parts)
-      : first(count * static_cast<std::size_t>(part) / static_cast<std::size_t>(parts)),
-        last(count * static_cast<std::size_t>(part + 1) / static_cast<std::size_t>(parts)) {}
-  std::size_t first, last;
-};
-
-/// Rows with about as many entries in each part.
-Range rows_of_part(const ClusterPairs& pairs, int part, int parts) {
-  const Range entries(pairs.entries.size(), part, parts);
-  const auto row_at = [&](std::size_t entry) {
-    const auto found =
-        std::lower_bound(pairs.rows.begin(), pairs.rows.end() - 1, static_cast<std::int64_t>(entry),
-                         [](const ClusterPairs::Row& row, std::int64_t e) { return row.first < e; });
-    return static_cast<std::size_t>(found - pairs.rows.begin());
-  };
-  Range rows(0, 0, 1);
-  rows.first = row_at(entries.first);
-  rows.last = part + 1 == parts ? pairs.rows.size() - 1 : row_at(entries.last);
-  return rows;
+/// Clusters that worker `worker` of `workers` prepares.
+ClusterPairs::Range share(std::int32_t clusters, int worker, int workers) {
+  const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{clusters} * k / workers); };
+  return {cut(worker), cut(worker + 1)};
 }
 
-/// Sums up what the threads found for some clusters; a particle stands in one slot at most.
 template <class Real>
-void add_cluster_forces(const ClusterPairs& pairs, const std::vector<std::vector<ClusterOfFour<Real>>>& found,
-                        Range clusters, Span<Vec3> forces) {
-  for (std::size_t c = clusters.first; c < clusters.last; ++c) {
+void add(const ClusterOfFour<Real>& force, ClusterOfFour<Real>& to) {
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+    to.x[slot] += force.x[slot];
+    to.y[slot] += force.y[slot];
+    to.z[slot] += force.z[slot];
+  }
+}
+
+/// Adds what a part has found for clusters of later parts to what earlier ones have.
+template <class Real>
+void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<ClusterOfFour<Real>>& found,
+                   std::vector<ClusterOfFour<Real>>& later) {
+  for (const ClusterPairs::Range& range : ranges) {
+    for (auto c = static_cast<std::size_t>(range.first); c < static_cast<std::size_t>(range.last); ++c) {
+      add(found[c], later[c]);
+      found[c] = {};
+    }
+  }
+}
+
+/// Gives particles the forces on their clusters: what their part has found and what earlier ones have. A
+/// particle stands in one slot at most.
+template <class Real>
+void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<ClusterOfFour<Real>>& found,
+              std::vector<ClusterOfFour<Real>>& earlier, Span<Vec3> forces) {
+  for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
+    ClusterOfFour<Real> force = found[c];
+    found[c] = {};
+    if (pairs.is_named_before[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {
+      add(earlier[c], force);
+      earlier[c] = {};
+    }
     for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
       const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
       if (i < 0) continue;
       Vec3& to = forces[static_cast<std::size_t>(i)];
-      for (const auto& of_thread : found) {
-        const ClusterOfFour<Real>& force = of_thread[c];
-        to = to + Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
-      }
+      to = to + Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
     }
   }
 }
+
+/// Has workers take turns: each takes the next part when it has none, and does some of the work on it when
+/// all parts before have had theirs done.
+class Turns {
+ public:
+  explicit Turns(int parts) : parts_(parts) {}
+  /// The next part, or -1 if all are taken.
+  int take() {
+    const std::lock_guard lock(mutex_);
+    return taken_ < parts_ ? taken_++ : -1;
+  }
+  template <class Work>
+  void in_turn(int part, const Work& work) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return done_ == part; });
+    lock.unlock();
+    work();
+    lock.lock();
+    ++done_;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int parts_, taken_ = 0, done_ = 0;
+};
 
 void give(const detail::LjSums& found, LennardJonesSums& sums) {
   sums.energy += found.energy;
@@ -85,9 +122,9 @@ void give(const detail::LjSums& found, LennardJonesSums& sums) {
 
 /// Numbers of particles, times a unit, by slot; 0 for padding.
 template <class FourNumbers>
-void sort_by_slot(const ClusterPairs& pairs, Span<const double> numbers, double unit, Range clusters,
-                  std::vector<FourNumbers>& slots) {
-  for (std::size_t c = clusters.first; c < clusters.last; ++c) {
+void sort_by_slot(const ClusterPairs& pairs, Span<const double> numbers, double unit,
+                  ClusterPairs::Range clusters, std::vector<FourNumbers>& slots) {
+  for (auto c = static_cast<std::size_t>(clusters.first); c < static_cast<std::size_t>(clusters.last); ++c) {
     for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
       const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
       auto& number = slots[c].slot[slot];
@@ -135,43 +172,54 @@ template <class Real>
 void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
                        Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const {
   using Of = Kernels<Real>;
-  const int parts = executor_ ? executor_->threads() : 1;
+  const auto parts = static_cast<int>(pairs.parts.size()) - 1;
+  const int workers = executor_ ? std::min(executor_->threads(), parts) : 1;
   const auto clusters = static_cast<std::size_t>(pairs.clusters());
-  scratch.force.resize(static_cast<std::size_t>(parts));
+  scratch.force.resize(static_cast<std::size_t>(workers));
+  scratch.earlier.resize(clusters);
   if (has_charges_) scratch.charge.resize(clusters);
   if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
-  run_parts(executor_, parts, [&](int part) {
-    const Range own(clusters, part, parts);
-    scratch.force[static_cast<std::size_t>(part)].assign(clusters, ClusterOfFour<Real>());
+  run_parts(executor_, workers, [&](int worker) {
+    const ClusterPairs::Range own = share(pairs.clusters(), worker, workers);
+    scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
     if (has_charges_) sort_by_slot(pairs, charges, charge_unit_, own, scratch.charge);
     if (mixes_) sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
     if (mixes_) sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
   const auto function =
       Of::functions(detail::cluster_kernels(instruction_set())).choose(kind(), parameters(), sums != nullptr);
-  std::vector<detail::LjSums> found(static_cast<std::size_t>(parts));
-  run_parts(executor_, parts, [&](int part) {
-    const Range rows = rows_of_part(pairs, part, parts);
-    const detail::LjTask<Real> task{pairs.rows.data() + rows.first,
-                                    static_cast<std::int64_t>(rows.last - rows.first),
-                                    pairs.entries.data(),
-                                    Of::at(pairs).data(),
-                                    Of::shift(pairs).data(),
-                                    pairs.type.data(),
-                                    types_,
-                                    pointers_to(tables),
-                                    mixes_ ? scratch.half_sigma.data()->slot : nullptr,
-                                    mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
-                                    has_charges_ ? scratch.charge.data()->slot : nullptr,
-                                    constants<Real>(),
-                                    scratch.force[static_cast<std::size_t>(part)].data()};
-    function(task, found[static_cast<std::size_t>(part)]);
+  Turns turns(parts);
+  run_parts(executor_, workers, [&](int worker) {
+    auto& force = scratch.force[static_cast<std::size_t>(worker)];
+    for (int part = turns.take(); part >= 0; part = turns.take()) {
+      const ClusterPairs::Part& own = pairs.parts[static_cast<std::size_t>(part)];
+      const ClusterPairs::Part& next = pairs.parts[static_cast<std::size_t>(part) + 1];
+      const std::size_t first_row = pairs.first_row(own), last_row = pairs.first_row(next);
+      const detail::LjTask<Real> task{pairs.rows.data() + first_row,
+                                      static_cast<std::int64_t>(last_row - first_row),
+                                      pairs.entries.data(),
+                                      Of::at(pairs).data(),
+                                      Of::shift(pairs).data(),
+                                      pairs.type.data(),
+                                      types_,
+                                      pointers_to(tables),
+                                      mixes_ ? scratch.half_sigma.data()->slot : nullptr,
+                                      mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
+                                      has_charges_ ? scratch.charge.data()->slot : nullptr,
+                                      constants<Real>(),
+                                      force.data()};
+      detail::LjSums found;
+      function(task, found);
+      const Span<const ClusterPairs::Range> ranges{
+          pairs.ranges.data() + own.first_range,
+          static_cast<std::size_t>(next.first_range - own.first_range)};
+      turns.in_turn(part, [&] {
+        add_for_later(ranges, force, scratch.earlier);
+        if (sums) give(found, *sums);
+      });
+      hand_out(pairs, {own.first_cluster, next.first_cluster}, force, scratch.earlier, forces);
+    }
   });
-  run_parts(executor_, parts, [&](int part) {
-    add_cluster_forces(pairs, scratch.force, Range(clusters, part, parts), forces);
-  });
-  if (!sums) return;
-  for (const detail::LjSums& of_thread : found) give(of_thread, *sums);
 }
 
 template <class Pairs>
@@ -206,7 +254,7 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
         "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
         "other "
         "units or ForcePrecision::full");
-  if (pairs.rows.empty()) return;
+  if (pairs.parts.size() < 2) return;
   if (precision == ForcePrecision::mixed) {
     run(pairs, charges, mixed_, scratch_float_, forces, sums);
   } else {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/executor.hpp>
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
 
@@ -74,6 +77,22 @@ struct ClusterPairs {
   std::vector<Row> rows;  ///< and one more with the number of entries
   std::vector<Entry> entries;
 
+  /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own part and of
+  /// later ones. Parts depend on the clusters alone, so forces that are summed up in their order do not
+  /// depend on the number of threads.
+  struct Part {
+    std::int32_t first_cluster;
+    std::int64_t first_range;
+  };
+  /// Clusters `first` .. `last` - 1.
+  struct Range {
+    std::int32_t first, last;
+  };
+  std::vector<Part> parts;    ///< and one more, for the end of the last
+  std::vector<Range> ranges;  ///< by part: those of later parts that its rows name, and a few more; ascending
+  std::vector<std::uint8_t>
+      is_named_before;  ///< by origin: whether ranges of earlier parts hold its clusters
+
   std::vector<std::int32_t> particle;   ///< by slot; -1 for padding
   std::vector<std::int32_t> type;       ///< by slot, of ListParams::types; 0 without those and for padding
   std::vector<std::int32_t> origin_of;  ///< by cluster
@@ -99,6 +118,14 @@ struct ClusterPairs {
   double list_radius = 1;     ///< of the ListParams [length]
   Box box;
 
+  /// Where the rows of a part begin; those of a cluster stand behind those of the clusters before it.
+  std::size_t first_row(const Part& part) const {
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() - 1);
+    return static_cast<std::size_t>(
+        std::lower_bound(rows.begin(), end, part.first_cluster,
+                         [](const Row& row, std::int32_t cluster) { return row.cluster < cluster; }) -
+        rows.begin());
+  }
   std::int32_t clusters() const { return static_cast<std::int32_t>(origin_of.size()); }
   /// Number of pairs of slots in all masks.
   std::int64_t slot_pairs() const;
@@ -129,12 +156,13 @@ struct ClusterPairs {
   /// long as StaleTest's condition holds. O(n), a few nanoseconds a particle.
   /// @throws InvalidParameter for another number of positions, InvalidBox for another periodicity,
   ///   InvalidPosition for a coordinate that is not finite.
-  void refresh(Span<const Vec3> positions, const Box& now);
+  /// @param executor threads to do it with; null for that of the caller
+  void refresh(Span<const Vec3> positions, const Box& now, Executor* executor = nullptr);
 
   std::size_t memory_bytes() const;
 
  private:
-  void refresh_clusters(Span<const Vec3> positions, const Box& now);
+  void refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor);
   void refresh_shifts(const Box& now);
 };
 

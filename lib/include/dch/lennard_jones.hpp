@@ -65,9 +65,9 @@ struct LennardJonesSums {
 /// instruction set in use.
 ///
 /// Every pair in the masks of the ClusterPairs acts, at its distance now, if that is below the cutoff. Forces
-/// of different instruction sets differ by rounding (fused operations, order of sums); those of one set
-/// and one number of threads are the same every time. One object belongs to one thread at a time; it keeps
-/// scratch memory of 96 bytes a cluster and thread, 32 more a cluster with charges.
+/// of different instruction sets differ by rounding (fused operations, order of sums); those of one set are
+/// the same every time, on any number of threads. One object belongs to one thread at a time; it keeps
+/// scratch memory of 96 bytes a cluster for each thread and once more, 32 a cluster with charges.
 class LennardJones {
  public:
   /// One type. With `shifted` each pair's energy is lowered by what it is at the cutoff.
@@ -133,7 +133,9 @@ class LennardJones {
   /// Scratch memory for one precision.
   template <class Real>
   struct Scratch {
-    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< by thread
+    // All 0 between calls.
+    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its part
+    std::vector<ClusterOfFour<Real>> earlier;             ///< found by parts before that of the cluster
     std::vector<FourNumbers<Real>> charge, half_sigma, root_epsilon;
   };
   /// Each for all pairs of types: cutoff2, force12, force6, energy12, energy6, energy_shift, coulomb_cutoff2.

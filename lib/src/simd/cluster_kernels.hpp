@@ -21,7 +21,7 @@ inline constexpr int kBoxesAtOnce = 16;
 
 /// New positions for clusters.
 struct RefreshTask {
-  std::int32_t count;             ///< of clusters
+  std::int32_t first, last;       ///< of the clusters, up to the last one's next
   const std::int32_t* particle;   ///< by slot; negative for padding, which stands where the first one does
   const std::int32_t* origin_of;  ///< by cluster
   const Vec3* origin;

@@ -29,7 +29,7 @@ inline void round_four(const FourDoubles& v, double grid, float* to, float& cent
 template <class S>
 std::int32_t refresh_clusters(const RefreshTask& task, std::int32_t* far) {
   std::int32_t found = 0;
-  for (std::int32_t c = 0; c < task.count; ++c) {
+  for (std::int32_t c = task.first; c < task.last; ++c) {
     const std::int32_t* const slot = task.particle + 4 * std::int64_t{c};
     const Vec3* of[4];
     for (int k = 0; k < 4; ++k) of[k] = task.positions + slot[slot[k] < 0 ? 0 : k];

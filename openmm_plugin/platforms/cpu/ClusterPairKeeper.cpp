@@ -52,7 +52,7 @@ const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positi
     dch::hierarchy_of(*search)->cluster_pairs(request, pairs);
     staleTest->remember(positions, box);
   } else {
-    pairs.refresh(positions, box);
+    pairs.refresh(positions, box, &pool);
   }
   return pairs;
 }

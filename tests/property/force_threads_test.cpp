@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//
+// The parts that threads compute hold all rows and name what they say, and forces are the same bits however
+// many threads there are.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+
+#include <dch/executor.hpp>
+#include <dch/hierarchy.hpp>
+#include <dch/lennard_jones.hpp>
+
+#include "random.hpp"
+#include "scenes.hpp"
+
+namespace dch {
+namespace {
+
+constexpr double kCutoff = 1.5;
+
+class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
+ protected:
+  /// Enough for several parts, none near another one; some leave the cell.
+  ForcesOnThreads() {
+    constexpr int kSide = 26;
+    scenes::Random random(11);
+    for (int x = 0; x < kSide; ++x)
+      for (int y = 0; y < kSide; ++y)
+        for (int z = 0; z < kSide; ++z) {
+          const Vec3 fraction = (1.0 / kSide) * Vec3{x + 0.0, y + 0.0, z + 0.0};
+          const Vec3 at = box.kind() == Box::Kind::none ? double{kSide} * fraction
+                                                        : scenes::from_fractional(box, fraction);
+          points.push_back(at + random.in_ball(0.1));
+          charges.push_back(random.uniform(-1, 1));
+        }
+    random.shuffle(points);
+    request.cutoffs = TypeCutoffs(kCutoff);
+    request.skin = 0.2;
+    HierarchyParams params;
+    params.radius = request.list_radius();
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    hierarchy.cluster_pairs(request, pairs);
+  }
+
+  struct Found {
+    std::vector<Vec3> forces;
+    LennardJonesSums sums;
+  };
+  Found compute(LennardJones& potential, ForcePrecision precision, Executor* executor) const {
+    Found found{std::vector<Vec3>(points.size(), Vec3{0.125, 0, 0}), {}};
+    potential.set_executor(executor);
+    found.sums = potential.add_forces_and_sum(pairs, precision, found.forces, charges);
+    potential.add_forces(pairs, precision, found.forces, charges);
+    return found;
+  }
+
+  Box box = GetParam().box;
+  std::vector<Vec3> points;
+  std::vector<double> charges;
+  ListParams request;
+  ClusterPairs pairs;
+};
+
+TEST_P(ForcesOnThreads, AreTheSameBits) {
+  LennardJones potential({1, 0.9, kCutoff});
+  potential.set_coulomb({1, 0, {kCutoff}, 0, 0});
+  for (const ForcePrecision precision : {ForcePrecision::mixed, ForcePrecision::full}) {
+    const Found expected = compute(potential, precision, nullptr);
+    EXPECT_GT(norm2(expected.forces.front()), 0.0);
+    for (const int threads : {1, 2, 3, 8, 1}) {
+      const auto pool = make_thread_pool(threads);
+      const Found found = compute(potential, precision, pool.get());
+      ASSERT_EQ(found.forces, expected.forces) << threads << " threads";
+      ASSERT_EQ(found.sums.energy, expected.sums.energy);
+      ASSERT_EQ(found.sums.coulomb_energy, expected.sums.coulomb_energy);
+      ASSERT_EQ(found.sums.virial, expected.sums.virial);
+    }
+  }
+}
+
+TEST_P(ForcesOnThreads, PositionsAreTakenAlike) {
+  scenes::Random random(12);
+  std::vector<Vec3> moved = points;
+  for (Vec3& p : moved) p = p + random.in_ball(0.05);
+  if (box.any_periodic() && box.periodic(0)) moved.front() = moved.front() + box.vector(0);
+  ClusterPairs alone = pairs;
+  alone.refresh(moved, box);
+  for (const int threads : {2, 5}) {
+    const auto pool = make_thread_pool(threads);
+    ClusterPairs together = pairs;
+    together.refresh(moved, box, pool.get());
+    for (std::size_t c = 0; c < alone.at.size(); ++c)
+      for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+        ASSERT_EQ(together.at[c].x[slot], alone.at[c].x[slot]);
+        ASSERT_EQ(together.at[c].z[slot], alone.at[c].z[slot]);
+        ASSERT_EQ(together.at_float[c].y[slot], alone.at_float[c].y[slot]);
+      }
+    ASSERT_EQ(together.torn.size(), alone.torn.size());
+    for (std::size_t k = 0; k < alone.torn.size(); ++k)
+      ASSERT_EQ(together.torn[k].cluster, alone.torn[k].cluster);
+  }
+}
+
+TEST_P(ForcesOnThreads, PartsNameTheirOwnClustersAndLaterOnes) {
+  const auto& parts = pairs.parts;
+  ASSERT_GE(parts.size(), 4u);
+  ASSERT_EQ(pairs.first_row(parts.front()), 0u);
+  ASSERT_EQ(parts.front().first_cluster, 0);
+  ASSERT_EQ(pairs.first_row(parts.back()) + 1, pairs.rows.size());
+  ASSERT_EQ(parts.back().first_cluster, pairs.clusters());
+  std::vector<bool> is_named_before(pairs.at.size());
+  for (std::size_t p = 0; p + 1 < parts.size(); ++p) {
+    std::vector<bool> is_listed(pairs.at.size());
+    for (std::int64_t k = parts[p].first_range; k < parts[p + 1].first_range; ++k) {
+      const ClusterPairs::Range range = pairs.ranges[static_cast<std::size_t>(k)];
+      ASSERT_GE(range.first, parts[p + 1].first_cluster);
+      for (std::int32_t c = range.first; c < range.last; ++c) {
+        ASSERT_FALSE(is_listed[static_cast<std::size_t>(c)]);
+        is_listed[static_cast<std::size_t>(c)] = is_named_before[static_cast<std::size_t>(c)] = true;
+      }
+    }
+    for (std::size_t r = pairs.first_row(parts[p]); r < pairs.first_row(parts[p + 1]); ++r) {
+      const ClusterPairs::Row& row = pairs.rows[r];
+      ASSERT_GE(row.cluster, parts[p].first_cluster);
+      ASSERT_LT(row.cluster, parts[p + 1].first_cluster);
+      for (std::int64_t e = row.first; e < pairs.rows[r + 1].first; ++e) {
+        const std::int32_t c = pairs.entries[static_cast<std::size_t>(e)].cluster;
+        const bool is_own = c >= parts[p].first_cluster && c < parts[p + 1].first_cluster;
+        ASSERT_TRUE(is_own || is_listed[static_cast<std::size_t>(c)]) << "part " << p << ", cluster " << c;
+      }
+    }
+  }
+  for (std::size_t c = 0; c < pairs.at.size(); ++c) {
+    const bool is_marked = pairs.is_named_before[static_cast<std::size_t>(pairs.origin_of[c])] != 0;
+    ASSERT_TRUE(is_marked || !is_named_before[c]) << c;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, ForcesOnThreads, ::testing::ValuesIn(scenes::all_boxes(26.0)),
+                         [](const auto& p) { return p.param.name; });
+
+}  // namespace
+}  // namespace dch
