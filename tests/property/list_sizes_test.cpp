@@ -156,7 +156,7 @@ std::string fault_of_shell(const NeighborList& list, const std::vector<Vec3>& po
   return "";
 }
 
-TEST_P(ListSizes, ShellComesLast) {
+TEST_P(ListSizes, ShellComesLastOnThreadsToo) {
   const Box box = GetParam().box;
   const std::vector<Vec3> points = scenes::clustered(box, 400, 5);
   std::vector<IndexPair> bonds;
