@@ -145,7 +145,7 @@ void AtomOrder::begin_run() {
   if (when_ == OrderAtoms::automatic && atom->molecular != Atom::ATOMIC)
     obstacle_ = "atoms have bonds, and nothing is gained ('dch order yes')";
   if (atom->sortfreq <= 0) obstacle_ = "'atom_modify sort' is off";
-  const int ours = modify->find_fix_by_style(FixDCHOrder::kStyle);
+  const int ours = FixDCHOrder::index_in(*modify);
   for (int k = 0; k < modify->nfix; ++k) {
     const char* const style = modify->fix[k]->style;
     if (ours >= 0 && k > ours && std::strcmp(style, kHistory) == 0)

@@ -98,28 +98,31 @@ void BondFENEDCH::make_kernel() {
 }
 
 void BondFENEDCH::compute(int eflag, int vflag) {
-  if (eflag || vflag || !force->newton_bond) {
+  ev_init(eflag, vflag);
+  const bool by_atom = (vflag & ~(VIRIAL_PAIR | VIRIAL_FDOTR)) != 0;
+  if (eflag_either || by_atom || !force->newton_bond) {
     compute_plain(eflag, vflag);
     return;
   }
-  ev_init(eflag, vflag);
   if (neighbor->nbondlist == 0) return;
   try {
     if (!kernel_) make_kernel();
     const auto points = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+    std::array<double, 6> sums{};
     const dch::Span<const dch::BondOfType> bonds{
         reinterpret_cast<const dch::BondOfType*>(neighbor->bondlist[0]),
         static_cast<std::size_t>(neighbor->nbondlist)};
     kernel_->add_forces(bonds, 1, {reinterpret_cast<const dch::Vec3*>(atom->x[0]), points},
-                        {reinterpret_cast<dch::Vec3*>(atom->f[0]), points}, too_long_);
-    for (const std::int32_t k : too_long_) add_long_bond(bonds[static_cast<std::size_t>(k)]);
+                        {reinterpret_cast<dch::Vec3*>(atom->f[0]), points}, too_long_,
+                        vflag_either ? &sums : nullptr);
+    for (const std::int32_t k : too_long_) add_long_bond(bonds[static_cast<std::size_t>(k)], sums);
+    if (vflag_either) std::copy(sums.begin(), sums.end(), virial);
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("Bond style fene/dch: ") + e.what());
   }
 }
 
 void BondFENEDCH::compute_plain(int eflag, int vflag) {
-  ev_init(eflag, vflag);
   plain_->compute(eflag, vflag);
   energy = plain_->energy;
   std::copy_n(plain_->virial, 6, virial);
@@ -130,7 +133,7 @@ void BondFENEDCH::compute_plain(int eflag, int vflag) {
 }
 
 /// The plain style warns, or stops if it breaks.
-void BondFENEDCH::add_long_bond(const dch::BondOfType& bond) {
+void BondFENEDCH::add_long_bond(const dch::BondOfType& bond, std::array<double, 6>& sums) {
   const double *xi = atom->x[bond.i], *xj = atom->x[bond.j];
   const dch::Vec3 d{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
   double over_r = 0;
@@ -140,7 +143,11 @@ void BondFENEDCH::add_long_bond(const dch::BondOfType& bond) {
   for (int axis = 0; axis < 3; ++axis) {
     of_i[axis] += pull[axis];
     of_j[axis] -= pull[axis];
+    sums[static_cast<std::size_t>(axis)] += d[axis] * pull[axis];
   }
+  sums[3] += d.x * pull.y;
+  sums[4] += d.x * pull.z;
+  sums[5] += d.y * pull.z;
 }
 
 }  // namespace LAMMPS_NS

@@ -6,6 +6,7 @@ BondStyle(fene/dch,BondFENEDCH);
 #elif !defined(LMP_BOND_FENE_DCH_H)
 #define LMP_BOND_FENE_DCH_H
 
+#include <array>
 #include <bond.h>
 #include <lammps_host.h>
 #include <memory>
@@ -16,7 +17,7 @@ BondStyle(fene/dch,BondFENEDCH);
 namespace LAMMPS_NS {
 
 /// fene/dch: forces by a SIMD kernel. Everything else is the plain style's, of which it keeps an object,
-/// which also computes at steps that want energy or virial, and always if newton is off for bonds.
+/// which also computes at steps that want energy or virials by atom, and always if newton is off for bonds.
 class BondFENEDCH : public Bond {
  public:
   explicit BondFENEDCH(LAMMPS* lammps);
@@ -40,7 +41,7 @@ class BondFENEDCH : public Bond {
   void take_coefficients();
   void make_kernel();
   void compute_plain(int eflag, int vflag);
-  void add_long_bond(const dch::BondOfType& bond);
+  void add_long_bond(const dch::BondOfType& bond, std::array<double, 6>& sums);
 
   std::unique_ptr<Bond> plain_;
   std::unique_ptr<dch::FeneForces> kernel_;  ///< null if coefficients have changed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_dch_order.h"
 
+#include <cstring>
 #include <modify.h>
 
 #include "neighbor_dch.h"
@@ -17,9 +18,15 @@ struct Calls : Modify {
 
 }  // namespace
 
+int FixDCHOrder::index_in(const Modify& modify) {
+  for (int k = 0; k < modify.nfix; ++k)
+    if (std::strcmp(modify.fix[k]->style, kStyle) == 0) return k;
+  return -1;
+}
+
 void FixDCHOrder::install(LAMMPS* lammps) {
   Modify& modify = *lammps->modify;
-  if (modify.find_fix_by_style(kStyle) >= 0) return;
+  if (index_in(modify) >= 0) return;
   (*modify.fix_map)[kStyle] = [](LAMMPS* lmp, int narg, char** arg) -> Fix* {
     return new FixDCHOrder(lmp, narg, arg);
   };

@@ -14,6 +14,8 @@ class FixDCHOrder : public Fix {
 
   FixDCHOrder(LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {}
 
+  /// Its number in Modify::fix; -1 if there is none.
+  static int index_in(const Modify& modify);
   /// Makes one unless there is one, so that the run that is being initialized calls it. Every process has to
   /// call this, after Modify::init().
   static void install(LAMMPS* lammps);

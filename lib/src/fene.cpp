@@ -29,7 +29,8 @@ FeneForces::FeneForces(const std::vector<FeneBond>& types) {
 }
 
 void FeneForces::add_forces(Span<const BondOfType> bonds, int first_type, Span<const Vec3> positions,
-                            Span<Vec3> forces, std::vector<std::int32_t>& too_long) const {
+                            Span<Vec3> forces, std::vector<std::int32_t>& too_long,
+                            std::array<double, 6>* virial) const {
   if (positions.size() != forces.size())
     throw InvalidParameter("room for " + std::to_string(forces.size()) + " forces given for " +
                            std::to_string(positions.size()) + " particles; give one each");
@@ -42,7 +43,8 @@ void FeneForces::add_forces(Span<const BondOfType> bonds, int first_type, Span<c
                               static_cast<std::int32_t>(tables_[0].size()),
                               {tables_[0].data(), tables_[1].data(), tables_[2].data(), tables_[3].data()},
                               positions.data(),
-                              forces.data()};
+                              forces.data(),
+                              virial ? virial->data() : nullptr};
   too_long.resize(
       static_cast<std::size_t>(detail::cluster_kernels(instruction_set()).fene(task, too_long.data())));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // FENE forces equal those of a plain loop.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -16,7 +18,8 @@ namespace dch {
 namespace {
 
 std::vector<Vec3> plain_forces(const std::vector<BondOfType>& bonds, int first_type,
-                               const std::vector<FeneBond>& types, const std::vector<Vec3>& positions) {
+                               const std::vector<FeneBond>& types, const std::vector<Vec3>& positions,
+                               std::array<double, 6>& virial) {
   std::vector<Vec3> force(positions.size());
   for (const BondOfType& bond : bonds) {
     const FeneBond& type = types[static_cast<std::size_t>(bond.type - first_type)];
@@ -31,6 +34,8 @@ std::vector<Vec3> plain_forces(const std::vector<BondOfType>& bonds, int first_t
     }
     force[j] = force[j] + over_r * d;
     force[i] = force[i] - over_r * d;
+    const double products[] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
+    for (std::size_t k = 0; k < 6; ++k) virial[k] += over_r * products[k];
   }
   return force;
 }
@@ -55,7 +60,10 @@ TEST(FeneTest, EqualsAPlainLoop) {
         bonds.push_back({here, here + 1, 1 + static_cast<std::int32_t>(k % type_count)});
         if (is_long) expected_too_long.push_back(here);
       }
-      const std::vector<Vec3> expected = plain_forces(bonds, 1, types, positions);
+      std::array<double, 6> expected_virial{};
+      const std::vector<Vec3> expected = plain_forces(bonds, 1, types, positions, expected_virial);
+      double scale = 1;
+      for (const double v : expected_virial) scale = std::max(scale, std::abs(v));
       const FeneForces fene(types);
       for (const InstructionSet set : supported_sets()) {
         set_instruction_set(set);
@@ -64,6 +72,13 @@ TEST(FeneTest, EqualsAPlainLoop) {
         fene.add_forces(bonds, 1, positions, forces, too_long);
         EXPECT_EQ(too_long, expected_too_long) << name(set);
         EXPECT_LT(force_error(forces, expected), 1e-14) << name(set) << ' ' << count << ' ' << type_count;
+        std::vector<Vec3> again(positions.size());
+        std::array<double, 6> virial{1, 1, 1, 1, 1, 1};
+        fene.add_forces(bonds, 1, positions, again, too_long, &virial);
+        EXPECT_EQ(again, forces) << name(set);
+        for (std::size_t k = 0; k < 6; ++k)
+          EXPECT_NEAR(virial[k], expected_virial[k] + 1, 1e-13 * scale)
+              << name(set) << ' ' << count << ' ' << k;
       }
     }
 }

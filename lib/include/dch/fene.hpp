@@ -37,10 +37,12 @@ class FeneForces {
   /// none; they are listed.
   /// @param first_type number of the first type in the bonds
   /// @param too_long numbers of the bonds that are left out; overwritten
+  /// @param virial sum of r_ij f_ij over the bonds that are not left out: xx, yy, zz, xy, xz, yz; added to
+  ///   unless it is null [energy]
   /// @throws InvalidParameter if there are not as many positions as forces. Particles and types of bonds are
   ///   not checked.
   void add_forces(Span<const BondOfType> bonds, int first_type, Span<const Vec3> positions, Span<Vec3> forces,
-                  std::vector<std::int32_t>& too_long) const;
+                  std::vector<std::int32_t>& too_long, std::array<double, 6>* virial = nullptr) const;
 
  private:
   std::array<std::vector<double>, 4> tables_;  ///< by type: k, 1/r0^2, sigma^2, 48 epsilon

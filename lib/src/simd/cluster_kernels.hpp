@@ -39,7 +39,8 @@ struct FeneTask {
   std::int32_t first_type, types;
   const double* table[4];
   const Vec3* positions;
-  Vec3* forces;  ///< added to
+  Vec3* forces;    ///< added to
+  double* virial;  ///< six sums of d f, added to; null if not wanted
 };
 
 /// The loops over clusters of four, and those of forces, compiled for one instruction set. No function

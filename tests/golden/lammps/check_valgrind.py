@@ -39,7 +39,7 @@ create_atoms 1 box
 mass 1 28.06
 velocity all create 1200.0 87287
 pair_style sw
-pair_coeff * * ${potentials}/Si.sw Si
+pair_coeff * * Si.sw Si
 neighbor 1.0 bin
 neigh_modify delay 0 every 2 check no
 fix 1 all nve
