@@ -25,6 +25,14 @@ AtomPair ClusterVerifier::pair_of(int i, int j, dch::Vec3 from_i_to_j, int speci
   return pair;
 }
 
+void ClusterVerifier::take(const AtomPair& pair, int i, int j, dch::Vec3 from_i_to_j,
+                           std::vector<AtomPair>& out) const {
+  const bool is_within = norm2(from_i_to_j) <= neighbor->cutneighsq[atom->type[i]][atom->type[j]];
+  if (is_within || pair.at_cutoff) out.push_back(pair);
+}
+
+/// Where hybrid asks for one cutoff for all types, the list goes beyond those of some.
+///
 /// With newton off LAMMPS has a pair through a ghost in both rows; with the atoms in the box as points ours
 /// has it once.
 void ClusterVerifier::take_native(const std::vector<ListEntry>& native, bool in_box, double rounding,
@@ -32,26 +40,29 @@ void ClusterVerifier::take_native(const std::vector<ListEntry>& native, bool in_
   const bool are_twice = in_box && !force->newton_pair;
   for (const ListEntry& e : native) {
     if (are_twice && e.j >= atom->nlocal && !rules_.stored_here(e.i, e.j)) continue;
-    out.push_back(pair_of(e.i, e.j, between(e.i, e.j), e.special, rounding));
-    out.back().native = true;
+    const dch::Vec3 from_i_to_j = between(e.i, e.j);
+    AtomPair pair = pair_of(e.i, e.j, from_i_to_j, e.special, rounding);
+    pair.native = true;
+    take(pair, e.i, e.j, from_i_to_j, out);
   }
 }
 
 void ClusterVerifier::take_ours(const ClusterList& ours, double rounding, std::vector<AtomPair>& out) const {
-  const auto take = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
-    const AtomPair pair = pair_of(i, j, from_i_to_j, 0, rounding);
-    const bool is_within = norm2(from_i_to_j) <= neighbor->cutneighsq[atom->type[i]][atom->type[j]];
-    if (is_within || pair.at_cutoff) out.push_back(pair);
+  const auto take_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
+    take(pair_of(i, j, from_i_to_j, 0, rounding), i, j, from_i_to_j, out);
   };
   if (ours.one_by_one) {
     const std::size_t points = ours.points();
     const auto* const x = points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
-    ours.pair_list.for_each({x, points}, ours.in_box ? box_of(*domain) : dch::Box::none(), take);
+    ours.pair_list.for_each({x, points}, ours.in_box ? box_of(*domain) : dch::Box::none(), take_pair);
   } else {
-    ours.pairs.for_each(take);
+    ours.pairs.for_each(take_pair);
   }
-  for (const ClusterList::Special& special : ours.special)
-    out.push_back(pair_of(special.i, special.at, between(special.i, special.at), special.kind, rounding));
+  for (const ClusterList::Special& special : ours.special) {
+    const dch::Vec3 from_i_to_j = between(special.i, special.at);
+    take(pair_of(special.i, special.at, from_i_to_j, special.kind, rounding), special.i, special.at,
+         from_i_to_j, out);
+  }
 }
 
 ClusterVerifier::Result ClusterVerifier::compare(const std::vector<ListEntry>& native,

@@ -40,6 +40,9 @@ class ClusterVerifier : protected Pointers {
  private:
   dch::lammps::AtomPair pair_of(int i, int j, dch::Vec3 from_i_to_j, int special, double rounding) const;
   dch::Vec3 between(int i, int j) const;
+  /// Adds a pair to `out` if it is within the list radius of its types.
+  void take(const dch::lammps::AtomPair& pair, int i, int j, dch::Vec3 from_i_to_j,
+            std::vector<dch::lammps::AtomPair>& out) const;
   void take_native(const std::vector<dch::lammps::ListEntry>& native, bool in_box, double rounding,
                    std::vector<dch::lammps::AtomPair>& out) const;
   void take_ours(const ClusterList& ours, double rounding, std::vector<dch::lammps::AtomPair>& out) const;
