@@ -9,8 +9,8 @@
 #include <dch/error.hpp>
 
 #include "dch_options.h"
-#include "force_styles.h"
 #include "neighbor_dch.h"
+#include "styles.h"
 
 namespace LAMMPS_NS {
 void DchCommand::command(int narg, char** arg) {

@@ -6,7 +6,7 @@
 
 #include "dch_command.h"
 #include "dch_register.h"
-#include "force_styles.h"
+#include "styles.h"
 
 namespace {
 
@@ -36,6 +36,16 @@ void* create_command(void* lammps) {
 }
 }
 
+// LAMMPS casts them back, by the kind of the style.
+template <class Base>
+void set_creator(PluginEntry& entry, Base* (*create)(LAMMPS_NS::LAMMPS*)) {
+  entry.creator.v1 = reinterpret_cast<Factory*>(create);
+}
+template <class Base>
+void set_creator(PluginEntry& entry, Base* (*create)(LAMMPS_NS::LAMMPS*, int, char**)) {
+  entry.creator.v2 = reinterpret_cast<FactoryWithArguments*>(create);
+}
+
 }  // namespace
 
 void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
@@ -54,10 +64,11 @@ void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
     entry.style = kind;
     for (const auto& style : styles) {
       entry.name = style.name;
-      entry.creator.v1 = reinterpret_cast<Factory*>(style.create);  // LAMMPS casts it back
+      set_creator(entry, style.create);
       enter(&entry, lammps);
     }
   };
   enter_all("pair", LAMMPS_NS::pair_styles_dch());
   enter_all("bond", LAMMPS_NS::bond_styles_dch());
+  enter_all("compute", LAMMPS_NS::compute_styles_dch());
 }

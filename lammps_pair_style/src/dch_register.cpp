@@ -7,7 +7,7 @@
 #include <library.h>
 
 #include "dch_command.h"
-#include "force_styles.h"
+#include "styles.h"
 
 namespace {
 

@@ -30,6 +30,7 @@ class Loading(unittest.TestCase):
                                      executable=[host.tools / "plugin_host", host.loader.parent / "libdch_lammps.so"])
         self.assertEqual(code, 0, output)
         self.assertIn("entered command dch\nentered pair lj/cut/dch\n", output)
+        self.assertIn("entered compute necklace/contact\n", output)
         self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
         stock = thermo_tables(run(MELT + "run 20\n"))
         for table in thermo_tables(output):

@@ -13,6 +13,7 @@
 #include <lammps.h>
 #include <library.h>
 #include <memory>
+#include <modify.h>
 #include <mpi.h>
 
 namespace {
@@ -20,7 +21,10 @@ namespace {
 /// As the LAMMPS manual says. LAMMPS too casts the function to what its tables hold.
 struct Entry {
   const char *version, *style, *name, *info, *author;
-  void* (*create)(void*);
+  union {
+    void* (*create)(void*);
+    void* (*create_with_arguments)(void*, int, char**);
+  };
   void* handle;
 };
 
@@ -31,6 +35,9 @@ void enter(Entry* entry, void* handle) {
     (*lammps->force->pair_map)[entry->name] = reinterpret_cast<LAMMPS_NS::Force::PairCreator>(entry->create);
   } else if (std::strcmp(entry->style, "bond") == 0) {
     (*lammps->force->bond_map)[entry->name] = reinterpret_cast<LAMMPS_NS::Force::BondCreator>(entry->create);
+  } else if (std::strcmp(entry->style, "compute") == 0) {
+    (*lammps->modify->compute_map)[entry->name] =
+        reinterpret_cast<LAMMPS_NS::Modify::ComputeCreator>(entry->create_with_arguments);
   } else if (std::strcmp(entry->style, "command") == 0) {
     (*lammps->input->command_map)[entry->name] =
         reinterpret_cast<LAMMPS_NS::Input::CommandCreator>(entry->create);

@@ -72,7 +72,7 @@ TEST(Fuzz, DamagedTopologiesGiveBondsOrErrors) {
       {"test.data",
        "title\n\n7 atoms\n2 bonds\n\nAtoms\n\n1 1 0 0 0\n\nBonds # x\n\n1 1 10 2\n2 1 5 3\n\nAngles\n"}};
   for (const auto& [name, text] : files) {
-    for (int k = 0; k < 3000; ++k) {
+    for (int k = 0; k < effort(3000); ++k) {
       SCOPED_TRACE(std::string(name) + " case " + std::to_string(k) + " seed " + std::to_string(kSeed));
       const std::string path = folder.write(name, damaged(text, random));
       try {

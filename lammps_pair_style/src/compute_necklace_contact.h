@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(necklace/contact,ComputeNecklaceContact);
+// clang-format on
+#elif !defined(LMP_COMPUTE_NECKLACE_CONTACT_H)
+#define LMP_COMPUTE_NECKLACE_CONTACT_H
+
+#include <array>
+#include <compute.h>
+#include <lammps_host.h>
+#include <memory>
+#include <vector>
+
+#include <dch/necklace/contacts.hpp>
+#include <dch/necklace/wrapped_hierarchy.hpp>
+
+#include "gathered_beads.h"
+
+namespace LAMMPS_NS {
+
+/// necklace/contact: where the chains of a group touch themselves and each other. The atoms' contacts, how
+/// many there are, and a list of them: atom IDs and gap, each on the process that owns the atom of smaller ID.
+///
+/// Every process gathers all chains and finds all contacts, by a wrapped hierarchy that it keeps from call to
+/// call.
+class ComputeNecklaceContact : public Compute {
+ public:
+  ComputeNecklaceContact(LAMMPS* lammps, int narg, char** arg);
+
+  void init() override;
+  double compute_scalar() override;
+  void compute_peratom() override;
+  void compute_local() override;
+  double memory_usage() override;
+
+ private:
+  enum class Result { scalar, by_atom, local };
+
+  void read_keywords(int narg, char** arg);
+  int read_radii(int narg, char** arg, int at);
+  double positive(const char* word, const char* what);
+  void find_for(Result asked);
+  void find();
+  void follow_chains();
+
+  dch::necklace::ContactQuery query_;
+  std::vector<double> radius_of_type_;  ///< from 1 [length]; empty: the atoms' own
+  GatheredBeads beads_;
+  std::vector<tagint> known_tags_;  ///< of the chains in hierarchy_, as are the bonds and radii
+  std::vector<dch::IndexPair> known_bonds_;
+  std::unique_ptr<dch::necklace::WrappedHierarchy> hierarchy_;
+  std::vector<dch::necklace::Contact> contacts_;
+  bigint found_at_ = -1;             ///< step of contacts_; -1 for none
+  std::array<bool, 3> taken_{};      ///< by result: it has had contacts_ already, so its next call is of later positions
+  std::vector<double> counts_;       ///< what vector_atom points to
+  std::vector<std::array<double, 3>> rows_;
+  std::vector<double*> row_starts_;  ///< what array_local points to
+};
+
+}  // namespace LAMMPS_NS
+
+#endif

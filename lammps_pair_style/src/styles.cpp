@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "styles.h"
+
+#include <force.h>
+#include <modify.h>
+
+#include "bond_fene_dch.h"
+#include "compute_necklace_contact.h"
+#include "pair_lj_dch.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+template <class Base, class Made, class... Arguments>
+Base* create(LAMMPS* lmp, Arguments... arguments) {
+  return new Made(lmp, arguments...);
+}
+
+}  // namespace
+
+// In LAMMPS's own tree its build reads the same lines of the same headers, in the same way.
+
+std::vector<StyleEntry<Pair>> pair_styles_dch() {
+  std::vector<StyleEntry<Pair>> styles;
+#define PAIR_CLASS
+#define PairStyle(key, Made) styles.push_back({#key, &create<Pair, Made>})
+#include "pair_lj_dch.h"
+#undef PairStyle
+#undef PAIR_CLASS
+  return styles;
+}
+
+std::vector<StyleEntry<Bond>> bond_styles_dch() {
+  std::vector<StyleEntry<Bond>> styles;
+#define BOND_CLASS
+#define BondStyle(key, Made) styles.push_back({#key, &create<Bond, Made>})
+#include "bond_fene_dch.h"
+#undef BondStyle
+#undef BOND_CLASS
+  return styles;
+}
+
+std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
+  std::vector<StyleEntry<Compute, int, char**>> styles;
+#define COMPUTE_CLASS
+#define ComputeStyle(key, Made) styles.push_back({#key, &create<Compute, Made, int, char**>})
+#include "compute_necklace_contact.h"
+#undef ComputeStyle
+#undef COMPUTE_CLASS
+  return styles;
+}
+
+void register_styles_dch(LAMMPS& lmp) {
+  for (const auto& style : pair_styles_dch()) lmp.force->pair_map->emplace(style.name, style.create);
+  for (const auto& style : bond_styles_dch()) lmp.force->bond_map->emplace(style.name, style.create);
+  for (const auto& style : compute_styles_dch()) lmp.modify->compute_map->emplace(style.name, style.create);
+}
+
+}  // namespace LAMMPS_NS

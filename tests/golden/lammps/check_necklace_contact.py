@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""compute necklace/contact in a real LAMMPS, against all pairs of beads."""
+
+import math
+import unittest
+
+import numpy
+
+from lammps_run import thermo_tables
+from script_tests import host, main, run
+
+# The generator's walks overlap, so there are contacts enough. Molecules of the melt are chains in order of ID.
+MELT = """
+include ${load}
+units lj
+newton on ${newton}
+atom_style bond
+special_bonds fene
+read_data ${data} extra/atom/types 1 extra/bond/per/atom 2 extra/special/per/atom 20
+mass * 1.0
+set atom 1*600 type 2
+pair_style soft 1.12246
+pair_coeff * * 20.0
+bond_style harmonic
+bond_coeff * 200.0 0.97
+comm_modify cutoff 3.0
+velocity all create 1.0 87287 loop geom
+fix move all nve/limit 0.05
+fix bath all langevin 1.0 1.0 0.5 904297
+compute touch ${group} necklace/contact ${arguments}
+thermo 20
+thermo_style custom step c_touch
+dump atoms all custom 20 atoms id mol type x y z c_touch
+dump_modify atoms sort id format float %.17g
+dump pairs all local 20 pairs c_touch[1] c_touch[2] c_touch[3]
+dump_modify pairs format float %.17g
+"""
+BEADS = 60  # of each chain
+
+RING = """
+include ${load}
+units lj
+atom_style bond
+region box block -4 4 -4 4 -4 4
+create_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 12
+mass 1 1.0
+variable number loop 12
+label next
+variable x equal 1.9*cos(2*PI*v_number/12)
+variable y equal 1.9*sin(2*PI*v_number/12)
+create_atoms 1 single $x $y 0 units box
+next number
+jump SELF next
+variable bead loop 12
+label bond
+variable other equal v_bead%12+1
+create_bonds single/bond 1 ${bead} ${other} special no
+next bead
+jump SELF bond
+create_bonds single/bond 1 1 1
+"""
+
+
+def read_frames(path):
+    """Frames of a dump: (step, box lengths, rows)."""
+    frames, lines = [], path.read_text().splitlines()
+    at = 0
+    while at < len(lines):
+        step, rows = int(lines[at + 1]), int(lines[at + 3])
+        bounds = [list(map(float, line.split())) for line in lines[at + 5:at + 8]]
+        table = numpy.array([list(map(float, line.split())) for line in lines[at + 9:at + 9 + rows]])
+        frames.append((step, numpy.array([high - low for low, high in bounds]), table))
+        at += 9 + rows
+    return frames
+
+
+def all_contacts(atoms, edge, radius, gap, skip, within=True, between=True):
+    """{(ID, ID): gap of the surfaces} of beads of the melt's chains; atoms: rows id mol type x y z ..."""
+    found = {}
+    for i in range(len(atoms) - 1):
+        d = atoms[i + 1:, 3:6] - atoms[i, 3:6]
+        d -= edge * numpy.rint(d / edge)
+        gaps = numpy.sqrt((d * d).sum(axis=1)) - radius[i] - radius[i + 1:]
+        for k in numpy.flatnonzero(gaps <= gap):
+            j = i + 1 + k
+            same = atoms[i, 1] == atoms[j, 1]
+            if same and (not within or atoms[j, 0] - atoms[i, 0] <= skip) or (not same and not between):
+                continue
+            found[int(atoms[i, 0]), int(atoms[j, 0])] = gaps[k]
+    return found
+
+
+class NecklaceContact(unittest.TestCase):
+    def compare(self, arguments, ranks=1, newton="on", group="all", only=lambda atoms: atoms, run_line="run 40", **rules):
+        variables = {"arguments": arguments, "newton": newton, "group": group}
+        output = run(MELT + run_line + "\n", ranks=ranks, variables=variables)
+        thermo = thermo_tables(output)[0]
+        frames, pairs = read_frames(host.work / "atoms"), read_frames(host.work / "pairs")
+        self.assertEqual([0, 20, 40], [frame[0] for frame in frames])
+        by_type = rules.pop("by_type")
+        for line, (step, edge, atoms), (_, _, rows) in zip(thermo, frames, pairs):
+            members = only(atoms)
+            radius = numpy.array([by_type[int(kind)] for kind in members[:, 2]])
+            wanted = all_contacts(members, edge, radius, **rules)
+            self.assertGreater(len(wanted), 100)
+            self.assertEqual(len(wanted), line["c_touch"], step)
+            got = {(int(i), int(j)): gap for i, j, gap in rows}
+            self.assertEqual(len(rows), len(got))
+            self.assertEqual(wanted.keys(), got.keys())
+            for pair, gap in wanted.items():
+                self.assertAlmostEqual(gap, got[pair], delta=1e-12)
+            counts = numpy.zeros(len(atoms) + 1)
+            for pair in wanted:
+                counts[list(pair)] += 1
+            self.assertEqual(list(counts[1:]), list(atoms[:, 6]))
+        return frames
+
+    def test_all_chains(self):
+        for ranks in (1, 2):
+            self.compare("0.1 radius 0.5", ranks, by_type={1: 0.5, 2: 0.5}, gap=0.1, skip=1)
+
+    def test_radii_by_type_and_more_bonds_left_out(self):
+        self.compare("0.05 skip 3 radius 0.3 0.6", 2, "off", by_type={1: 0.3, 2: 0.6}, gap=0.05, skip=3)
+
+    def test_pairs_within_chains_and_between_them(self):
+        same = {"by_type": {1: 0.5, 2: 0.5}, "gap": 0.2, "skip": 1}
+        self.compare("0.2 pairs within radius 0.5", between=False, **same)
+        self.compare("0.2 radius 0.5 pairs between", within=False, **same)
+
+    def test_chains_of_a_group(self):
+        """A chain that the group cuts is two chains, and atoms without a bond in the group are no beads."""
+        script = MELT.replace("compute touch", "group half id <= 630\ncompute touch")
+        code, output = host.run_text(script + "run 20\n",
+                                     variables={"arguments": "0.1 radius 0.5", "newton": "on", "group": "half"})
+        self.assertEqual(0, code, output)
+        for line, (_, edge, atoms) in zip(thermo_tables(output)[0], read_frames(host.work / "atoms")):
+            wanted = all_contacts(atoms[:630], edge, numpy.full(630, 0.5), gap=0.1, skip=1)
+            self.assertEqual(len(wanted), line["c_touch"])
+            self.assertEqual(0, atoms[630:, 6].sum())
+
+    def test_a_box_that_changes_and_bonds_that_go(self):
+        """Bond 30-31 is cut between two runs: its beads are in contact then, as ends of two chains."""
+        cut = ("reset_timestep 0\ngroup cut id 30 31\nrun 0\nvariable before equal c_touch\nprint \"before ${before}\"\n"
+               "delete_bonds cut bond 1 remove\nrun 0\nvariable after equal c_touch\nprint \"after ${after}\"\n")
+        script = MELT.replace("fix bath", "fix shape all deform 1 x scale 1.1 y scale 0.95 remap x\nfix bath")
+        output = run(script + "run 40\n" + cut,
+                     variables={"arguments": "0.5 radius 0.5", "newton": "on", "group": "all"})
+        frames = read_frames(host.work / "atoms")
+        for line, (_, edge, atoms) in zip(thermo_tables(output)[0], frames[:3]):
+            wanted = all_contacts(atoms, edge, numpy.full(len(atoms), 0.5), gap=0.5, skip=1)
+            self.assertEqual(len(wanted), line["c_touch"])
+        words = dict(line.split() for line in output.splitlines() if line.startswith(("before ", "after ")))
+        self.assertEqual(float(words["before"]) + 1, float(words["after"]))
+
+    def test_a_ring(self):
+        """The bond that closes it is a bond: beads of a regular polygon touch none but their neighbors."""
+        side = 2 * 1.9 * math.sin(math.pi / 12)
+        for gap, contacts in ((0.0, 0), (2 * 1.9 * math.sin(math.pi / 6) - side + 1e-9, 12)):
+            script = RING.replace("create_bonds single/bond 1 1 1\n", "")
+            script += f"compute touch all necklace/contact {gap!r} radius {side / 2!r}\n"
+            script += "pair_style zero 3.0\npair_coeff * *\nbond_style zero\nbond_coeff *\nthermo_style custom step c_touch\nrun 0\n"
+            self.assertEqual(contacts, thermo_tables(run(script))[0][0]["c_touch"])
+
+    def test_bad_arguments_are_named(self):
+        for arguments, message in (
+                ("", "the gap is missing"),
+                ("near", "the gap is 'near' but has to be a distance of 0 or more"),
+                ("-1 radius 0.5", "the gap is '-1' but has to be"),
+                ("0.1", "this atom style has no radii; give 'radius R'"),
+                ("0.1 radius", "'radius' lacks its value"),
+                ("0.1 radius 0", "a radius is '0' but has to be a number above 0"),
+                ("0.1 radius 0.5 0.5 0.5", "3 radii for 2 atom types"),
+                ("0.1 radius 0.5 skip 1.5", "skip is '1.5' but has to be a whole number"),
+                ("0.1 radius 0.5 pairs none", "pairs is 'none' but has to be all, within or between"),
+                ("0.1 colour red", "unknown keyword 'colour'; there are radius, skip and pairs")):
+            code, output = host.run_text(MELT, variables={"arguments": arguments, "newton": "on", "group": "all"})
+            self.assertNotEqual(0, code, arguments)
+            self.assertIn("Compute necklace/contact: " + message, output)
+
+    def test_what_is_no_chain_is_refused(self):
+        script = MELT.replace("compute touch", "create_bonds single/bond 1 1 3\ncompute touch")
+        for text, message in ((script, "three or more bonds"), (MELT, "exceeds half the smallest box height")):
+            arguments = "0.1 radius 0.5" if text is script else "0.1 radius 20"
+            code, output = host.run_text(text + "run 0\n",
+                                         variables={"arguments": arguments, "newton": "on", "group": "all"})
+            self.assertNotEqual(0, code)
+            self.assertIn(message, output)
+
+    def test_atoms_without_bonds_are_refused(self):
+        code, output = host.run_text("include ${load}\nunits lj\natom_style atomic\nregion box block 0 4 0 4 0 4\n"
+                                     "create_box 1 box\ncompute touch all necklace/contact 0.1 radius 0.5\n")
+        self.assertNotEqual(0, code)
+        self.assertIn("the atom style has no bonds of its own", output)
+
+
+if __name__ == "__main__":
+    main(__doc__)
