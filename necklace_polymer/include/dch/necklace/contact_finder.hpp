@@ -31,9 +31,9 @@ struct ContactFinderParams {
   WrappedParams wrapped;
   /// The DCH takes over above this many visited pairs a bead, >= 0. Defaults are from measurements
   /// (docs/necklaces.md).
-  double to_dch = 0.8;
+  double to_dch = 1.2;
   /// The wrapped hierarchy comes back below this many, 0 .. to_dch.
-  double to_wrapped = 0.6;
+  double to_wrapped = 0.8;
   /// While the DCH has its turn, one search in so many is the wrapped hierarchy's, to measure, >= 1.
   int measure_every = 50;
 };

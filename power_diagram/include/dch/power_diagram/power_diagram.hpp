@@ -34,7 +34,8 @@ struct PowerDiagramParams {
 /// locally regular on all facets, which is a regular triangulation. In fewer than three dimensions it is
 /// built anew.
 ///
-/// Cost: O(n) for the test, and some 50 insertions for each removal; building is O(n lg n) where the diagram
+/// Cost: O(n) for each test; removing a ball costs many times as much as putting one in, so repair pays for
+/// small steps only (docs/necklaces.md). Building is O(n lg n) where the diagram
 /// is of linear size. Whoever links this has to keep to the GPL, version 3 or later, of CGAL's
 /// triangulations.
 class PowerDiagram : public ProximityDiagram {
