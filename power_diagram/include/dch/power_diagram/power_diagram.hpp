@@ -21,7 +21,7 @@ struct PowerDiagramStats {
 
 struct PowerDiagramParams {
   /// A repair that would take out more than this share of the balls becomes a build, 0 .. 1.
-  double most_removed = 0.03;
+  double most_removed = 0.02;
 };
 
 /// The power diagram of balls, as its dual: a regular triangulation with the squares of the radii as weights
