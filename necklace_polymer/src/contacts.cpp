@@ -6,7 +6,9 @@
 #include <dch/necklace/contacts.hpp>
 #include <dch/pair_search.hpp>
 
+#include "contact_check.hpp"
 #include "contact_descent.hpp"
+#include "contact_of.hpp"
 
 namespace dch::necklace {
 
@@ -16,21 +18,9 @@ namespace {
 constexpr std::size_t kManyChains = 32;
 
 void check(const CageHierarchy& hierarchy, const ContactQuery& query) {
-  if (!std::isfinite(query.gap)) {
-    throw InvalidParameter("the gap is " + std::to_string(query.gap) + "; it has to be finite");
-  }
-  if (query.skip_bonds < 0) {
-    throw InvalidParameter("skip_bonds is " + std::to_string(query.skip_bonds) + "; it has to be 0 or more");
-  }
+  detail::check_query(hierarchy.necklace(), hierarchy.box(), query);
   if (hierarchy.beads().size() != hierarchy.necklace().size()) {
     throw InvalidParameter("the hierarchy has no positions; update it before it is searched");
-  }
-  const double reach = 2 * hierarchy.necklace().largest_radius() + query.gap;
-  if (reach > hierarchy.box().max_cutoff()) {
-    throw CutoffTooLarge("twice the largest radius + gap is " + std::to_string(reach) +
-                         ", which exceeds half the smallest box height, " +
-                         std::to_string(hierarchy.box().max_cutoff()) +
-                         "; take a smaller gap or a larger box");
   }
 }
 
@@ -117,10 +107,8 @@ Contact contact_at(const CageHierarchy& hierarchy, IndexPair places) {
   const auto first = static_cast<std::size_t>(p), second = static_cast<std::size_t>(q);
   const Vec3 at = hierarchy.positions()[first];
   const Vec3 d = hierarchy.box().nearest_image(hierarchy.positions()[second] - at);
-  const double distance = std::sqrt(norm2(d));
-  const double a = hierarchy.beads()[first].radius, b = hierarchy.beads()[second].radius;
-  const Vec3 toward = distance > 0 ? (1 / distance) * d : Vec3{1, 0, 0};  // any, if the centers coincide
-  return {particles[first], particles[second], distance - a - b, at + a * toward, at + d - b * toward};
+  return detail::contact_of(particles[first], particles[second], at, d, hierarchy.beads()[first].radius,
+                            hierarchy.beads()[second].radius);
 }
 
 std::vector<Contact> sorted(const CageHierarchy& hierarchy, const std::vector<IndexPair>& places) {
@@ -133,6 +121,21 @@ std::vector<Contact> sorted(const CageHierarchy& hierarchy, const std::vector<In
 }
 
 }  // namespace
+
+void detail::check_query(const Necklace& necklace, const Box& box, const ContactQuery& query) {
+  if (!std::isfinite(query.gap)) {
+    throw InvalidParameter("the gap is " + std::to_string(query.gap) + "; it has to be finite");
+  }
+  if (query.skip_bonds < 0) {
+    throw InvalidParameter("skip_bonds is " + std::to_string(query.skip_bonds) + "; it has to be 0 or more");
+  }
+  const double reach = 2 * necklace.largest_radius() + query.gap;
+  if (reach > box.max_cutoff()) {
+    throw CutoffTooLarge("twice the largest radius + gap is " + std::to_string(reach) +
+                         ", which exceeds half the smallest box height, " + std::to_string(box.max_cutoff()) +
+                         "; take a smaller gap or a larger box");
+  }
+}
 
 bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats) {
   Any visitor;

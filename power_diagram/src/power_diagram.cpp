@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Regular_triangulation_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <dch/box.hpp>
+#include <dch/error.hpp>
+#include <dch/power_diagram/power_diagram.hpp>
+
+namespace dch::necklace {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel,
+                                                CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+/// Hidden balls are kept by us, not in cells: after motion those would hold old places.
+using CellBase = CGAL::Regular_triangulation_cell_base_3<Kernel, CGAL::Triangulation_cell_base_3<Kernel>,
+                                                         CGAL::Discard_hidden_points>;
+using Triangulation =
+    CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using Vertex = Triangulation::Vertex_handle;
+using Cell = Triangulation::Cell_handle;
+using WeightedPoint = Triangulation::Weighted_point;
+
+WeightedPoint weighted(const Ball& ball) {
+  return {Kernel::Point_3(ball.center.x, ball.center.y, ball.center.z), ball.radius * ball.radius};
+}
+
+bool same(const Ball& a, const Ball& b) { return a.center == b.center && a.radius == b.radius; }
+
+/// Finite vertices that something wrong rests on.
+using Blamed = std::vector<Vertex>;
+
+}  // namespace
+
+struct PowerDiagram::Impl {
+  PowerDiagramParams params;
+  PowerDiagramStats stats;
+  Triangulation triangulation;
+  std::vector<Ball> balls;
+  std::vector<Vertex> vertex;  ///< by ball; null for a hidden one
+
+  void build(Span<const Ball> to);
+  bool repair(Span<const Ball> to);
+  void put_vertices(Span<const Ball> at);
+  std::vector<Blamed> faults() const;
+  bool turned_over(Cell cell) const;
+  bool irregular(Cell cell, int facet) const;
+  std::vector<std::int32_t> choose(const std::vector<Blamed>& faults) const;
+  void insert(std::vector<std::int32_t> indices, Span<const Ball> at);
+  void find_vertices();
+};
+
+void PowerDiagram::Impl::find_vertices() {
+  std::fill(vertex.begin(), vertex.end(), Vertex());
+  for (const Vertex v : triangulation.finite_vertex_handles()) {
+    vertex[static_cast<std::size_t>(v->info())] = v;
+  }
+  stats.hidden = static_cast<std::int64_t>(vertex.size() - triangulation.number_of_vertices());
+}
+
+void PowerDiagram::Impl::insert(std::vector<std::int32_t> indices, Span<const Ball> at) {
+  std::vector<std::pair<WeightedPoint, std::int32_t>> points;
+  points.reserve(indices.size());
+  for (const std::int32_t k : indices) points.emplace_back(weighted(at[static_cast<std::size_t>(k)]), k);
+  triangulation.insert(points.begin(), points.end());
+}
+
+void PowerDiagram::Impl::build(Span<const Ball> to) {
+  ++stats.builds;
+  triangulation.clear();
+  vertex.assign(to.size(), Vertex());
+  std::vector<std::int32_t> all(to.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::int32_t>(k);
+  insert(std::move(all), to);
+  find_vertices();
+}
+
+/// Moves vertices without a look at the triangulation.
+void PowerDiagram::Impl::put_vertices(Span<const Ball> at) {
+  for (std::size_t k = 0; k < vertex.size(); ++k) {
+    if (vertex[k] != Vertex()) vertex[k]->set_point(weighted(at[k]));
+  }
+}
+
+bool PowerDiagram::Impl::turned_over(Cell cell) const {
+  if (triangulation.is_infinite(cell)) return false;
+  return triangulation.geom_traits().orientation_3_object()(
+             cell->vertex(0)->point().point(), cell->vertex(1)->point().point(),
+             cell->vertex(2)->point().point(), cell->vertex(3)->point().point()) != CGAL::POSITIVE;
+}
+
+/// Whether the ball on the other side of a facet intersects that of the cell more than orthogonally. On the
+/// hull, where both cells are infinite: whether it is not convex there.
+bool PowerDiagram::Impl::irregular(Cell cell, int facet) const {
+  const Vertex other = triangulation.tds().mirror_vertex(cell, facet);
+  if (triangulation.is_infinite(other)) return false;
+  return triangulation.side_of_power_sphere(cell, other->point()) == CGAL::ON_BOUNDED_SIDE;
+}
+
+/// What keeps the triangulation, with its vertices where they are now, from being regular.
+std::vector<Blamed> PowerDiagram::Impl::faults() const {
+  std::vector<Blamed> result;
+  const auto blame = [&](Cell cell, Vertex other) {
+    Blamed blamed;
+    for (int k = 0; k < 4; ++k) blamed.push_back(cell->vertex(k));
+    if (other != Vertex()) blamed.push_back(other);
+    blamed.erase(std::remove(blamed.begin(), blamed.end(), triangulation.infinite_vertex()), blamed.end());
+    result.push_back(std::move(blamed));
+  };
+  for (const Cell cell : triangulation.all_cell_handles()) {
+    if (turned_over(cell)) blame(cell, Vertex());
+  }
+  // The tests of facets take all tetrahedra for well oriented.
+  if (!result.empty()) return result;
+  for (const auto& [cell, facet] : triangulation.all_facets()) {
+    const Cell next = cell->neighbor(facet);
+    // From a finite cell, if there is one.
+    const bool from_next = triangulation.is_infinite(cell) && !triangulation.is_infinite(next);
+    const Cell from = from_next ? next : cell;
+    const int side = from_next ? next->index(cell) : facet;
+    if (irregular(from, side)) blame(from, triangulation.tds().mirror_vertex(from, side));
+  }
+  return result;
+}
+
+/// Indices of few balls that are part of all faults: greedily those that most faults blame.
+std::vector<std::int32_t> PowerDiagram::Impl::choose(const std::vector<Blamed>& faults) const {
+  std::vector<int> blame(vertex.size(), 0);
+  std::vector<char> chosen(vertex.size(), 0);
+  const auto slot = [](Vertex v) { return static_cast<std::size_t>(v->info()); };
+  for (const Blamed& fault : faults) {
+    for (const Vertex v : fault) ++blame[slot(v)];
+  }
+  std::vector<std::int32_t> result;
+  for (const Blamed& fault : faults) {
+    if (std::any_of(fault.begin(), fault.end(), [&](Vertex v) { return chosen[slot(v)] != 0; })) continue;
+    const Vertex worst = *std::max_element(
+        fault.begin(), fault.end(), [&](Vertex a, Vertex b) { return blame[slot(a)] < blame[slot(b)]; });
+    chosen[slot(worst)] = 1;
+    result.push_back(worst->info());
+  }
+  return result;
+}
+
+/// False if that is not worth while; the triangulation is of no use then.
+bool PowerDiagram::Impl::repair(Span<const Ball> to) {
+  std::vector<std::int32_t> outside;
+  for (std::size_t k = 0; k < vertex.size(); ++k) {
+    if (vertex[k] == Vertex()) outside.push_back(static_cast<std::int32_t>(k));
+  }
+  const double most = params.most_removed * static_cast<double>(vertex.size());
+  std::size_t removed = 0;
+  for (;;) {
+    put_vertices(to);
+    const auto wrong = faults();
+    if (wrong.empty()) break;
+    const auto chosen = choose(wrong);
+    removed += chosen.size();
+    if (static_cast<double>(removed) > most) return false;
+    put_vertices(balls);
+    for (const std::int32_t k : chosen) {
+      triangulation.remove(vertex[static_cast<std::size_t>(k)]);
+      vertex[static_cast<std::size_t>(k)] = Vertex();
+      outside.push_back(k);
+    }
+    if (triangulation.dimension() < 3) return false;
+  }
+  insert(std::move(outside), to);
+  find_vertices();
+  ++stats.repairs;
+  stats.removed += static_cast<std::int64_t>(removed);
+  return true;
+}
+
+PowerDiagram::PowerDiagram(const PowerDiagramParams& params) : impl_(std::make_unique<Impl>()) {
+  if (!(params.most_removed >= 0 && params.most_removed <= 1)) {
+    throw InvalidParameter("most_removed is " + std::to_string(params.most_removed) +
+                           "; it is a share of the balls, 0 .. 1");
+  }
+  impl_->params = params;
+}
+
+PowerDiagram::~PowerDiagram() = default;
+PowerDiagram::PowerDiagram(PowerDiagram&&) noexcept = default;
+PowerDiagram& PowerDiagram::operator=(PowerDiagram&&) noexcept = default;
+
+void PowerDiagram::update(Span<const Ball> balls) {
+  for (std::size_t k = 0; k < balls.size(); ++k) {
+    const Ball& ball = balls[k];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(ball.center[axis]) <= kMaxCoordinate) continue;
+      throw InvalidPosition("ball " + std::to_string(k) + " has the coordinate " +
+                            std::to_string(ball.center[axis]) + ", which is not finite or beyond " +
+                            std::to_string(kMaxCoordinate));
+    }
+  }
+  ++impl_->stats.updates;
+  const bool kept = balls.size() == impl_->balls.size() && impl_->triangulation.dimension() == 3;
+  if (!kept || !impl_->repair(balls)) impl_->build(balls);
+  impl_->balls.assign(balls.begin(), balls.end());
+}
+
+std::vector<IndexPair> PowerDiagram::edges() const {
+  std::vector<IndexPair> result;
+  for (const auto& [cell, i, j] : impl_->triangulation.finite_edges()) {
+    const std::int32_t a = cell->vertex(i)->info(), b = cell->vertex(j)->info();
+    result.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<IndexPair> PowerDiagram::doubles() const {
+  std::vector<IndexPair> result;
+  if (impl_->stats.hidden == 0) return result;
+  for (std::size_t k = 0; k < impl_->balls.size(); ++k) {
+    if (impl_->vertex[k] != Vertex()) continue;
+    const Ball& ball = impl_->balls[k];
+    const Vertex nearest = impl_->triangulation.nearest_power_vertex(weighted(ball).point());
+    if (nearest == Vertex() || !same(ball, impl_->balls[static_cast<std::size_t>(nearest->info())])) continue;
+    result.push_back({static_cast<std::int32_t>(k), nearest->info()});
+  }
+  return result;
+}
+
+const PowerDiagramStats& PowerDiagram::stats() const { return impl_->stats; }
+
+bool PowerDiagram::is_valid() const { return impl_->triangulation.is_valid(); }
+
+}  // namespace dch::necklace

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <gmock/gmock.h>
+#include <string>
+#include <vector>
+
+#include <dch/necklace/contact_finder.hpp>
+#include <dch/necklace/shapes.hpp>
+#include <dch/necklace/walks.hpp>
+
+#include "contact_oracle.hpp"
+#include "effort.hpp"
+#include "error_message.hpp"
+#include "random.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using dch::Box;
+using dch::CutoffTooLarge;
+using dch::InvalidParameter;
+using dch::InvalidPosition;
+using dch::Vec3;
+using dch::necklace::Chains;
+using dch::necklace::Contact;
+using dch::necklace::ContactFinder;
+using dch::necklace::ContactFinderParams;
+using dch::necklace::ContactQuery;
+using dch::necklace::Necklace;
+using dch::necklace::Shape;
+using dch::necklace::Structure;
+using dch::necklace::WrappedHierarchy;
+using dch::scenes::Random;
+using dch::test::message_of;
+using testing::HasSubstr;
+
+/// Takes the DCH after its first search, whatever the scene.
+ContactFinderParams always_dch() {
+  ContactFinderParams params;
+  params.to_dch = params.to_wrapped = 0;
+  params.wrapped.leaf_beads = 1;  // of few beads too some are compared
+  params.measure_every = 1000000;
+  return params;
+}
+
+/// Beads that touch their neighbors count, so that all pairs are compared.
+const ContactQuery kAllPairs{0, 0, true, true};
+
+/// Makes the first search, which measures.
+void measure(ContactFinder& finder, const std::vector<Vec3>& positions, const Box& box) {
+  finder.update(positions, box);
+  finder.find_contacts({});
+}
+
+bool same(const Contact& a, const Contact& b) {
+  return a.i == b.i && a.j == b.j && a.gap == b.gap && a.on_i == b.on_i && a.on_j == b.on_j;
+}
+
+/// The DCH gives the contacts of the wrapped hierarchy, bit for bit.
+void expect_same(const Necklace& necklace, const std::vector<Vec3>& positions, const Box& box,
+                 const ContactQuery& query, const std::string& where) {
+  WrappedHierarchy wrapped(necklace);
+  wrapped.build(positions, box);
+  const auto expected = find_contacts(wrapped, query);
+  ContactFinder finder(necklace, always_dch());
+  measure(finder, positions, box);
+  const auto found = finder.find_contacts(query);
+  ASSERT_EQ(found.size(), expected.size()) << where;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    EXPECT_TRUE(same(found[k], expected[k])) << where << ", " << k;
+  EXPECT_EQ(finder.any_contact(query), !expected.empty()) << where;
+  EXPECT_EQ(dch::test::pairs_of(found), dch::test::contact_oracle(necklace, positions, box, query)) << where;
+}
+
+TEST(ContactFinder, BothStructuresGiveTheSameContacts) {
+  int seed = 0;
+  for (const auto& named : dch::scenes::all_boxes(9)) {
+    for (int round = 0; round < dch::effort(8); ++round) {
+      Random random(static_cast<std::uint64_t>(++seed));
+      Chains chains(64);
+      std::vector<Vec3> positions;
+      std::vector<std::int32_t> names;
+      Vec3 at = dch::scenes::from_fractional(named.box, {0.3, 0.9, 0.5});
+      for (std::int32_t k = 0; k < 64; ++k, at = at + random.in_ball(0.9)) {
+        positions.push_back(named.box.wrap(at));
+        names.push_back(63 - k);
+      }
+      chains.add({names.data(), 40});
+      chains.add({names.data() + 40, 20});
+      std::vector<double> radii(64);
+      for (double& radius : radii) radius = round % 2 == 0 ? 0.4 : 0.8 * std::pow(20, -random.uniform());
+      ContactQuery query;
+      query.gap = random.uniform(-0.2, 0.8);
+      query.skip_bonds = static_cast<int>(random.below(4));
+      query.within_chains = random.uniform() < 0.8;
+      query.between_chains = random.uniform() < 0.8;
+      expect_same(Necklace(chains, radii), positions, named.box, query,
+                  named.name + ", seed " + std::to_string(seed));
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(ContactFinder, PointsFewBeadsAndNone) {
+  expect_same(Necklace::chain(std::vector<double>(40, 0)), std::vector<Vec3>(40, {1, 2, 3}), Box::none(), {},
+              "points at one place");
+  expect_same(Necklace::chain({0.5}), {{1, 2, 3}}, Box::none(), {}, "one");
+  expect_same(Necklace::chain({}), {}, Box::none(), {}, "none");
+  expect_same(Necklace::chain({0.5, 0.5}), {{1, 2, 3}, {1, 2, 3}}, Box::none(), {0, 0, true, true}, "two");
+}
+
+TEST(ContactFinder, PackedChainsGoToTheDchAndStretchedOnesComeBack) {
+  ContactFinderParams params;
+  params.to_dch = 3, params.to_wrapped = 2;
+  params.wrapped.leaf_beads = 1;
+  params.measure_every = 3;
+  const Shape line = dch::necklace::grid_necklace(512, 1, 1), cube = dch::necklace::grid_necklace(8, 8, 8);
+  ContactFinder finder(necklace_of(line, 0.49), params);
+  EXPECT_THAT(finder.choice().reason, HasSubstr("no search yet"));
+  EXPECT_LT(finder.choice().visited_per_bead, 0);
+  finder.update(line.positions, Box::none());
+  EXPECT_FALSE(finder.any_contact(kAllPairs));
+  EXPECT_EQ(finder.choice().structure, Structure::wrapped);
+  EXPECT_NEAR(finder.choice().visited_per_bead, 1, 0.01);
+  EXPECT_THAT(finder.choice().reason, HasSubstr("below 2.00: the wrapped hierarchy"));
+  finder.update(cube.positions, Box::none());
+  EXPECT_FALSE(finder.any_contact(kAllPairs));
+  EXPECT_EQ(finder.choice().structure, Structure::dch);
+  EXPECT_THAT(finder.choice().reason, HasSubstr("above 3.00: the DCH"));
+  finder.update(line.positions, Box::none());
+  for (const Structure expected : {Structure::dch, Structure::dch, Structure::wrapped}) {
+    EXPECT_FALSE(finder.any_contact(kAllPairs));
+    EXPECT_EQ(finder.choice().structure, expected);
+  }
+}
+
+TEST(ContactFinder, BetweenTheThresholdsNothingChanges) {
+  const Shape cube = dch::necklace::grid_necklace(8, 8, 8), line = dch::necklace::grid_necklace(512, 1, 1);
+  ContactFinderParams params;
+  params.wrapped.leaf_beads = 1;
+  params.to_dch = 30, params.to_wrapped = 0.5;
+  params.measure_every = 1;
+  ContactFinder finder(necklace_of(line, 0.49), params);
+  finder.update(line.positions, Box::none());
+  finder.find_contacts(kAllPairs);
+  EXPECT_EQ(finder.choice().structure, Structure::wrapped);
+  EXPECT_THAT(finder.choice().reason, HasSubstr("as before"));
+  finder.update(cube.positions, Box::none());
+  finder.find_contacts(kAllPairs);
+  EXPECT_EQ(finder.choice().structure, Structure::dch);
+  finder.update(line.positions, Box::none());
+  finder.find_contacts(kAllPairs);
+  EXPECT_EQ(finder.choice().structure, Structure::dch);
+  EXPECT_THAT(finder.choice().reason, HasSubstr("as before"));
+}
+
+/// One finder under changing gaps, boxes and positions.
+TEST(ContactFinder, FollowsWhateverChanges) {
+  const Shape cube = dch::necklace::globule(400, 0.2, 3);
+  const Necklace necklace = necklace_of(cube, 0.4);
+  ContactFinder finder(necklace, always_dch());
+  measure(finder, cube.positions, Box::none());
+  std::vector<Vec3> positions = cube.positions;
+  Random random(4);
+  for (int step = 0; step < 12; ++step) {
+    const Box box =
+        step % 3 == 0 ? Box::none() : Box::orthorhombic((step % 3 == 1 ? 40.0 : 12.0) * Vec3{1, 1, 1});
+    for (Vec3& p : positions) p = p + random.in_ball(0.05);
+    finder.update(positions, box);
+    for (const double gap : {0.0, 2.5, 0.3}) {
+      const ContactQuery query{gap, 2, true, true};
+      EXPECT_EQ(dch::test::pairs_of(finder.find_contacts(query)),
+                dch::test::contact_oracle(necklace, positions, box, query))
+          << "step " << step << ", gap " << gap;
+    }
+  }
+  EXPECT_EQ(finder.choice().structure, Structure::dch);
+}
+
+TEST(ContactFinder, RefusesBadInput) {
+  const Necklace necklace = Necklace::chain({0.5, 0.5, 0.5});
+  ContactFinderParams params;
+  params.to_wrapped = params.to_dch + 1;
+  EXPECT_THAT(message_of<InvalidParameter>([&] { ContactFinder(necklace, params); }),
+              HasSubstr("to_wrapped"));
+  params = {};
+  params.measure_every = 0;
+  EXPECT_THAT(message_of<InvalidParameter>([&] { ContactFinder(necklace, params); }),
+              HasSubstr("measure_every is 0"));
+  ContactFinder finder(necklace, always_dch());
+  EXPECT_THAT(message_of<InvalidParameter>([&] { finder.find_contacts({}); }), HasSubstr("no positions"));
+  const std::vector<Vec3> three{{0, 0, 0}, {1, 0, 0}, {0.5, 0.5, 0}};
+  measure(finder, three, Box::none());
+  ASSERT_EQ(finder.choice().structure, Structure::dch);
+  EXPECT_THROW(finder.find_contacts({NAN, 1, true, true}), InvalidParameter);
+  EXPECT_THROW(finder.any_contact({0, -1, true, true}), InvalidParameter);
+  finder.update(three, Box::orthorhombic({4, 4, 4}));
+  EXPECT_THROW(finder.find_contacts({2, 1, true, true}), CutoffTooLarge);
+  EXPECT_EQ(finder.find_contacts({}).size(), 1U);
+  EXPECT_THROW(finder.update(std::vector<Vec3>{{0, 0, 0}}, Box::none()), InvalidParameter);
+  EXPECT_THROW(finder.update(std::vector<Vec3>{{0, 0, 0}, {NAN, 0, 0}, {1, 0, 0}}, Box::none()),
+               InvalidPosition);
+  EXPECT_THROW(finder.find_contacts({}), InvalidParameter);
+}
+
+}  // namespace
