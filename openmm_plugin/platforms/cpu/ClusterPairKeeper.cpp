@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "DCHNonbondedKernelBase.h"
+#include "HostState.h"
 
 namespace OpenMMDCH {
 namespace {
