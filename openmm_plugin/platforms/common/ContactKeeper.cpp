@@ -14,7 +14,8 @@ constexpr double kSkinFraction = 0.3;
 
 }  // namespace
 
-ContactKeeper::ContactKeeper(dch::necklace::Necklace necklace, const dch::necklace::ContactQuery& contactQuery)
+ContactKeeper::ContactKeeper(dch::necklace::Necklace necklace,
+                             const dch::necklace::ContactQuery& contactQuery)
     : hierarchy(std::move(necklace)), query(contactQuery), beads(hierarchy.necklace().size()) {}
 
 /// As large as there is room, or near it, since boxes change all the time under a barostat.

@@ -107,9 +107,10 @@ double NecklaceContactKernel::addPairs(const HostState& state) {
     const dch::Vec3 apart = state.box.nearest_image(state.positions[j] - state.positions[i]);
     const PairTerms terms = potential->ofBeads(norm2(apart), radii[i] + radii[j]);
     if (!(std::isfinite(terms.energy) && std::isfinite(terms.forceOverR)))
-      refuse("particles " + std::to_string(first) + " and " + std::to_string(second) + " are " +
-             textOf(std::sqrt(norm2(apart))) +
-             " nm apart, where WCA has no finite energy; move them apart, or begin with Harmonic or SoftCosine");
+      refuse(
+          "particles " + std::to_string(first) + " and " + std::to_string(second) + " are " +
+          textOf(std::sqrt(norm2(apart))) +
+          " nm apart, where WCA has no finite energy; move them apart, or begin with Harmonic or SoftCosine");
     const dch::Vec3 force = terms.forceOverR * apart;
     state.forces[i] = state.forces[i] - force;
     state.forces[j] = state.forces[j] + force;
