@@ -9,7 +9,7 @@
 namespace OpenMMDCH {
 namespace {
 
-// Of the largest sum of two radii: see docs/openmm.md for what it costs.
+// Of the largest sum of two radii; not tuned. With more, searches are rarer and pairs between them are more.
 constexpr double kSkinFraction = 0.3;
 
 }  // namespace
