@@ -15,17 +15,23 @@
 
 namespace {
 
-/// A number, or a quantity of OpenMM's unit module in its unit system. False with a Python error if it is neither.
+/// The value of a quantity of OpenMM's unit module in its unit system: a new reference, null with a Python error.
+PyObject* in_md_units(PyObject* quantity) {
+  PyObject* const units = PyImport_ImportModule("openmm.unit");
+  PyObject* const system = units ? PyObject_GetAttrString(units, "md_unit_system") : nullptr;
+  PyObject* const value = system ? PyObject_CallMethod(quantity, "value_in_unit_system", "O", system) : nullptr;
+  Py_XDECREF(system);
+  Py_XDECREF(units);
+  return value;
+}
+
+/// A number, or a quantity. False with a Python error if it is neither.
 bool number_of(PyObject* object, double& value) {
   PyObject* number = object;
   Py_INCREF(number);
   if (PyObject_HasAttrString(object, "value_in_unit_system")) {
     Py_DECREF(number);
-    PyObject* const units = PyImport_ImportModule("openmm.unit");
-    PyObject* const system = units ? PyObject_GetAttrString(units, "md_unit_system") : nullptr;
-    number = system ? PyObject_CallMethod(object, "value_in_unit_system", "O", system) : nullptr;
-    Py_XDECREF(system);
-    Py_XDECREF(units);
+    number = in_md_units(object);
   }
   if (number) value = PyFloat_AsDouble(number);
   Py_XDECREF(number);
@@ -196,3 +202,5 @@ class DCHNonbondedForce : public OpenMM::Force {
 };
 
 }  // namespace OpenMMDCH
+
+%include "contacts.i"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "DCHNonbondedForce.h"
 #include "DCHNonbondedForceProxy.h"
+#include "NecklaceContactForce.h"
+#include "NecklaceContactForceProxy.h"
 
 namespace {
 
@@ -8,6 +10,8 @@ namespace {
 [[gnu::constructor]] void registerSerializationProxies() {
   OpenMM::SerializationProxy::registerProxy(typeid(OpenMMDCH::DCHNonbondedForce),
                                             new OpenMMDCH::DCHNonbondedForceProxy());
+  OpenMM::SerializationProxy::registerProxy(typeid(OpenMMDCH::NecklaceContactForce),
+                                            new OpenMMDCH::NecklaceContactForceProxy());
 }
 
 }  // namespace

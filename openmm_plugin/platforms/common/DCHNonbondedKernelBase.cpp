@@ -5,7 +5,6 @@
 #include <openmm/OpenMMException.h>
 #include <openmm/internal/ContextImpl.h>
 #include <openmm/internal/NonbondedForceImpl.h>
-#include <openmm/reference/ReferencePlatform.h>
 #include <vector>
 
 #include <dch/error.hpp>
@@ -14,10 +13,6 @@
 
 namespace OpenMMDCH {
 namespace {
-
-static_assert(sizeof(OpenMM::Vec3) == sizeof(dch::Vec3), "both are three doubles");
-
-dch::Vec3 vectorOf(const OpenMM::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 double dispersionOf(const OpenMM::System& system, const DCHNonbondedForce& force) {
   const bool wanted =
@@ -49,17 +44,9 @@ void DCHNonbondedKernelBase::copyParametersToContext(OpenMM::ContextImpl& contex
   dispersionCoefficient = dispersionOf(context.getSystem(), force);
 }
 
-DCHNonbondedKernelBase::HostState DCHNonbondedKernelBase::stateOf(OpenMM::ContextImpl& context) const {
-  auto* const data = static_cast<OpenMM::ReferencePlatform::PlatformData*>(context.getPlatformData());
-  HostState state;
-  state.positions = {reinterpret_cast<const dch::Vec3*>(data->positions->data()), data->positions->size()};
-  state.forces = {reinterpret_cast<dch::Vec3*>(data->forces->data()), data->forces->size()};
-  if (isPeriodic) {
-    const OpenMM::Vec3* const vectors = data->periodicBoxVectors;
-    checkBox(vectors, potential().cutoffDistance());
-    state.box = dch::Box::triclinic(vectorOf(vectors[0]), vectorOf(vectors[1]), vectorOf(vectors[2]));
-  }
-  return state;
+HostState DCHNonbondedKernelBase::stateOf(OpenMM::ContextImpl& context) const {
+  if (isPeriodic) checkBox(boxVectorsOf(context), potential().cutoffDistance());
+  return hostStateOf(context, isPeriodic);
 }
 
 double DCHNonbondedKernelBase::execute(OpenMM::ContextImpl& context, bool, bool includeEnergy) {
@@ -118,11 +105,6 @@ double DCHNonbondedKernelBase::addExceptions(const HostState& state) const {
     energy += terms.energy;
   }
   return energy;
-}
-
-double roomForSkin(double cutoff, double fraction, const dch::Box& box) {
-  constexpr double kRounding = 1e-9;  // keeps clear of what rounds to more than half of the height
-  return std::min(fraction * cutoff, box.max_cutoff() * (1 - kRounding) - cutoff);
 }
 
 }  // namespace OpenMMDCH

@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include <dch/box.hpp>
 #include <dch/exclusions.hpp>
 #include <dch/span.hpp>
 
 #include "DCHKernels.h"
+#include "HostState.h"
 #include "PairPotential.h"
 #include "internal/DCHParameterSet.h"
 
@@ -24,12 +24,6 @@ class DCHNonbondedKernelBase : public CalcDCHNonbondedForceKernel {
   void copyParametersToContext(OpenMM::ContextImpl& context, const DCHNonbondedForce& force) override;
 
  protected:
-  /// The Context's arrays and its box, none where the method is not periodic.
-  struct HostState {
-    dch::Span<const dch::Vec3> positions;  ///< [nm]
-    dch::Span<dch::Vec3> forces;           ///< to be added to [kJ/mol/nm]
-    dch::Box box;
-  };
   /// Adds the forces of all pairs that are not excluded and, if that is asked for, returns their energy.
   virtual double addPairs(OpenMM::ContextImpl& context, const HostState& state, bool includeEnergy) = 0;
   /// The parameters are not those of the last time (or it is the first).
@@ -55,11 +49,6 @@ class DCHNonbondedKernelBase : public CalcDCHNonbondedForceKernel {
   dch::Exclusions excludedPairs;
   double dispersionCoefficient = 0;  ///< energy times volume [kJ/mol nm^3]
 };
-
-/// What is left for a skin beside the cutoff in this box: a given fraction of the cutoff at most, negative if
-/// lists of that cutoff cannot be made. OpenMM lets the cutoff be half the width of the box along each axis,
-/// lists half of its smallest perpendicular height, which is less in a few skewed boxes.
-double roomForSkin(double cutoff, double fraction, const dch::Box& box);
 
 }  // namespace OpenMMDCH
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "ClusterPairKeeper.h"
 
+#include <cmath>
 #include <utility>
 
-#include "DCHNonbondedKernelBase.h"
+#include "HostState.h"
 
 namespace OpenMMDCH {
 namespace {
 
 // Of the cutoff: see docs/openmm.md for what it costs.
 constexpr double kSkinFraction = 0.15;
+// While fewer than one particle in so many is away from the box, all stay where they are: to move them takes
+// longer than to refresh the clusters of those few.
+constexpr std::size_t kAwayOfOne = 32;
 
 }  // namespace
 
@@ -44,16 +48,42 @@ void ClusterPairKeeper::chooseSkin(const dch::Box& box) {
   staleTest.emplace(request.skin);
 }
 
+void ClusterPairKeeper::rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
+  periods.resize(positions.size());
+  std::size_t away = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const dch::Vec3 n = box.fractional(box.wrap(positions[i])) - box.fractional(positions[i]);
+    periods[i] = {std::nearbyint(n.x), std::nearbyint(n.y), std::nearbyint(n.z)};
+    away += norm2(periods[i]) > 0;
+  }
+  if (away * kAwayOfOne < positions.size()) periods.clear();
+}
+
+dch::Span<const dch::Vec3> ClusterPairKeeper::broughtNear(dch::Span<const dch::Vec3> positions,
+                                                          const dch::Box& box) {
+  if (periods.size() != positions.size()) return positions;
+  const dch::Vec3 a = box.vector(0), b = box.vector(1), c = box.vector(2);
+  nearPositions.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const dch::Vec3 n = periods[i];
+    nearPositions[i] = positions[i] + n.x * a + n.y * b + n.z * c;
+  }
+  return nearPositions;
+}
+
 const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
   chooseSkin(box);
-  if (staleTest->is_stale(positions, box)) {
-    staleTest->forget();
-    search->update(positions, box);
-    dch::hierarchy_of(*search)->cluster_pairs(request, pairs);
-    staleTest->remember(positions, box);
-  } else {
-    pairs.refresh(positions, box, &pool);
+  const dch::Span<const dch::Vec3> near = broughtNear(positions, box);
+  if (!staleTest->is_stale(near, box)) {
+    pairs.refresh(near, box, &pool);
+    return pairs;
   }
+  staleTest->forget();
+  search->update(positions, box);  // checks them
+  dch::hierarchy_of(*search)->cluster_pairs(request, pairs);
+  ++searchCount;
+  if (box.any_periodic()) rememberPeriods(positions, box);
+  staleTest->remember(positions, box);
   return pairs;
 }
 

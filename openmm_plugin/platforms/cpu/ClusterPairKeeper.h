@@ -27,9 +27,16 @@ class ClusterPairKeeper {
   bool fits(const dch::Box& box) const;
   /// The pairs at these positions, searched for anew if some might be missing. For a box that fits.
   const dch::ClusterPairs& at(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+  /// How often pairs have been searched for.
+  std::int64_t searches() const { return searchCount; }
 
  private:
   void chooseSkin(const dch::Box& box);
+  /// Remembers by which periods of the box positions are wrapped into it, unless few are outside.
+  void rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+  /// Positions moved by those periods, where there are any. OpenMM lets particles wander through any number
+  /// of boxes, and clusters of which each particle is in an image of its own are slow to refresh.
+  dch::Span<const dch::Vec3> broughtNear(dch::Span<const dch::Vec3> positions, const dch::Box& box);
 
   double cutoff;
   dch::Executor& pool;
@@ -38,6 +45,8 @@ class ClusterPairKeeper {
   std::unique_ptr<dch::PairSearch> search;
   std::optional<dch::StaleTest> staleTest;
   dch::ClusterPairs pairs;
+  std::int64_t searchCount = 0;
+  std::vector<dch::Vec3> periods, nearPositions;  ///< the former in multiples of the box vectors
 };
 
 }  // namespace OpenMMDCH

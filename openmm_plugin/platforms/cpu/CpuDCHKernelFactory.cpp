@@ -8,6 +8,7 @@
 #include <openmm/PluginInitializer.h>
 
 #include "CpuDCHKernels.h"
+#include "NecklaceContactKernel.h"
 
 namespace {
 
@@ -18,6 +19,8 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
       return new OpenMMDCH::CpuCalcDCHNonbondedForceKernel(
           name, platform, OpenMM::CpuPlatform::getPlatformData(context).threads);
+    if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
+      return new OpenMMDCH::NecklaceContactKernel(name, platform);
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
 };
@@ -29,8 +32,10 @@ extern "C" OPENMM_EXPORT void registerPlatforms() {}
 extern "C" OPENMM_EXPORT void registerKernelFactories() {
   for (int k = 0; k < OpenMM::Platform::getNumPlatforms(); ++k) {
     OpenMM::Platform& platform = OpenMM::Platform::getPlatform(k);
-    if (platform.getName() == "CPU")
-      platform.registerKernelFactory(OpenMMDCH::CalcDCHNonbondedForceKernel::Name(),
-                                     new CpuDCHKernelFactory());
+    if (platform.getName() != "CPU") continue;
+    auto* const factory = new CpuDCHKernelFactory();
+    for (const std::string& name :
+         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name()})
+      platform.registerKernelFactory(name, factory);
   }
 }

@@ -6,6 +6,7 @@
 #include <openmm/Platform.h>
 #include <openmm/PluginInitializer.h>
 
+#include "NecklaceContactKernel.h"
 #include "ReferenceDCHKernels.h"
 
 namespace {
@@ -16,6 +17,8 @@ class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
                                        OpenMM::ContextImpl&) const override {
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
       return new OpenMMDCH::ReferenceCalcDCHNonbondedForceKernel(name, platform);
+    if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
+      return new OpenMMDCH::NecklaceContactKernel(name, platform);
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
 };
@@ -28,8 +31,10 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
   for (int k = 0; k < OpenMM::Platform::getNumPlatforms(); ++k) {
     OpenMM::Platform& platform = OpenMM::Platform::getPlatform(k);
     // By name: the CPU platform is a ReferencePlatform too.
-    if (platform.getName() == "Reference")
-      platform.registerKernelFactory(OpenMMDCH::CalcDCHNonbondedForceKernel::Name(),
-                                     new ReferenceDCHKernelFactory());
+    if (platform.getName() != "Reference") continue;
+    auto* const factory = new ReferenceDCHKernelFactory();
+    for (const std::string& name :
+         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name()})
+      platform.registerKernelFactory(name, factory);
   }
 }

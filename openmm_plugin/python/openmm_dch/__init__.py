@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OpenMM's nonbonded forces on neighbor lists from a discrete center hierarchy.
+"""OpenMM's nonbonded forces on neighbor lists from a discrete center hierarchy, and contacts of bead chains.
 
     import openmm_dch
     openmm_dch.replaceNonbonded(system)  # before the Context is made
@@ -10,9 +10,9 @@ Importing it loads the kernels for OpenMM's platforms Reference and CPU.
 import openmm as _openmm
 
 from ._location import PLUGINS as _PLUGINS
-from .force import DCHNonbondedForce
+from .force import DCHNonbondedForce, NecklaceContactForce
 
-__all__ = ["DCHNonbondedForce", "replaceNonbonded"]
+__all__ = ["DCHNonbondedForce", "NecklaceContactForce", "replaceNonbonded"]
 
 
 def _load_plugins():

@@ -38,6 +38,22 @@ inline RadialTerms pair_terms(const DCHNonbondedForce& force, int i, int j, doub
   return {terms.energy + qq * (1 / r + k * r * r - c), terms.force + qq * (1 / (r * r) - 2 * k * r)};
 }
 
+/// The image that OpenMM takes for the nearest one.
+inline Vec3 wrapped(Vec3 apart, const Vec3* box) {
+  // Boxes of OpenMM have vectors with ever more components: x, xy, xyz.
+  for (int axis = 2; axis >= 0; --axis) apart -= box[axis] * std::floor(apart[axis] / box[axis][axis] + 0.5);
+  return apart;
+}
+
+/// Calls act(d) for a displacement and, in a box (which may be null), for those of 27 images of it.
+template <class F>
+void for_each_image(const Vec3& apart, const Vec3* box, const F& act) {
+  if (!box) return act(apart);
+  const Vec3 near = wrapped(apart, box);
+  for (int n = 0; n < 27; ++n)
+    act(near + box[0] * (n % 3 - 1) + box[1] * (n / 3 % 3 - 1) + box[2] * (n / 9 - 1));
+}
+
 /// Energy and forces by all pairs of particles and all their images within the cutoff, and by all exceptions,
 /// in plain double. The dispersion correction is left out. `box` may be null.
 inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Vec3>& positions,
@@ -49,11 +65,6 @@ inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Ve
     result.forces[i] -= f;
     result.energy += terms.energy;
   };
-  // Boxes of OpenMM have vectors with ever more components: x, xy, xyz.
-  const auto wrapped = [&](Vec3 d) {
-    for (int axis = 2; axis >= 0; --axis) d -= box[axis] * std::floor(d[axis] / box[axis][axis] + 0.5);
-    return d;
-  };
   std::set<std::pair<int, int>> excluded;
   for (int k = 0; k < force.getNumExceptions(); ++k) {
     int i, j;
@@ -62,7 +73,7 @@ inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Ve
     excluded.insert({std::min(i, j), std::max(i, j)});
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     Vec3 apart = positions[b] - positions[a];
-    if (box && force.getExceptionsUsePeriodicBoundaryConditions()) apart = wrapped(apart);
+    if (box && force.getExceptionsUsePeriodicBoundaryConditions()) apart = wrapped(apart, box);
     const double r = std::sqrt(apart.dot(apart));
     RadialTerms terms = lennard_jones(sigma, epsilon, r);
     act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
@@ -77,14 +88,7 @@ inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Ve
         if (const double r2 = apart.dot(apart); r2 < cutoff * cutoff)
           act(i, j, apart, pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2)));
       };
-      const Vec3 apart = positions[j] - positions[i];
-      if (!box) {
-        act_within_cutoff(apart);
-        continue;
-      }
-      const Vec3 near = wrapped(apart);
-      for (int n = 0; n < 27; ++n)
-        act_within_cutoff(near + box[0] * (n % 3 - 1) + box[1] * (n / 3 % 3 - 1) + box[2] * (n / 9 - 1));
+      for_each_image(positions[j] - positions[i], box, act_within_cutoff);
     }
   return result;
 }

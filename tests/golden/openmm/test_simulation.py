@@ -162,6 +162,27 @@ class BoxTest(unittest.TestCase):
                         self.assertLess(relative_error(expected[1], state.getForces(asNumpy=True)._value),
                                         TOLERANCE[platform])
 
+    def test_particles_that_wandered_through_many_boxes(self):
+        # Their positions have few digits left: those of a million boxes are 5e-10 nm apart.
+        skewed = 2.6 * np.array([[1, 0, 0], [0.3, 1, 0], [-0.35, 0.4, 1]])
+        for box in (2.6 * np.eye(3), skewed):
+            system, at_home = lennard_jones_fluid(6, 0, box, cutoff=0.9)
+            system.getForce(0).setUseDispersionCorrection(False)
+            openmm_dch.replaceNonbonded(system)
+            for platform in PLATFORMS:
+                for periods in (1e3, 1e6):
+                    with self.subTest(platform=platform, periods=periods):
+                        rng = np.random.default_rng(5)
+                        positions = at_home + np.round(periods * rng.uniform(-1, 1, at_home.shape)) @ box
+                        context = context_of(system, platform)
+                        for _ in range(3):
+                            energy, forces = energy_and_forces(context, positions)
+                            expected = all_pairs_lennard_jones(positions, box, 0.9)
+                            tolerance = max(TOLERANCE[platform], 1e-12 * periods)
+                            self.assertLess(relative_error(expected[1], forces), tolerance)
+                            self.assertAlmostEqual(energy / expected[0], 1, delta=tolerance)
+                            positions += 0.01 * rng.normal(size=positions.shape)
+
 
 if __name__ == "__main__":
     unittest.main()

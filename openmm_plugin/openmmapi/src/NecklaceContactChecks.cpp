@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "internal/NecklaceContactChecks.h"
+
+#include <cmath>
+#include <openmm/OpenMMException.h>
+#include <string>
+
+#include "internal/DCHNonbondedChecks.h"
+
+namespace OpenMMDCH {
+namespace {
+
+constexpr int kNone = -1;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw OpenMM::OpenMMException("NecklaceContactForce: " + what);
+}
+
+void checkSettings(const NecklaceContactForce& force) {
+  const double strength = force.getStrength();
+  if (!(std::isfinite(strength) && strength >= 0))
+    refuse("the strength is " + textOf(strength) + "; it must be finite and not negative");
+  if (force.getExcludedBonds() < 0)
+    refuse("the number of excluded bonds is " + std::to_string(force.getExcludedBonds()) +
+           "; it must not be negative");
+}
+
+/// @param chainOf  by particle, which chain it stands in; takes in this one
+void checkChain(const NecklaceContactForce& force, int index, std::vector<int>& chainOf) {
+  std::vector<int> particles;
+  std::vector<double> radii;
+  bool closed;
+  force.getChainParameters(index, particles, radii, closed);
+  const std::string chain = "chain " + std::to_string(index);
+  if (particles.empty()) refuse(chain + " has 0 beads; it needs at least one");
+  if (closed && particles.size() < 3)
+    refuse(chain + " is closed and has " + std::to_string(particles.size()) +
+           " beads; a closed chain needs at least 3");
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const std::string particle = "particle " + std::to_string(particles[k]);
+    if (particles[k] < 0 || particles[k] >= static_cast<int>(chainOf.size()))
+      refuse(chain + " names " + particle + "; the System has " + std::to_string(chainOf.size()));
+    int& owner = chainOf[static_cast<std::size_t>(particles[k])];
+    if (owner == index) refuse(chain + " names " + particle + " twice");
+    if (owner != kNone)
+      refuse("chains " + std::to_string(owner) + " and " + std::to_string(index) + " share " + particle +
+             "; a bead belongs to one chain");
+    owner = index;
+    if (!(std::isfinite(radii[k]) && radii[k] > 0))
+      refuse("the radius of " + particle + " in " + chain + " is " + textOf(radii[k]) +
+             " nm; it must be finite and positive");
+  }
+}
+
+}  // namespace
+
+void checkForce(const NecklaceContactForce& force, const OpenMM::System& system) {
+  checkSettings(force);
+  std::vector<int> chainOf(static_cast<std::size_t>(system.getNumParticles()), kNone);
+  for (int index = 0; index < force.getNumChains(); ++index) checkChain(force, index, chainOf);
+}
+
+}  // namespace OpenMMDCH

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "ContactKeeper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "HostState.h"
+
+namespace OpenMMDCH {
+namespace {
+
+// Of the largest sum of two radii; not tuned. With more, searches are rarer and pairs between them are more.
+constexpr double kSkinFraction = 0.3;
+
+}  // namespace
+
+ContactKeeper::ContactKeeper(dch::necklace::Necklace necklace,
+                             const dch::necklace::ContactQuery& contactQuery)
+    : hierarchy(std::move(necklace)), query(contactQuery), beads(hierarchy.necklace().size()) {}
+
+/// As large as there is room, or near it, since boxes change all the time under a barostat.
+void ContactKeeper::chooseSkin(const dch::Box& box) {
+  const double room = std::max(0.0, roomForSkin(2 * necklace().largest_radius(), kSkinFraction, box));
+  if (staleTest && skin <= room && skin >= 0.5 * room) return;
+  skin = room;
+  staleTest.emplace(skin);
+}
+
+dch::Span<const dch::IndexPair> ContactKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
+  chooseSkin(box);
+  for (std::size_t place = 0; place < beads.size(); ++place)
+    beads[place] = positions[static_cast<std::size_t>(necklace().particle()[place])];
+  if (!staleTest->is_stale(beads, box)) return pairs;
+  staleTest->forget();
+  pairs.clear();
+  for (const dch::necklace::Contact& contact : contacts(positions, box, skin))
+    pairs.push_back({contact.i, contact.j});
+  staleTest->remember(beads, box);
+  return pairs;
+}
+
+std::vector<dch::necklace::Contact> ContactKeeper::contacts(dch::Span<const dch::Vec3> positions,
+                                                            const dch::Box& box, double gap) {
+  hierarchy.update(positions, box);
+  query.gap = gap;
+  return dch::necklace::find_contacts(hierarchy, query);
+}
+
+}  // namespace OpenMMDCH

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// The pairs of the CPU platform for particles that have wandered through many periods of the box.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "ClusterPairKeeper.h"
+#include "cluster_pair_check.hpp"
+#include "random.hpp"
+
+namespace OpenMMDCH {
+namespace {
+
+using dch::Box;
+using dch::Vec3;
+
+constexpr double kCutoff = 0.9;
+
+std::vector<Vec3> jittered_lattice(int per_side, const Box& box, dch::scenes::Random& random) {
+  std::vector<Vec3> positions;
+  for (int k = 0; k < per_side * per_side * per_side; ++k) {
+    const double x = (k % per_side + 0.3 * random.uniform()) / per_side;
+    const double y = (k / per_side % per_side + 0.3 * random.uniform()) / per_side;
+    const double z = (k / per_side / per_side + 0.3 * random.uniform()) / per_side;
+    positions.push_back(x * box.vector(0) + y * box.vector(1) + z * box.vector(2));
+  }
+  return positions;
+}
+
+struct Walk {
+  std::int64_t searches;
+  std::size_t torn;  ///< clusters, at most at any step, that refreshing had to bring together
+};
+
+/// Small steps of particles, each up to so many periods away from the box, with every pair checked.
+Walk walk(const Box& box, double periods_away) {
+  dch::scenes::Random random(7);
+  std::vector<Vec3> positions = jittered_lattice(8, box, random);
+  dch::scenes::Random far(8);
+  for (Vec3& p : positions)
+    for (int axis = 0; axis < 3; ++axis)
+      p = p + std::round(periods_away * far.uniform(-1, 1)) * box.vector(axis);
+  const auto executor = dch::make_thread_pool(1);
+  const dch::Exclusions none;
+  ClusterPairKeeper keeper(kCutoff, none, *executor);
+  dch::ListParams within;
+  within.cutoffs = dch::TypeCutoffs(kCutoff);
+  Walk result{0, 0};
+  for (int step = 0; step < 12; ++step) {
+    const dch::ClusterPairs& pairs = keeper.at(positions, box);
+    EXPECT_EQ(dch::cluster_pair_fault(pairs, positions, box, within), "")
+        << "step " << step << ", " << periods_away << " periods away, " << box.description();
+    if (step > 0) result.torn = std::max(result.torn, pairs.torn.size());
+    for (Vec3& p : positions) p = p + random.in_ball(0.004);
+  }
+  result.searches = keeper.searches();
+  return result;
+}
+
+TEST(ClusterPairKeeperTest, ParticlesThatWanderedCostNoMore) {
+  for (const Box& box :
+       {Box::orthorhombic({3, 3.2, 3.4}), Box::triclinic({3, 0, 0}, {1.4, 3, 0}, {-1.3, 1.2, 3})}) {
+    const Walk at_home = walk(box, 0);
+    EXPECT_EQ(at_home.searches, 1);
+    for (const double periods_away : {1.0, 1e3, 1e6}) {
+      const Walk away = walk(box, periods_away);
+      EXPECT_EQ(away.searches, 1) << periods_away << " periods away, " << box.description();
+      // What rounding moves across a face of the box is all that may differ.
+      EXPECT_LE(away.torn, at_home.torn + 4) << periods_away << " periods away, " << box.description();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace OpenMMDCH
