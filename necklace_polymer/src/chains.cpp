@@ -111,9 +111,10 @@ class Unwrapper {
     // Written so that a NaN is refused too.
     if (!(length < box_.max_cutoff())) {
       throw Undetermined(bond_name(from, to) + " is " + std::to_string(length) +
-                         " long, which is not below half the smallest box height, " +
-                         std::to_string(box_.max_cutoff()) +
-                         ": which image it leads to cannot be told; use a larger box or check the bonds");
+                             " long, which is not below half the smallest box height, " +
+                             std::to_string(box_.max_cutoff()) +
+                             ": which image it leads to cannot be told; use a larger box or check the bonds",
+                         {from, to});
     }
     return lattice_steps(from_image + bond - given, box_);
   }
@@ -229,8 +230,9 @@ std::vector<Vec3> unwrap(const Chains& chains, Span<const Vec3> positions, const
     const std::int32_t last = beads[beads.size() - 1];
     const auto steps = unwrapper.steps(last, result[static_cast<std::size_t>(last)], beads[0]);
     if (steps != std::array<double, 3>{0, 0, 0}) {
-      throw Undetermined("the ring at " + bead_name(beads[0]) +
-                         " winds around the periodic box, so it has no closed image");
+      throw Undetermined(
+          "the ring at " + bead_name(beads[0]) + " winds around the periodic box, so it has no closed image",
+          {last, beads[0]});
     }
   }
   return result;

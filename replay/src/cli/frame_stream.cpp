@@ -35,6 +35,7 @@ void note_frame(const trajectory::Frame& frame, std::int64_t index, Scan& scan) 
   scan.most_atoms = std::max(scan.most_atoms, atoms);
   scan.last_step = frame.step;
   scan.last_time = frame.time;
+  scan.has_times = scan.has_times && frame.time.has_value();
   ++scan.frames;
 }
 
@@ -85,6 +86,12 @@ Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressB
   progress.clear();
   require_frames(scan, range);
   return scan;
+}
+
+void fail_changed(const std::string& path) {
+  throw trajectory::FileError(fmt::format(
+      "{}: changed while it was read; wait until it is complete, or select the frames there with --frames",
+      path));
 }
 
 }  // namespace dch::cli

@@ -47,6 +47,7 @@ struct Scan {
   std::int64_t last_step = 0;
   std::optional<double> last_time;
   std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
+  bool has_times = true;                          ///< each frame has a time
   bool atoms_change = false;                      ///< some frame has other ids than the one before
   trajectory::Frame first_frame;                  ///< the first selected frame
 };
@@ -55,5 +56,8 @@ struct Scan {
 /// @throws trajectory::FileError if the file is broken or holds no frame; UsageError if the range selects
 /// none.
 Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress);
+
+/// The file is not the one that was scanned. @throws trajectory::FileError.
+[[noreturn]] void fail_changed(const std::string& path);
 
 }  // namespace dch::cli

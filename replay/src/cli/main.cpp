@@ -32,6 +32,7 @@ int parse_and_run(int argc, char** argv) {
       "  dch info FILE                                      what a trajectory holds, and its cutoff limit\n"
       "  dch replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
       "  dch replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
+      "  dch contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
       "\n"
       "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
       "cannot be read or written.",
@@ -41,6 +42,7 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = kOk;
   add_replay_command(app, exit_code);
+  add_contacts_command(app, exit_code);
   add_info_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_generate_command(app, exit_code);

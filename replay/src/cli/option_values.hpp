@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "exit_code.hpp"
 
 namespace dch::cli {
 
@@ -39,6 +42,19 @@ double parse_number(const std::string& option, const std::string& text, const Nu
 /// @throws UsageError as parse_number.
 std::int64_t parse_whole_number(const std::string& option, const std::string& text, std::int64_t lowest,
                                 std::int64_t highest, const std::string& meaning);
+
+/// The value of a word that is one of a few.
+/// @throws UsageError naming the option, the word and those known.
+template <class Value>
+Value choose(const std::string& option, const std::string& word,
+             const std::vector<std::pair<std::string, Value>>& choices) {
+  std::string known;
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw UsageError(option + " '" + word + "': not known; choose one of " + known);
+}
 
 /// A file name that an option gave.
 struct NamedPath {

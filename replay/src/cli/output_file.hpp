@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -31,5 +32,10 @@ class OutputFile {
   std::string path_;
   std::string temporary_;
 };
+
+/// Nothing if no name was given. @throws trajectory::FileError.
+inline std::unique_ptr<OutputFile> open_output(const std::string& path) {
+  return path.empty() ? nullptr : std::make_unique<OutputFile>(path);
+}
 
 }  // namespace dch::cli

@@ -3,7 +3,7 @@
 
 namespace dch::cli {
 
-/// Style sheet of report.html: light or dark as the reader's system is.
+/// Style sheet of the pages: light or dark as the reader's system is.
 inline constexpr const char* kPageStyle = R"css(
 :root {
   color-scheme: light dark;
@@ -50,6 +50,8 @@ svg .blue { fill: var(--blue); }
 svg .green { fill: var(--green); }
 svg .amber { fill: var(--amber); }
 svg .line-blue { fill: none; stroke: var(--blue); stroke-width: 1.8; stroke-linejoin: round; }
+svg .heat { fill: var(--blue); shape-rendering: crispEdges; }
+svg .frame { fill: none; stroke: var(--soft); }
 svg .mark { fill: var(--red); }
 svg .mean { stroke: var(--red); stroke-dasharray: 4 3; }
 svg .mean-label { fill: var(--ink); }

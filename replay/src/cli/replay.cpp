@@ -35,13 +35,6 @@ void require_cutoff_fits(const ReplayOptions& options, const Scan& scan) {
                   scan.path, scan.smallest_height_frame, radius, limit, scan.length_unit, limit));
 }
 
-/// The file changed on disk between the two passes.
-[[noreturn]] void fail_changed(const std::string& path) {
-  throw trajectory::FileError(fmt::format(
-      "{}: changed while it was read; wait until it is complete, or select the frames there with --frames",
-      path));
-}
-
 /// One run: what is found out beforehand, and the state that goes through the frames.
 class Replay {
  public:

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
 
 #include <dch/box.hpp>
 
@@ -102,17 +101,6 @@ void declare_options(CLI::App& command, ReplayWords& words) {
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }
 
-template <class Value>
-Value choose(const std::string& option, const std::string& word,
-             const std::vector<std::pair<std::string, Value>>& choices) {
-  std::string known;
-  for (const auto& [name, value] : choices) {
-    if (name == word) return value;
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  throw UsageError(fmt::format("{} '{}': not known; choose one of {}", option, word, known));
-}
-
 EngineOptions engine_options(const ReplayWords& words) {
   EngineOptions engine;
   engine.kind = choose<EngineKind>(
@@ -158,11 +146,6 @@ ReplayOptions replay_options(const ReplayWords& words) {
   require_distinct_files({{"FILE", words.file}, {"--topology", words.topology}},
                          {{"--out", words.lists}, {"--report", words.report}, {"--plot", words.plot}});
   return options;
-}
-
-/// An output that is complete or not there at all; nothing if no name was given.
-std::unique_ptr<OutputFile> open_output(const std::string& path) {
-  return path.empty() ? nullptr : std::make_unique<OutputFile>(path);
 }
 
 void print_summary(const ReplayReport& report, const ReplayWords& words) {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// report.html: one page with its own style sheet and drawings, nothing from outside.
+// report.html: the table and drawings over the frames.
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 
+#include "html_page.hpp"
 #include "number_text.hpp"
-#include "page_style.hpp"
 #include "replay_report.hpp"
 #include "report_rows.hpp"
 #include "svg_chart.hpp"
-#include "version.hpp"
 
 namespace dch::cli {
 namespace {
@@ -27,11 +25,6 @@ FrameChart frame_chart(const ReplayReport& report, const std::string& y_label) {
   chart.y_label = y_label;
   chart.x = column(report, [](const FrameRecord& frame) { return frame.frame; });
   return chart;
-}
-
-std::string card(const std::string& title, const std::string& explanation, const std::string& drawing) {
-  return fmt::format("<section class=\"card\">\n<h2>{}</h2>\n<p>{}</p>\n{}</section>\n", escape_html(title),
-                     escape_html(explanation), drawing);
 }
 
 /// The explanation, with a remark if frames were merged to draw them.
@@ -52,7 +45,7 @@ std::string pairs_card(const ReplayReport& report) {
                 radius, grouped(report.totals().list_rebuilds),
                 counted(static_cast<std::int64_t>(report.frames.size()), "frame"))
           : fmt::format("Pairs of atoms within the cutoff of {}.", radius);
-  return card("Pairs", explained(report, text), line_chart(chart));
+  return html_card("Pairs", explained(report, text), line_chart(chart));
 }
 
 std::string cost_card(const ReplayReport& report) {
@@ -61,11 +54,12 @@ std::string cost_card(const ReplayReport& report) {
       {"read", "amber", column(report, [](const FrameRecord& frame) { return frame.read_ms; })},
       {"maintain", "blue", column(report, [](const FrameRecord& frame) { return frame.maintain_ms; })},
       {"list", "green", column(report, [](const FrameRecord& frame) { return frame.list_ms; })}};
-  return card("Cost of a frame",
-              explained(report,
-                        "Wall-clock time to read the frame, to bring the search structure up to date, and to "
-                        "write the list from it."),
-              stacked_bars(chart));
+  return html_card(
+      "Cost of a frame",
+      explained(report,
+                "Wall-clock time to read the frame, to bring the search structure up to date, and to "
+                "write the list from it."),
+      stacked_bars(chart));
 }
 
 std::string changes_card(const ReplayReport& report) {
@@ -77,7 +71,7 @@ std::string changes_card(const ReplayReport& report) {
   for (const FrameRecord& frame : report.frames) chart.marked.push_back(frame.rebuilds > 0);
   chart.mark_name = "built anew";
   const ReplayTotals totals = report.totals();
-  return card(
+  return html_card(
       "Repairs",
       explained(report,
                 fmt::format("Nodes of the hierarchy lifted (up) and removed from (down) a level as the "
@@ -99,9 +93,10 @@ std::string levels_card(const ReplayReport& report) {
     bar.value = static_cast<double>(info.nodes);
     bars.push_back(bar);
   }
-  return card("Levels",
-              "Nodes in each level of the hierarchy after the last frame. The edges of level 0 are the list.",
-              logarithmic_bars(bars, "nodes (logarithmic)"));
+  return html_card(
+      "Levels",
+      "Nodes in each level of the hierarchy after the last frame. The edges of level 0 are the list.",
+      logarithmic_bars(bars, "nodes (logarithmic)"));
 }
 
 std::string degree_card(const ReplayReport& report) {
@@ -115,8 +110,9 @@ std::string degree_card(const ReplayReport& report) {
   std::vector<double> shares;
   for (const std::int64_t count : report.degree_histogram)
     shares.push_back(100 * static_cast<double>(count) / atoms);
-  return card("Neighbors of an atom", "How many atoms have how many neighbors in the list, over all frames.",
-              histogram(shares, neighbors / atoms, "neighbors", "% of atoms"));
+  return html_card("Neighbors of an atom",
+                   "How many atoms have how many neighbors in the list, over all frames.",
+                   histogram(shares, neighbors / atoms, "neighbors", "% of atoms"));
 }
 
 std::string verdict(const VerifyResult& verify) {
@@ -142,31 +138,19 @@ std::string mismatch_list(const ReplayReport& report) {
       report.verify.first.size(), grouped(report.verify.mismatches), items);
 }
 
-std::string summary_table(const ReplayReport& report) {
-  std::string rows;
-  for (const Row& row : report_rows(report)) {
-    rows += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escape_html(row.name), escape_html(row.value));
-  }
-  return fmt::format("<table>\n{}</table>\n", rows);
-}
-
 }  // namespace
 
 std::string render_html(const ReplayReport& report) {
-  const std::string name = escape_html(std::filesystem::path(report.file).filename().string());
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
-  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  page += fmt::format("<title>dch replay: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", name,
-                      kPageStyle);
-  page += fmt::format("<header>\n<h1>Neighbor lists of {}</h1>\n{}</header>\n", name, verdict(report.verify));
-  page += fmt::format("<section class=\"card wide\">\n{}</section>\n", summary_table(report));
-  page += mismatch_list(report);
-  page += "<div class=\"charts\">\n";
-  page += pairs_card(report) + cost_card(report) + changes_card(report) + degree_card(report) +
-          levels_card(report);
-  page += fmt::format("</div>\n<footer>dch {} replay. Hover over a drawing for values.</footer>\n", kVersion);
-  page += "</main>\n</body>\n</html>\n";
-  return page;
+  HtmlPage page;
+  page.command = "replay";
+  page.file = report.file;
+  page.heading = "Neighbor lists of";
+  page.verdict = verdict(report.verify);
+  page.table = report_rows(report);
+  page.notes = mismatch_list(report);
+  page.charts = pairs_card(report) + cost_card(report) + changes_card(report) + degree_card(report) +
+                levels_card(report);
+  return render_page(page);
 }
 
 }  // namespace dch::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Row {
 /// The final table, on the terminal and in report.html.
 std::vector<Row> report_rows(const ReplayReport& report);
 
+/// Rows as text in two columns.
+std::string render_rows(const std::vector<Row>& rows);
+
+/// The kinds of box of a trajectory, and its smallest height if it is finite.
+std::string box_text(const std::vector<std::string>& kinds, double smallest_height, std::int64_t frame,
+                     const std::string& unit);
 std::string engine_text(const EngineOptions& engine);
 std::string list_text(const ReplayReport& report);
 /// The unit as it follows a number: "nm", but "[the dump's unit]".

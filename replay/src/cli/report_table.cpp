@@ -17,15 +17,6 @@ std::string levels_text(const ReplayReport& report) {
   return fmt::format("{} (nodes after the last frame: {})", report.levels.size(), fmt::join(sizes, ", "));
 }
 
-std::string box_text(const ReplayReport& report) {
-  std::string text = fmt::format("{}", fmt::join(report.box_kinds, "; "));
-  if (std::isfinite(report.smallest_height)) {
-    text += fmt::format(", smallest height {} {} (frame {})", readable(report.smallest_height),
-                        unit_suffix(report.unit), report.smallest_height_frame);
-  }
-  return text;
-}
-
 std::string exclusion_text(const ExclusionRecord& exclusions) {
   const std::string bonds = fmt::format("{} from {}", counted(exclusions.bonds, "bond"), exclusions.source);
   if (exclusions.rule.empty()) return fmt::format("none ({})", bonds);
@@ -67,6 +58,16 @@ std::string unit_suffix(const std::string& unit) {
   return unit.find(' ') == std::string::npos ? unit : "[" + unit + "]";
 }
 
+std::string box_text(const std::vector<std::string>& kinds, double smallest_height, std::int64_t frame,
+                     const std::string& unit) {
+  std::string text = fmt::format("{}", fmt::join(kinds, "; "));
+  if (std::isfinite(smallest_height)) {
+    text += fmt::format(", smallest height {} {} (frame {})", readable(smallest_height), unit_suffix(unit),
+                        frame);
+  }
+  return text;
+}
+
 std::string engine_text(const EngineOptions& engine) {
   switch (engine.kind) {
     case EngineKind::cell:
@@ -86,13 +87,14 @@ std::string list_text(const ReplayReport& report) {
 
 std::vector<Row> report_rows(const ReplayReport& report) {
   const ReplayTotals totals = report.totals();
-  std::vector<Row> rows{{"file", fmt::format("{} ({})", report.file, report.format)},
-                        {"unit of length", report.unit},
-                        {"engine", engine_text(report.engine)},
-                        {"list", list_text(report)},
-                        {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
-                        {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
-                        {"box", box_text(report)}};
+  std::vector<Row> rows{
+      {"file", fmt::format("{} ({})", report.file, report.format)},
+      {"unit of length", report.unit},
+      {"engine", engine_text(report.engine)},
+      {"list", list_text(report)},
+      {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
+      {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
+      {"box", box_text(report.box_kinds, report.smallest_height, report.smallest_height_frame, report.unit)}};
   if (!report.exclusions.source.empty()) rows.push_back({"excluded", exclusion_text(report.exclusions)});
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
                                                readable(totals.pairs_mean), grouped(totals.pairs_max))});
@@ -111,10 +113,12 @@ std::vector<Row> report_rows(const ReplayReport& report) {
   return rows;
 }
 
-std::string render_table(const ReplayReport& report) {
+std::string render_rows(const std::vector<Row>& rows) {
   std::string table;
-  for (const Row& row : report_rows(report)) table += fmt::format("  {:<16}{}\n", row.name, row.value);
+  for (const Row& row : rows) table += fmt::format("  {:<16}{}\n", row.name, row.value);
   return table;
 }
+
+std::string render_table(const ReplayReport& report) { return render_rows(report_rows(report)); }
 
 }  // namespace dch::cli

@@ -63,6 +63,11 @@ void SvgCanvas::polyline(const std::vector<double>& x, const std::vector<double>
   body_ += "\"/>\n";
 }
 
+void SvgCanvas::area(const std::string& outline, double opacity, const std::string& title) {
+  body_ += fmt::format("<path class=\"heat\" fill-opacity=\"{:.2f}\" d=\"{}\"><title>{}</title></path>\n",
+                       opacity, outline, escape_html(title));
+}
+
 void SvgCanvas::mark(double x, double y, const std::string& title) {
   body_ += fmt::format("<path d=\"M{:.1f} {:.1f} l-4 -7 h8 z\" class=\"mark\"><title>{}</title></path>\n", x,
                        y, escape_html(title));

@@ -32,6 +32,8 @@ class SvgCanvas {
             const std::string& title);
   void dot(double x, double y, const std::string& color, const std::string& title);
   void polyline(const std::vector<double>& x, const std::vector<double>& y, const std::string& color);
+  /// An area of the heat map's color; `outline` is the data of an SVG path.
+  void area(const std::string& outline, double opacity, const std::string& title);
   /// A small triangle that points down at (x, y).
   void mark(double x, double y, const std::string& title);
 

@@ -44,6 +44,31 @@ std::string logarithmic_bars(const std::vector<LabelledBar>& bars, const std::st
 std::string histogram(const std::vector<double>& shares, double mean, const std::string& x_label,
                       const std::string& y_label);
 
+/// A point of a chart with two logarithmic axes.
+struct LogPoint {
+  double x = 0, y = 0;
+  std::string title;  ///< shown on hovering
+};
+
+struct LogChart {
+  std::string x_label, y_label;
+  std::vector<LogPoint> points;  ///< in order of x
+};
+
+/// Points joined by a line; those that are not above 0 in x and y cannot be drawn and are left out.
+std::string log_log_chart(const LogChart& chart);
+
+/// A square matrix over consecutive intervals, drawn like one: the first row is on top.
+struct HeatMap {
+  std::string axis_label;
+  std::vector<double> edges;   ///< of the intervals, ascending; one more than there are
+  std::vector<double> values;  ///< by row; those not above 0 are left blank
+  std::vector<double> lines;   ///< drawn across, in both directions
+};
+
+/// Values in eight shades, logarithmic from the least to the largest.
+std::string heat_map(const HeatMap& map);
+
 /// "each point is the mean of 25 frames", or nothing if every frame is drawn.
 std::string group_note(std::size_t frames);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstdint>
 #include <fmt/format.h>
+#include <utility>
 
 #include "text.hpp"
 #include "topology_files.hpp"
@@ -27,28 +28,32 @@ void add_atoms(const LineReader& lines, const AtomIndex& atoms, std::string_view
 
 }  // namespace
 
-std::vector<IndexPair> read_chains_text(const std::string& path, const AtomIndex& atoms) {
+Topology read_chains_text(const std::string& path, const AtomIndex& atoms) {
   LineReader lines(path, FinalNewline::optional);
-  std::vector<IndexPair> bonds;
-  std::vector<std::int32_t> chain;
+  Topology topology;
+  topology.source = path;
   for (std::string_view line; lines.next(line);) {
-    chain.clear();
-    bool is_ring = false;
+    AtomChain chain;
+    chain.line = lines.number();
     std::string_view rest = line.substr(0, line.find('#'));
     for (std::string_view word; next_word(rest, word);) {
-      if (chain.empty() && !is_ring && word == "ring") {
-        is_ring = true;
+      if (chain.atoms.empty() && !chain.closed && word == "ring") {
+        chain.closed = true;
       } else {
-        add_atoms(lines, atoms, word, chain);
+        add_atoms(lines, atoms, word, chain.atoms);
       }
     }
-    if (is_ring && chain.size() < 3) {
-      lines.fail_here(fmt::format("a ring needs three atoms at least, found {}", chain.size()));
+    const std::size_t size = chain.atoms.size();
+    if (chain.closed && size < 3) {
+      lines.fail_here(fmt::format("a ring needs three atoms at least, found {}", size));
     }
-    for (std::size_t k = 1; k < chain.size(); ++k) bonds.push_back(make_bond(lines, chain[k - 1], chain[k]));
-    if (is_ring) bonds.push_back(make_bond(lines, chain.back(), chain.front()));
+    for (std::size_t k = 1; k < size; ++k) {
+      topology.bonds.push_back(make_bond(lines, chain.atoms[k - 1], chain.atoms[k]));
+    }
+    if (chain.closed) topology.bonds.push_back(make_bond(lines, chain.atoms.back(), chain.atoms.front()));
+    if (size > 0) topology.chains.push_back(std::move(chain));
   }
-  return bonds;
+  return topology;
 }
 
 }  // namespace dch::trajectory

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <dch/exclusions.hpp>
+#include <dch/trajectory/topology.hpp>
 
 #include "atom_index.hpp"
 
@@ -18,9 +19,9 @@ std::vector<IndexPair> read_lammps_data_bonds(const std::string& path, const Ato
 /// Bonds of a text file, two ids a line. @throws FileError.
 std::vector<IndexPair> read_bonds_text(const std::string& path, const AtomIndex& atoms);
 
-/// Bonds between the neighbors of the chains of a text file: one chain a line, ids or ranges "first-last" in
+/// The chains of a text file, and the bonds along them: one chain a line, ids or ranges "first-last" in
 /// order, the word "ring" in front of a closed one. @throws FileError.
-std::vector<IndexPair> read_chains_text(const std::string& path, const AtomIndex& atoms);
+Topology read_chains_text(const std::string& path, const AtomIndex& atoms);
 
 /// A bond; refuses one of an atom with itself.
 IndexPair make_bond(const LineReader& lines, std::int32_t a, std::int32_t b);

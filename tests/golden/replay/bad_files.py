@@ -130,6 +130,47 @@ def check_bad_topologies(checks, command, data, folder):
         print("broken:", name, flush=True)
 
 
+def check_bad_chains(checks, command, data, folder):
+    """Chains that do not fit the trajectory; dch contacts names the place and the remedy."""
+    trajectory = os.path.join(data, "polymer.lammpstrj")
+    for name, content, parts in (("twice.chains", "1-27\n28-40 3\n", ["line 2", "id 3", "chain of line 1"]),
+                                 ("unknown.chains", "1-27\n5000 5001\n", ["line 2", "no atom with the id 5000"]),
+                                 ("short.chains", "ring 1 2\n", ["line 1", "three atoms"]),
+                                 ("empty.chains", "", ["is empty"]), ("empty.bonds", "", ["is empty"]),
+                                 ("none.chains", "# none\n", ["no bonds and no chains", "--topology"]),
+                                 ("branch.bonds", "1 2\n2 3\n2 4\n", ["id 2", "three bonds"]),
+                                 ("twice.bonds", "1 2\n2 1\n", ["ids 1 and 2", "twice"]),
+                                 ("empty.data", "", ["is empty"]), ("kind.psf", "", [".chains"])):
+        path = os.path.join(folder, name)
+        with open(path, "w") as file:
+            file.write(content)
+        arguments = ["contacts", trajectory, "--gap", "1", "--topology", path, *OUTPUTS]
+        expect_failure(checks, command, arguments, 3, [name, *parts])
+    missing = os.path.join(folder, "missing.chains")
+    arguments = ["contacts", trajectory, "--gap", "1", "--topology", missing, *OUTPUTS]
+    expect_failure(checks, command, arguments, 3, ["missing.chains", "No such file"])
+
+
+def check_frames_that_do_not_fit(checks, command, folder):
+    """Good frames, then one in which a chain cannot be followed."""
+    good = dump(["1 1 1 1", "2 2 2 2", "3 3 3 3", "4 9 9 9"])
+    ring = "ring 1 2 3\n"
+    for name, content, chains, status, parts in (
+            ("empty", "", "1 2 3\n", 3, ["empty"]),
+            ("gone", good + dump(["1 1 1 1", "2 2 2 2", "4 9 9 9"]), "1 2 3\n", 3, ["frame 1", "3 atoms", "the id 3"]),
+            ("torn", good + dump(["1 1 1 1", "2 2 2 2", "3 7 7 7", "4 9 9 9"]), "4 1 2 3\n", 3,
+             ["frame 1", "the ids 2 and 3 is 8.66", "box height, 5"]),
+            ("wound", good + dump(["1 1 1 1", "2 4 1 1", "3 8 1 1", "4 9 9 9"]), ring, 3,
+             ["frame 1", "the ids 3 and 1 winds around"]),
+            ("back", dump(["1 1 1 1", "2 2 2 2"], step=5) + GOOD, "1 2\n", 2, ["frame 1", "time step, 0", "before, 5"])):
+        path, topology = os.path.join(folder, name + ".lammpstrj"), os.path.join(folder, name + ".chains")
+        for file_name, text in ((path, content), (topology, chains)):
+            with open(file_name, "w") as file:
+                file.write(text)
+        arguments = ["contacts", path, "--gap", "1", "--topology", topology, *OUTPUTS]
+        print(expect_failure(checks, command, arguments, status, [name + ".lammpstrj", *parts]).strip(), flush=True)
+
+
 def main(command, data):
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -138,6 +179,8 @@ def main(command, data):
         check_truncations(checks, command, data, folder)
         check_not_trajectories(checks, command, folder)
         check_bad_topologies(checks, command, data, folder)
+        check_bad_chains(checks, command, data, folder)
+        check_frames_that_do_not_fit(checks, command, folder)
     checks.finish()
 
 

@@ -77,12 +77,13 @@ def replay(command, path, *options):
         return result, content
 
 
-def documented_keys(docs):
-    """The table of report-schema.md: key -> when it is present."""
-    text = open(os.path.join(docs, "report-schema.md")).read()
+def documented_keys(docs, command):
+    """The table of report-schema.md for a subcommand: key -> when it is present."""
+    sections = re.split(r"^## ", open(os.path.join(docs, "report-schema.md")).read(), flags=re.MULTILINE)
+    text = next((section for section in sections if section.startswith(f"`dch {command}`")), "")
     keys = dict(re.findall(r"^\| `([^`]+)` \| [^|]+ \| (always|dch|mismatch) \|", text, flags=re.MULTILINE))
     if not keys:
-        raise SystemExit("report-schema.md: no table of keys")
+        raise SystemExit(f"report-schema.md: no table of keys for dch {command}")
     return keys
 
 
@@ -96,9 +97,9 @@ def keys_of(value, name=""):
     return {name}
 
 
-def check_keys(checks, report, docs, present):
+def check_keys(checks, report, docs, present, command="replay"):
     """The report holds the documented keys of these kinds and no others."""
-    expected = {key for key, when in documented_keys(docs).items() if when in present}
+    expected = {key for key, when in documented_keys(docs, command).items() if when in present}
     found = keys_of(report)
     checks.that(found == expected, f"report.json: undocumented {sorted(found - expected)}, "
                                    f"missing {sorted(expected - found)}")

@@ -56,6 +56,7 @@ def wrong_commands(data):
         (["replay", polymer, "--cutoff", "3", "--report", "same", "--plot", "same"], ["--report and --plot", "same file"]),
         (["replay", polymer, "--cutoff", "3", "--out", polymer], ["FILE and --out", "same file"]),
         (["replay", polymer, "--cutoff", "3", "--topology", "t.bonds", "--report", "t.bonds"], ["--topology and --report"]),
+        *wrong_contacts(data),
         (["info"], ["FILE is required"]),
         (["info", water, "--frames", "3:3"], ["3:3"]),
         (["convert", polymer], ["OUT is required"]),
@@ -71,24 +72,59 @@ def wrong_commands(data):
     ]
 
 
+def wrong_contacts(data):
+    polymer = os.path.join(data, "polymer.lammpstrj")
+    water = os.path.join(data, "water.trr")
+
+    def contacts(*options):
+        return ["contacts", polymer, "--gap", "1", "--out", "contacts.h5", "--report", "report.json", "--plot", "page.html",
+                *options]
+
+    return [
+        (["contacts"], ["FILE is required"]),
+        (["contacts", polymer], ["--gap is required"]),
+        (["contacts", polymer, "--gap", "-1"], ["--gap -1", "at least 0"]),
+        (["contacts", polymer, "--gap", "nan"], ["--gap 'nan'", "finite"]),
+        (["contacts", polymer, "--gap", "far"], ["--gap 'far'"]),
+        (["contacts", polymer, "--gap", "30", "--out", "contacts.h5"],
+         [polymer, "frame 0", "30", "half the smallest box height", "29.04"]),
+        (contacts("--radius", "14.5"), [polymer, "frame 0", "twice the largest radius + gap = 30"]),
+        (contacts("--radius", "-1"), ["--radius -1", "at least 0"]),
+        (contacts("--radius", "1=0.5"), ["none for the type 3", "the id 2", "add 3=R"]),
+        (contacts("--radius", "1=0.5,2=x"), ["--radius 'x'"]),
+        (contacts("--skip-bonds", "-1"), ["--skip-bonds '-1'", "from 0"]),
+        (contacts("--pairs", "some"), ["--pairs 'some'", "all, within, between"]),
+        (contacts("--bins", "0"), ["--bins '0'", "from 1 to 4096"]),
+        (contacts("--bins", "4097"), ["--bins '4097'"]),
+        (contacts("--frames", "42:"), [polymer, "frame 42", "0 to 41"]),
+        (["contacts", water, "--gap", "0.1", "--out", "contacts.h5"], [water, "no molecule column", "--topology"]),
+        (["contacts", polymer, "--gap", "1", "--out", "same", "--plot", "same"], ["--out and --plot", "same file"]),
+        (["contacts", polymer, "--gap", "1", "--topology", "t.chains", "--out", "t.chains"], ["--topology and --out"]),
+    ]
+
+
 def check_outputs_that_cannot_be(checks, command, data):
     water = os.path.join(data, "water.trr")
+    polymer = os.path.join(data, "polymer.lammpstrj")
     with tempfile.TemporaryDirectory() as folder:
         for option in ("--out", "--report", "--plot"):
             for path, part in ((os.path.join(folder, "no", "such"), "No such file"), (folder, "a folder"),
                                ("/dev/null", "not a regular file")):
                 expect_failure(checks, command, ["replay", water, "--cutoff", "0.4", option, path], 3, [path, part])
+                expect_failure(checks, command, ["contacts", polymer, "--gap", "1", option, path], 3, [path, part])
         expect_failure(checks, command, ["convert", water, os.path.join(folder, "no", "w.h5")], 3, ["no/w.h5"])
         expect_failure(checks, command, ["convert", water, os.path.join(folder, "w.xyz")], 3, ["w.xyz", ".h5"])
         expect_failure(checks, command, ["generate", "melt", "--chains", "10", "--beads", "10",
                                          os.path.join(folder, "no", "m.data")], 3, ["no/m.data"])
 
 
-def check_full_disk(checks, command, data):
+def check_full_disk(checks, command, data, chains):
     """Writing fails half-way: exit status 3, and no half-written file."""
     polymer = os.path.join(data, "polymer.lammpstrj")
     replay = ["replay", polymer, "--cutoff", "12", "--frames", "::4"]
-    for arguments in (replay + ["--out", "lists.h5"], replay + ["--report", "report.json"], replay + ["--plot", "page.html"],
+    contacts = ["contacts", os.path.join(data, "nopbc.dcd"), "--gap", "5", "--topology", chains]
+    for arguments in (contacts + ["--out", "contacts.h5"], contacts + ["--report", "report.json"],
+                      contacts + ["--plot", "page.html"], replay + ["--out", "lists.h5"], replay + ["--report", "report.json"], replay + ["--plot", "page.html"],
                       ["convert", polymer, "out.h5"], ["convert", polymer, "out.lammpstrj"],
                       ["generate", "melt", "--chains", "20", "--beads", "50", "melt.data"]):
         for largest_file in (0, 1000):
@@ -116,7 +152,8 @@ def check_instruction_sets(checks, command, data):
 def check_help(checks, command):
     for arguments, parts in ((["--help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
                              (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
-                             (["info", "--help"], ["FILE"]), (["convert", "--help"], ["H5MD"]),
+                             (["info", "--help"], ["FILE"]),
+                             (["contacts", "--help"], ["--gap D", "--topology", "--radius"]), (["convert", "--help"], ["H5MD"]),
                              (["generate", "melt", "--help"], ["--chains"])):
         result = run(command, *arguments)
         checks.that(result.returncode == 0, f"{arguments}: status {result.returncode}")
@@ -135,7 +172,11 @@ def main(command, data):
         message = expect_failure(checks, command, arguments, 2, parts)
         print(message.strip(), flush=True)
     check_outputs_that_cannot_be(checks, command, data)
-    check_full_disk(checks, command, data)
+    with tempfile.TemporaryDirectory() as folder:
+        chains = os.path.join(folder, "one.chains")
+        with open(chains, "w") as file:
+            file.write("1-401\n")
+        check_full_disk(checks, command, data, chains)
     check_instruction_sets(checks, command, data)
     check_help(checks, command)
     checks.finish()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numeric>
 
 #include "axis.hpp"
@@ -80,6 +81,31 @@ TEST(Charts, DrawDegenerateData) {
     expect_drawable(histogram(y, 0, "neighbors", "% of atoms"));
     expect_drawable(logarithmic_bars({{"level 0", "a node", std::max(1.0, y[0])}}, "nodes"));
   }
+}
+
+TEST(LogLogChart, DrawsWhatIsAboveZero) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::string svg = log_log_chart(
+      {"s", "P(s)", {{1, 0.5, "first"}, {10, 0, "zero"}, {20, none, "none"}, {1000, 1e-5, "last"}}});
+  expect_drawable(svg);
+  EXPECT_EQ(occurrences(svg, "<circle"), 2u);
+  EXPECT_THAT(svg, HasSubstr(">last<"));
+  EXPECT_THAT(svg, HasSubstr(">1e-05<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">zero<")));
+  expect_drawable(log_log_chart({"s", "P(s)", {}}));
+  expect_drawable(log_log_chart({"s", "P(s)", {{10, 10, "alone"}}}));
+}
+
+TEST(HeatMaps, ShadeByTheLogarithm) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::string svg = heat_map({"bead", {0, 1, 3, 6}, {none, 0.001, 1, 0.001, 0, 0, 1, 0, 0.03}, {1}});
+  expect_drawable(svg);
+  EXPECT_EQ(occurrences(svg, "class=\"heat\""), 3u + 8u) << "three shades, and the key";
+  EXPECT_THAT(svg, HasSubstr(">from 0.001<"));
+  expect_drawable(heat_map({"bead", {0, 5}, {none}, {}}));
+  expect_drawable(heat_map({"bead", {0, 5}, {0.5}, {}}));
+  EXPECT_EQ(occurrences(heat_map({"bead", {0, 1, 2}, {0.5, 0.5, 0, 0.5}, {}}), "M"), 2u + 1u)
+      << "cells of a row are drawn as one, and a single value has one shade";
 }
 
 TEST(Charts, MergeLongRunsAndSaySo) {

@@ -170,6 +170,20 @@ TEST(Unwrap, RefusesABondOfHalfTheBox) {
   EXPECT_THAT(message, HasSubstr("half the smallest box height"));
 }
 
+TEST(Unwrap, TellsWhichBondIsInDoubt) {
+  const auto bond_of = [](const std::vector<Vec3>& positions, const std::vector<IndexPair>& bonds) {
+    try {
+      unwrap(Chains::from_bonds(positions.size(), bonds), positions, Box::orthorhombic({9, 9, 9}));
+    } catch (const Undetermined& error) {
+      return error.bond();
+    }
+    return IndexPair{-1, -1};
+  };
+  EXPECT_EQ(bond_of({{1, 5, 5}, {4, 5, 5}, {7, 5, 5}}, {{0, 1}, {1, 2}, {2, 0}}), (IndexPair{2, 0}));
+  EXPECT_EQ(bond_of({{1, 5, 5}, {2, 5, 5}, {6.5, 5, 5}}, {{0, 1}, {2, 1}}), (IndexPair{1, 2}));
+  EXPECT_EQ(bond_of({{1, 5, 5}, {2, 5, 5}}, {{0, 1}}), (IndexPair{-1, -1}));
+}
+
 TEST(Unwrap, RefusesAnotherNumberOfPositions) {
   const std::vector<Vec3> positions(3);
   EXPECT_THROW(unwrap(Chains(2), positions, Box::none()), InvalidParameter);

@@ -106,6 +106,20 @@ TEST_F(ReadTopology, ReadsChains) {
   EXPECT_THAT(error("test.chains", "1-9000000000000000000\n"), HasSubstr("no atom with the id 4"));
 }
 
+TEST_F(ReadTopology, KeepsChainsAsTheFileOrdersThem) {
+  const Topology topology = read_topology(
+      folder_.write("test.chains", "# three chains\n5 1 10\n\nring 12-11 2\n3 # alone\n"), ids_);
+  ASSERT_EQ(topology.chains.size(), 3U);
+  EXPECT_THAT(topology.chains[0].atoms, ElementsAre(3, 0, 4));
+  EXPECT_FALSE(topology.chains[0].closed);
+  EXPECT_EQ(topology.chains[0].line, 2);
+  EXPECT_THAT(topology.chains[1].atoms, ElementsAre(6, 5, 1));
+  EXPECT_TRUE(topology.chains[1].closed);
+  EXPECT_THAT(topology.chains[2].atoms, ElementsAre(2));
+  EXPECT_EQ(topology.chains[2].line, 5);
+  EXPECT_THAT(read_topology(folder_.write("test.bonds", "1 2\n"), ids_).chains, IsEmpty());
+}
+
 TEST_F(ReadTopology, RefusesOtherFiles) {
   EXPECT_THAT(error("test.psf", "PSF\n"),
               AllOf(HasSubstr("test.psf"), HasSubstr("unknown kind of topology")));

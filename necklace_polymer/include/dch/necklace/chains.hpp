@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <dch/box.hpp>
@@ -16,7 +17,12 @@ namespace dch::necklace {
 /// and the limit. It is never replaced by a guess: a wrong guess would report a knot that is not there.
 class Undetermined : public Error {
  public:
-  using Error::Error;
+  Undetermined(const std::string& message, IndexPair bond) : Error(message), bond_(bond) {}
+  /// The bond, as particle indices; of a ring that winds around the box its closing bond, {last, first}.
+  IndexPair bond() const { return bond_; }
+
+ private:
+  IndexPair bond_;
 };
 
 /// Necklaces: each chain is a sequence of beads in which consecutive ones are bonded; a closed chain (a ring)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,18 @@
 
 namespace dch::trajectory {
 
+/// Atoms in order along a chain, as indices into the arrays of a frame.
+struct AtomChain {
+  std::vector<std::int32_t> atoms;
+  bool closed = false;    ///< the last is bonded to the first
+  std::int64_t line = 0;  ///< of the file that says so, from 1
+};
+
 /// Bonds between the atoms of a frame, as indices into its arrays (atoms in ascending order of id).
 struct Topology {
   std::vector<IndexPair> bonds;
-  std::string source;  ///< where they came from, for messages
+  std::string source;             ///< where they came from, for messages
+  std::vector<AtomChain> chains;  ///< of a file of chains, in its order; else empty, and bonds tell all
 };
 
 /// Reads bonds from a LAMMPS data file (.data, .lmp, data.*), a text file of bonds (.bonds: two ids a line)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <dch/necklace/contacts.hpp>
+
+#include "bead_radii.hpp"
+#include "contact_report.hpp"
+#include "option_values.hpp"
+#include "progress_bar.hpp"
+
+namespace dch::cli {
+
+/// `dch contacts` as asked for on the command line, its numbers checked.
+struct ContactOptions {
+  std::string file;
+  std::string topology;  ///< empty: chains come from the molecule column
+  necklace::ContactQuery query;
+  BeadRadii radii{"0"};
+  std::int32_t bins = 512;  ///< at most, of the contact map
+  FrameRange frames;
+  std::string data;  ///< contacts.h5; empty: none
+};
+
+/// Reads the selected frames, keeps one wrapped hierarchy up through them, and follows the contacts. The data
+/// file is in place when this returns.
+/// @throws UsageError for options that do not fit the file (a gap beyond what half the smallest box height
+///   allows, frames in an order that time does not have, no chains named); trajectory::FileError for files
+///   that cannot be read or written, chains that do not fit the trajectory and bonds of half the box and
+///   more; Interrupted.
+ContactReport analyze_contacts(const ContactOptions& options, ProgressBar& progress);
+
+}  // namespace dch::cli
