@@ -33,7 +33,8 @@ double number(const char* word) {
 ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** arg)
     : Compute(lammps, narg, arg), beads_(lammps) {
   if (narg < 4)
-    error->all(FLERR, kName + "the gap is missing; for example 'compute touch all necklace/contact 0.1 radius 0.5'");
+    error->all(FLERR,
+               kName + "the gap is missing; for example 'compute touch all necklace/contact 0.1 radius 0.5'");
   query_.gap = number(arg[3]);
   if (!(query_.gap >= 0))
     error->all(FLERR, kName + "the gap is '" + arg[3] + "' but has to be a distance of 0 or more");
@@ -41,7 +42,8 @@ ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** 
   if (atom->molecular != Atom::MOLECULAR)
     error->all(FLERR, kName + "the atom style has no bonds of its own; chains need one like bond or full");
   if (radius_of_type_.empty() && !atom->radius_flag)
-    error->all(FLERR, kName + "this atom style has no radii; give 'radius R', or 'radius' and one for each type");
+    error->all(FLERR,
+               kName + "this atom style has no radii; give 'radius R', or 'radius' and one for each type");
   scalar_flag = peratom_flag = local_flag = 1;
   extscalar = 0;  // a number of contacts, which thermo output does not divide by that of atoms
   size_peratom_cols = 0;
@@ -120,7 +122,8 @@ void ComputeNecklaceContact::find() {
     hierarchy_->update(beads_.positions(), box_of(*domain));
     contacts_ = dch::necklace::find_contacts(*hierarchy_, query_);
   } catch (const dch::Error& e) {  // all processes have the same beads, so all throw
-    error->all(FLERR, kName + e.what() + " (beads are numbered from 0 in the order of atom IDs in the group)");
+    error->all(FLERR,
+               kName + e.what() + " (beads are numbered from 0 in the order of atom IDs in the group)");
   }
 }
 

@@ -20,7 +20,8 @@ ComputeStyle(necklace/contact,ComputeNecklaceContact);
 namespace LAMMPS_NS {
 
 /// necklace/contact: where the chains of a group touch themselves and each other. The atoms' contacts, how
-/// many there are, and a list of them: atom IDs and gap, each on the process that owns the atom of smaller ID.
+/// many there are, and a list of them: atom IDs and gap, each on the process that owns the atom of smaller
+/// ID.
 ///
 /// Every process gathers all chains and finds all contacts, by a wrapped hierarchy that it keeps from call to
 /// call.
@@ -51,10 +52,11 @@ class ComputeNecklaceContact : public Compute {
   std::vector<dch::IndexPair> known_bonds_;
   std::unique_ptr<dch::necklace::WrappedHierarchy> hierarchy_;
   std::vector<dch::necklace::Contact> contacts_;
-  bigint found_at_ = -1;             ///< step of contacts_; -1 for none
-  std::array<bool, 3> taken_{};      ///< by result: it has had contacts_ already, so its next call is of later positions
-  std::vector<double> counts_;       ///< what vector_atom points to
-  std::vector<std::array<double, 3>> rows_;
+  bigint found_at_ = -1;  ///< step of contacts_; -1 for none
+  std::array<bool, 3>
+      taken_{};  ///< by result: it has had contacts_ already, so its next call is of later positions
+  std::vector<double> counts_;  ///< what vector_atom points to
+  std::vector<std::array<double, 3> > rows_;
   std::vector<double*> row_starts_;  ///< what array_local points to
 };
 

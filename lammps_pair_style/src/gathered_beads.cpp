@@ -17,8 +17,8 @@ namespace {
 /// Of a bead, as they travel: tag, x, y, z, radius.
 constexpr std::size_t kNumbers = 5;
 
-/// The parts of all processes, one behind the other. What is sent is not const: LAMMPS's replacement for MPI in
-/// serial builds does not take that.
+/// The parts of all processes, one behind the other. What is sent is not const: LAMMPS's replacement for MPI
+/// in serial builds does not take that.
 template <class T>
 std::vector<T> gather_all(std::vector<T> mine, MPI_Datatype type, Error& error, MPI_Comm world) {
   int processes = 0;
@@ -27,8 +27,9 @@ std::vector<T> gather_all(std::vector<T> mine, MPI_Datatype type, Error& error, 
   bigint total = 0;
   MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (total > INT_MAX)
-    error.all(FLERR, "Compute necklace/contact would gather " + std::to_string(total) + " numbers, but at most " +
-                         std::to_string(INT_MAX) + " can be; choose a smaller group");
+    error.all(FLERR, "Compute necklace/contact would gather " + std::to_string(total) +
+                         " numbers, but at most " + std::to_string(INT_MAX) +
+                         " can be; choose a smaller group");
   std::vector<int> counts(static_cast<std::size_t>(processes)), first(counts.size());
   int own = static_cast<int>(count);
   MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
@@ -50,9 +51,8 @@ void GatheredBeads::gather_beads(int group_bit, const std::vector<double>& radiu
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & group_bit)) continue;
     const double* const x = atom->x[i];
-    const double radius = radius_of_type.empty()
-                              ? atom->radius[i]
-                              : radius_of_type[static_cast<std::size_t>(atom->type[i])];
+    const double radius =
+        radius_of_type.empty() ? atom->radius[i] : radius_of_type[static_cast<std::size_t>(atom->type[i])];
     mine.insert(mine.end(), {static_cast<double>(atom->tag[i]), x[0], x[1], x[2], radius});
   }
   const std::vector<double> numbers = gather_all(std::move(mine), MPI_DOUBLE, *error, world);

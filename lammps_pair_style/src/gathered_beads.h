@@ -25,8 +25,8 @@ class GatheredBeads : protected Pointers {
   /// @param radius_of_type by type from 1 [length]; empty for the atoms' own radii
   void gather(int group_bit, const std::vector<double>& radius_of_type);
 
-  const std::vector<tagint>& tags() const { return tags_; }              ///< ascending
-  const std::vector<double>& radii() const { return radii_; }            ///< [length]
+  const std::vector<tagint>& tags() const { return tags_; }    ///< ascending
+  const std::vector<double>& radii() const { return radii_; }  ///< [length]
   const std::vector<dch::Vec3>& positions() const { return positions_; }
   /// Those that are not switched off for good (type 0), with both ends in the group.
   const std::vector<dch::IndexPair>& bonds() const { return bonds_; }
