@@ -141,7 +141,7 @@ class NecklaceContact(unittest.TestCase):
 
     def test_a_box_that_changes_and_bonds_that_go(self):
         """Bond 30-31 is cut between two runs: its beads are in contact then, as ends of two chains."""
-        cut = ("reset_timestep 0\ngroup cut id 30 31\nrun 0\nvariable before equal c_touch\nprint \"before ${before}\"\n"
+        cut = ("undump atoms\nundump pairs\ngroup cut id 30 31\nrun 0\nvariable before equal c_touch\nprint \"before ${before}\"\n"
                "delete_bonds cut bond 1 remove\nrun 0\nvariable after equal c_touch\nprint \"after ${after}\"\n")
         script = MELT.replace("fix bath", "fix shape all deform 1 x scale 1.1 y scale 0.95 remap x\nfix bath")
         output = run(script + "run 40\n" + cut,
