@@ -56,23 +56,29 @@ double best_width(const Scene& scene, double radius, SimdGrid::Cells cells) {
   return best_so_far;
 }
 
-}  // namespace
-
-DchContender::DchContender(std::string name, const Scene& scene, const Mode& mode)
-    : name_(std::move(name)), superset_(mode.superset) {
+/// What the scene asks for, in the order that is fastest to make.
+std::vector<ListParams> requests_of(const Scene& scene, bool superset) {
+  std::vector<ListParams> requests;
   ListParams request;
   request.order = RowOrder::by_structure;
-  request.superset = mode.superset;
+  request.superset = superset;
   request.exclusions = scene.exclusions.empty() ? nullptr : &scene.exclusions;
   for (const double radius : scene.list_radii) {
     request.cutoffs = TypeCutoffs(radius);
-    requests_.push_back(request);
+    requests.push_back(request);
   }
   if (!scene.radii.empty()) {
     request.radii = scene.radii;
     request.skin = scene.skin;
-    requests_.push_back(request);
+    requests.push_back(request);
   }
+  return requests;
+}
+
+}  // namespace
+
+DchContender::DchContender(std::string name, const Scene& scene, const Mode& mode)
+    : name_(std::move(name)), superset_(mode.superset), requests_(requests_of(scene, mode.superset)) {
   params_.radius = requests_.back().list_radius();
   params_.size_classes = !scene.radii.empty();
   params_.policy = mode.policy;
@@ -80,14 +86,14 @@ DchContender::DchContender(std::string name, const Scene& scene, const Mode& mod
   search_ = make_dch_search(params_);
 }
 
-void DchContender::make_lists(const Scene& scene, std::vector<NeighborList>& lists) {
-  search_->update(scene.positions, scene.box);
-  search_->lists(requests_, lists);
-}
-
 std::string DchContender::validate() const {
   const Hierarchy* const hierarchy = hierarchy_of(*search_);
   return hierarchy ? hierarchy->validate() : std::string();
+}
+
+CellListContender::CellListContender(const Scene& scene)
+    : radius_(scene.list_radii.back()), requests_(requests_of(scene, false)) {
+  CellListContender::reset();
 }
 
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
@@ -100,7 +106,7 @@ bool GridContender::fits() const {
   return !widths_.empty() && std::find(widths_.begin(), widths_.end(), 0) == widths_.end();
 }
 
-void GridContender::make_lists(const Scene& scene, std::vector<NeighborList>& lists) {
+void GridContender::list(const Scene& scene, std::vector<NeighborList>& lists) {
   for (std::size_t k = 0; k < grids_.size(); ++k)
     grids_[k].list(scene.positions, scene.box, scene.exclusions, lists[k]);
 }
@@ -143,13 +149,15 @@ std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Exec
   add("dch, superset", {.superset = true});
   add("dch, built anew", {.policy = MaintenancePolicy::always_rebuild});
   if (executor) add("dch, " + std::to_string(executor->threads()) + " threads", {.executor = executor});
+  if (CellListContender::can_make(scene) && is_wanted("cell list"))
+    all.push_back(std::make_unique<CellListContender>(scene));
   // Grids are tuned when they are made, which takes a while.
   const std::string by_size = "grids by size";
   if (SizeGridContender::can_make(scene) && is_wanted(by_size))
     all.push_back(std::make_unique<SizeGridContender>(by_size, scene));
   for (const auto& [name, cells] :
        {std::pair("dense grid", SimdGrid::Cells::dense), std::pair("hash grid", SimdGrid::Cells::hash)}) {
-    if (!is_wanted(name)) continue;
+    if (!is_wanted(name) || !GridContender::can_make(scene)) continue;
     auto grid = std::make_unique<GridContender>(name, scene, cells);
     if (grid->fits()) all.push_back(std::move(grid));
   }

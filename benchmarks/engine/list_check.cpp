@@ -64,6 +64,7 @@ CheckedLists check_lists(Scene& scene, Contenders& contenders, const ListCheck& 
     if (compare) expected = std::async(std::launch::async, [&scene] { return all_expected(scene); });
     for (const auto& contender : contenders) {
       if (contender->makes_supersets() && k % check.superset_every != 0) continue;
+      if (k % contender->every() != 0) continue;
       const std::vector<PairSum> found = sums_of(*contender, scene, made);
       if (wanted.empty()) wanted = found;
       if (wanted != found)
@@ -81,6 +82,8 @@ CheckedLists check_lists(Scene& scene, Contenders& contenders, const ListCheck& 
     }
     ++checked.configurations;
     checked.last_pairs = pairs_in(wanted);
+    checked.last_hash = 0;
+    for (const PairSum& sum : wanted) checked.last_hash += sum.hash;
     checked.pairs += checked.last_pairs;
   }
   if (!check.expect_all && checked.configurations > 1) {

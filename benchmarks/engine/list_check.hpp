@@ -35,6 +35,7 @@ struct CheckedLists {
   int structures = 0;           ///< validated
   std::int64_t pairs = 0;       ///< of all configurations, each counted once for each list
   std::int64_t last_pairs = 0;  ///< of the last configuration
+  std::uint64_t last_hash = 0;  ///< PairSum's, of all its lists added up
 };
 
 /// The lists of all contenders, made anew at the first configuration and kept up to the last, or to the last

@@ -136,6 +136,7 @@ const std::vector<Maker>& makers() {
   using Options = SceneOptions;
   constexpr double kMelt = 2.8, kGas = 2000;
   static const std::vector<Maker> list = {
+      {"melt4k", [](const Options& o) { return make_melt(o, "melt4k.h5", 4000, {kMelt}); }},
       {"melt32k", [](const Options& o) { return make_melt(o, "melt32k.h5", 32000, {kMelt}); }},
       {"melt256k", [](const Options& o) { return make_melt(o, "melt256k.h5", 256000, {kMelt}); }},
       {"melt1m", [](const Options& o) { return make_melt(o, "melt1m.h5", 1e6, {kMelt}); }},
@@ -144,6 +145,10 @@ const std::vector<Maker>& makers() {
       {"droplet+gas", [](const Options& o) { return make_droplet(o.scale, kGas); }},
       {"droplet", [](const Options& o) { return make_droplet(o.scale, 0); }},
       {"clusters", [](const Options& o) { return make_power_law_clusters(o.scale); }},
+      {"swollen", [](const Options& o) { return make_swollen_chain(o.scale); }},
+      {"shear", [](const Options& o) { return make_sheared_lattice(o.scale); }},
+      {"glass", [](const Options& o) { return make_glass(o.scale); }},
+      {"hotgas", [](const Options& o) { return make_hot_gas(o.scale); }},
       {"sizes1:10", [](const Options& o) { return make_two_sizes(o.scale, 10); }},
       {"sizes1:50", [](const Options& o) { return make_two_sizes(o.scale, 50); }},
       {"sizes1..20", [](const Options& o) { return make_continuous_sizes(o.scale, 20); }},

@@ -45,12 +45,19 @@ class RandomScene : public Scene {
   void start();
 
   double step_length = 0;   ///< largest random displacement along an axis [length]
+  bool tethered = false;    ///< displacements start from the first configuration each time
   std::vector<Vec3> drift;  ///< by particle: displacement in every step; or empty [length]
+  /// Shear strain of a step: x grows by this much of y, and with the particles the box tilts, until it is
+  /// flipped back at half its width.
+  double strain = 0;
 
  private:
+  void shear();
+
   std::uint64_t seed_;
   std::mt19937_64 engine_;
   std::vector<Vec3> first_;
+  Box first_box_;
 };
 
 /// Uniform in [0, 1); the same on every platform, which std::uniform_real_distribution is not.
@@ -65,6 +72,14 @@ std::unique_ptr<RandomScene> make_droplet(double scale, double gas_atoms);
 /// Centers clustered hierarchically: the number of others within s of one grows as a power of s below 3
 /// (Soneira and Peebles, Astron. J. 83:845, 1978).
 std::unique_ptr<RandomScene> make_power_law_clusters(double scale);
+/// A self-avoiding walk of 20,000 beads in a wide box, bonded ones left out.
+std::unique_ptr<RandomScene> make_swollen_chain(double scale);
+/// The melt's shaken lattice in a box that tilts by 1/40 of its height from one configuration to the next.
+std::unique_ptr<RandomScene> make_sheared_lattice(double scale);
+/// The melt's shaken lattice, whose atoms vibrate about their places as far as in a solid at temperature 0.1.
+std::unique_ptr<RandomScene> make_glass(double scale);
+/// Atoms of density 0.05 that fly straight on, as fast as at temperature 10.
+std::unique_ptr<RandomScene> make_hot_gas(double scale);
 /// Few large spheres among many small ones; the volume fractions are the same whatever the ratio of sizes.
 std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio);
 /// Spheres whose number density falls as the fourth power of the radius, from the smallest to `ratio` times

@@ -14,6 +14,7 @@
 #include "list_check.hpp"
 #include "stopwatch.hpp"
 #include "table_report.hpp"
+#include "write_scene.hpp"
 
 namespace dch::bench {
 namespace {
@@ -24,7 +25,7 @@ struct Options {
   std::vector<std::string> scenes = scene_names();
   SceneOptions scene;
   int lists = 100, repetitions = 5, threads = 1, processor = 0;
-  std::string json, only;
+  std::string json, only, write;
 };
 
 /// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
@@ -36,27 +37,36 @@ int configurations(const Scene& scene, const Options& options) {
 }
 
 /// One repetition: all contenders take turns, each configuration in another order, so that none always finds
-/// the positions in the cache. Returns the number of configurations after the first.
+/// the positions in the cache; slow ones not at every configuration. Returns the number of configurations
+/// after the first.
 int time_once(Scene& scene, Contenders& contenders, int lists, Clock clock,
               std::vector<Measurement>& measurements) {
   const std::size_t count = contenders.size();
   const double per_particle = 1e9 / static_cast<double>(scene.positions.size());
   std::vector<std::vector<NeighborList>> made(
       count, std::vector<NeighborList>(std::max<std::size_t>(1, scene.list_radii.size())));
-  std::vector<double> seconds(count, 0);
+  std::vector<double> seconds(count, 0), updating(count, 0);
   scene.restart();
   for (std::size_t c = 0; c < count; ++c) {
     contenders[c]->reset();
     const double first = per_particle * seconds_of([&] { contenders[c]->make_lists(scene, made[c]); }, clock);
     measurements[c].first_ns = std::min(measurements[c].first_ns, first);
   }
+  std::vector<int> times(count, 0);
   int done = 0;
   for (; done < lists && scene.step(); ++done)
     for (std::size_t turn = 0; turn < count; ++turn) {
       const std::size_t c = (turn + static_cast<std::size_t>(done)) % count;
-      seconds[c] += seconds_of([&] { contenders[c]->make_lists(scene, made[c]); }, clock);
+      if (done % contenders[c]->every() != 0) continue;
+      ++times[c];
+      const double update = seconds_of([&] { contenders[c]->update(scene); }, clock);
+      updating[c] += update;
+      seconds[c] += update + seconds_of([&] { contenders[c]->list(scene, made[c]); }, clock);
     }
-  for (std::size_t c = 0; c < count; ++c) measurements[c].ns.push_back(per_particle * seconds[c] / done);
+  for (std::size_t c = 0; c < count; ++c) {
+    measurements[c].ns.push_back(per_particle * seconds[c] / times[c]);
+    measurements[c].update_ns.push_back(per_particle * updating[c] / times[c]);
+  }
   return done;
 }
 
@@ -71,8 +81,9 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
   result.origin = scene->origin;
   result.particles = scene->positions.size();
   const int lists = configurations(*scene, options);
-  result.pairs = static_cast<double>(check_lists(*scene, contenders, {.last = lists}).last_pairs) /
-                 static_cast<double>(result.particles);
+  const CheckedLists checked = check_lists(*scene, contenders, {.last = lists});
+  result.pairs = static_cast<double>(checked.last_pairs) / static_cast<double>(result.particles);
+  result.list_hash = checked.last_hash;
   for (const auto& contender : contenders) {
     Measurement m;
     m.contender = contender->name();
@@ -92,6 +103,12 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
 }
 
 int run(const Options& options) {
+  if (!options.write.empty()) {
+    SceneOptions first = options.scene;
+    first.most_frames = 1;
+    for (const std::string& name : options.scenes) write_scene(*make_scene(name, first), options.write);
+    return kOk;
+  }
   std::unique_ptr<Executor> executor;
   if (options.threads > 1) {
     executor = make_thread_pool(options.threads);
@@ -125,6 +142,9 @@ int parse_and_run(int argc, char** argv) {
                  "Particles of artificial scenes, relative to the usual number")
       ->check(CLI::PositiveNumber);
   app.add_option("--only", options.only, "Measure the contender of this name alone");
+  app.add_option("--write", options.write,
+                 "Folder for the first configurations, as other programs may read them; "
+                 "then nothing is measured");
   app.add_option("--json", options.json, "File for all measurements");
   try {
     app.parse(argc, argv);

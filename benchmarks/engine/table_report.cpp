@@ -27,9 +27,10 @@ std::string processor() {
 }
 
 nlohmann::json json_of(const Measurement& m) {
-  nlohmann::json json = {{"contender", m.contender}, {"ns_per_particle", m.ns},
-                         {"median", m.median()},     {"least", m.least()},
-                         {"first", m.first_ns},      {"bytes_per_particle", m.bytes}};
+  nlohmann::json json = {
+      {"contender", m.contender},     {"ns_per_particle", m.ns}, {"update_ns_per_particle", m.update_ns},
+      {"median", m.median()},         {"least", m.least()},      {"first", m.first_ns},
+      {"bytes_per_particle", m.bytes}};
   if (m.keeps_structure)
     json["updates"] = {{"refreshes", m.stats.refreshes},
                        {"repairs", m.stats.repairs},
@@ -65,16 +66,16 @@ double median_ratio(const Measurement& a, const Measurement& b) {
 void print_scene(const SceneResult& result) {
   fmt::print("\n{}: {} particles, {:.1f} pairs each, {} configurations ({})\n", result.scene,
              result.particles, result.pairs, result.lists, result.origin);
-  fmt::print("  {:<24}{:>9}{:>9}{:>9}{:>9}{:>9}  {}\n", "", "median", "least", "first", "to grid", "bytes",
-             "refreshed, repaired, built");
+  fmt::print("  {:<24}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}  {}\n", "", "median", "least", "update", "first",
+             "to grid", "bytes", "refreshed, repaired, built");
   const Measurement* grid = result.best_grid();
   for (const Measurement& m : result.measurements) {
     const std::string ratio = grid ? fmt::format("{:.2f}", median_ratio(m, *grid)) : "-";
     const std::string updates =
         m.keeps_structure ? fmt::format("{}, {}, {}", m.stats.refreshes, m.stats.repairs, m.stats.builds)
                           : "";
-    fmt::print("  {:<24}{:>9.1f}{:>9.1f}{:>9.1f}{:>9}{:>9.0f}  {}\n", m.contender, m.median(), m.least(),
-               m.first_ns, ratio, m.bytes, updates);
+    fmt::print("  {:<24}{:>9.1f}{:>9.1f}{:>9.1f}{:>9.1f}{:>9}{:>9.0f}  {}\n", m.contender, m.median(),
+               m.least(), median_of(m.update_ns), m.first_ns, ratio, m.bytes, updates);
   }
 }
 
@@ -103,6 +104,7 @@ void write_json(const std::string& path, const std::vector<SceneResult>& results
                       {"origin", result.origin},
                       {"particles", result.particles},
                       {"pairs_per_particle", result.pairs},
+                      {"list_hash", fmt::format("{:016x}", result.list_hash)},
                       {"configurations", result.lists},
                       {"measurements", std::move(measurements)}});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace dch::bench {
 /// Times of one contender on one scene, in ns for one particle and all its lists of one configuration.
 struct Measurement {
   std::string contender;
-  std::vector<double> ns;  ///< by repetition: mean over the configurations after the first
-  double first_ns = 0;     ///< least time of the first configuration: build and lists
-  double bytes = 0;        ///< held beyond the lists, by particle
+  std::vector<double> ns;         ///< by repetition: mean over the configurations after the first
+  std::vector<double> update_ns;  ///< the part of it that Contender::update() takes, 0 if it keeps nothing
+  double first_ns = 0;            ///< least time of the first configuration: build and lists
+  double bytes = 0;               ///< held beyond the lists, by particle
   bool keeps_structure = false;
   SearchStats stats;  ///< of the last repetition, if it keeps a structure
 
@@ -24,8 +26,9 @@ struct Measurement {
 struct SceneResult {
   std::string scene, origin;
   std::size_t particles = 0;
-  double pairs = 0;  ///< by particle, all lists together
-  int lists = 0;     ///< timed configurations of one repetition
+  double pairs = 0;             ///< by particle, all lists together
+  std::uint64_t list_hash = 0;  ///< CheckedLists::last_hash
+  int lists = 0;                ///< timed configurations of one repetition
   std::vector<Measurement> measurements;
 
   /// The measurement of that name, or null.

@@ -80,7 +80,7 @@ Table measure_growth(std::int64_t most_beads) {
   fmt::print("{:<20}{:>9}{:>13}{:>12}{:>12}{:>12}\n", "shape", "beads", "visited", "per bead", "law",
              "to law");
   for (const Family& family : kFamilies) {
-    for (std::int64_t n = 64; n <= most_beads; n *= 8) {
+    for (std::int64_t n = 64; n <= most_beads; n *= 2) {
       table.push_back(measure(family, static_cast<std::int32_t>(n)));
     }
   }

@@ -72,12 +72,24 @@ Course follow(const Frames& frames, WrappedHierarchy& kept, WrappedHierarchy& bu
   return course;
 }
 
+const char* name_of(Verification verification) {
+  switch (verification) {
+    case Verification::cascade:
+      return "cascade";
+    case Verification::naive:
+      return "naive";
+    case Verification::watched:
+      break;
+  }
+  return "watched";
+}
+
 Row measure(const Frames& frames, int leaf, Verification verification) {
   const Necklace necklace = Necklace::chain(std::vector<double>(frames[0].size(), 0.5));
   WrappedHierarchy kept(necklace, {leaf, verification}), built(necklace, {leaf, verification});
   const Course course = follow(frames, kept, built);
   const auto& stats = kept.stats();
-  const char* name = verification == Verification::cascade ? "cascade" : "naive";
+  const char* name = name_of(verification);
   const auto updates = static_cast<double>(frames.size() - 1);
   const double tests =
       static_cast<double>(stats.containment_tests) / updates / static_cast<double>(frames[0].size());
@@ -91,6 +103,7 @@ Row measure(const Frames& frames, int leaf, Verification verification) {
           {"verification", name},
           {"tests_per_bead", tests},
           {"most_tests_per_bead", most},
+          {"looks_per_update", static_cast<double>(stats.looks) / updates},
           {"escapes_per_update", static_cast<double>(stats.escapes) / updates},
           {"share_of_cages_changed", changed},
           {"repair_ns_per_bead", repair},
@@ -108,7 +121,7 @@ Table measure_motion(const std::string& trajectory, int most_frames) {
              "escapes", "changed", "repair ns", "build ns", "ratio");
   Table table;
   for (const int leaf : {1, 8}) {
-    for (const Verification verification : {Verification::cascade, Verification::naive}) {
+    for (const auto verification : {Verification::cascade, Verification::naive, Verification::watched}) {
       table.push_back(measure(frames, leaf, verification));
     }
   }

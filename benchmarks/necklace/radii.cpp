@@ -83,7 +83,7 @@ Table measure_radii(std::int64_t most_beads, const std::string& trajectory, int 
   Table table;
   fmt::print("{:<20}{:>9}{:>11}{:>11}{:>11}{:>18}\n", "shape", "beads", "roots", "mean", "largest",
              "sqrt(floor lg n)");
-  for (std::int32_t k = 3; std::int64_t{1} << k <= most_beads; k += 3)
+  for (std::int32_t k = 1; std::int64_t{1} << k <= most_beads; ++k)
     table.push_back(measure(scene_of("tight set", necklace::tight_set(k), 0)));
   const auto n = static_cast<std::int32_t>(most_beads);
   table.push_back(measure(scene_of("self-avoiding walk", necklace::self_avoiding_walk(n, 1, 1), 0.49)));

@@ -5,7 +5,7 @@
 Bonds are harmonic (HarmonicBondForce), beads attract each other (DCHNonbondedForce), and a NecklaceContactForce keeps
 them from running through each other and counts where the chain touches itself.
 
-usage: globule.py [--beads 200] [--steps 40000] [--rows 20] [--platform CPU] [--seed 1]
+usage: globule.py [--beads 200] [--steps 160000] [--rows 20] [--platform CPU] [--seed 1]
 """
 
 import argparse
@@ -54,7 +54,7 @@ def radius_of_gyration(positions):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--beads", type=int, default=200)
-    parser.add_argument("--steps", type=int, default=40000)
+    parser.add_argument("--steps", type=int, default=160000)
     parser.add_argument("--rows", type=int, default=20, help="of the table")
     parser.add_argument("--platform", default="CPU")
     parser.add_argument("--seed", type=int, default=1)

@@ -186,9 +186,10 @@ std::size_t CellSearch::memory_bytes() const {
 }  // namespace
 
 std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions) {
-  if (!(std::isfinite(radius) && radius > 0)) {
+  constexpr double kLeast = 1e-100;  // squares of shorter ones would underflow
+  if (!(std::isfinite(radius) && radius >= kLeast)) {
     throw InvalidParameter("the search radius is " + detail::describe(radius) +
-                           "; it must be finite and > 0");
+                           "; it must be finite and at least " + detail::describe(kLeast));
   }
   if (divisions < 1 || divisions > 4) {
     throw InvalidParameter("cells of 1/" + std::to_string(divisions) +

@@ -216,6 +216,7 @@ void ClusterPairFinder::join(ClusterPairs& out) {
   out.torn.clear();
   out.shift_vector.resize(out.shift.size());
   out.shift_vector_float.resize(out.shift.size());
+  out.has_shift_vectors = false;
 }
 
 void ClusterPairFinder::append_parts(ClusterPairs& out) const {

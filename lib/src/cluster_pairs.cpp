@@ -127,7 +127,9 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now, Executor*
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
   refresh_clusters(positions, now, executor);
+  if (has_shift_vectors && now == box) return;
   refresh_shifts(now);
+  has_shift_vectors = true;
   box = now;
 }
 

@@ -8,11 +8,13 @@
 #include <dch/error.hpp>
 
 #include "base_radius.hpp"
+#include "describe.hpp"
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
 
 namespace dch {
 
+using detail::describe;
 using detail::kNone;
 using detail::with_metric;
 
@@ -118,18 +120,18 @@ void Hierarchy::Impl::reset(const Box& b) {
 namespace {
 
 HierarchyParams checked(const HierarchyParams& p) {
-  if (!(std::isfinite(p.radius) && p.radius >= kMinRadius && p.radius <= kMaxCoordinate))
-    throw InvalidParameter("hierarchy radius (cutoff + skin) is " + std::to_string(p.radius) +
-                           "; it must be a finite length in 1e-100..1e100");
+  if (!(std::isfinite(p.radius) && p.radius >= kMinRadius && p.radius <= kMaxRadius))
+    throw InvalidParameter("hierarchy radius (cutoff + skin) is " + describe(p.radius) +
+                           "; it must be a finite length in 1e-30..1e30, use another unit of length");
   if (!(p.c >= kMinC && p.c <= kMaxC))
-    throw InvalidParameter("hierarchy parameter c is " + std::to_string(p.c) +
+    throw InvalidParameter("hierarchy parameter c is " + describe(p.c) +
                            "; it must be in 1.05..1000 (at c = 1 parent and child edges change together)");
   if (!(p.base_radius == 0 ||
-        (std::isfinite(p.base_radius) && p.base_radius >= kMinRadius && p.base_radius <= kMaxCoordinate)))
-    throw InvalidParameter("hierarchy parameter base_radius is " + std::to_string(p.base_radius) +
-                           "; it must be a length in 1e-100..1e100, or 0 for a choice by the points");
+        (std::isfinite(p.base_radius) && p.base_radius >= kMinRadius && p.base_radius <= kMaxRadius)))
+    throw InvalidParameter("hierarchy parameter base_radius is " + describe(p.base_radius) +
+                           "; it must be a length in 1e-30..1e30, or 0 for a choice by the points");
   if (p.base_radius != 0 && p.edge_rule == EdgeRule::thesis)
-    throw InvalidParameter("hierarchy parameter base_radius is " + std::to_string(p.base_radius) +
+    throw InvalidParameter("hierarchy parameter base_radius is " + describe(p.base_radius) +
                            "; the thesis's edge rule ties it to radius / (2 c): leave it 0");
   if (p.max_roots < 1)
     throw InvalidParameter("max_roots is " + std::to_string(p.max_roots) + "; it must be at least 1");

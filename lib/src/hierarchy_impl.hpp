@@ -38,7 +38,8 @@ inline constexpr double kEdgeSlack = 0.1;
 inline constexpr double kStrayed = 0.1;
 
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
-inline constexpr double kMinRadius = 1e-100;
+/// Coordinates relative to clusters, and their inverse units, stay within single precision.
+inline constexpr double kMinRadius = 1e-30, kMaxRadius = 1e30;
 
 struct Hierarchy::Impl {
   using Level = detail::Level;

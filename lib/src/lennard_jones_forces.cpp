@@ -172,29 +172,35 @@ template <class Real>
 void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
                        Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const {
   using Of = Kernels<Real>;
+  const auto& functions = Of::functions(detail::cluster_kernels(instruction_set()));
+  const auto function = functions.choose(kind(), parameters(), sums != nullptr);
   const auto parts = static_cast<int>(pairs.parts.size()) - 1;
   const int workers = executor_ ? std::min(executor_->threads(), parts) : 1;
   const auto clusters = static_cast<std::size_t>(pairs.clusters());
   scratch.force.resize(static_cast<std::size_t>(workers));
+  scratch.lanes.resize(static_cast<std::size_t>(workers));
   scratch.earlier.resize(clusters);
   if (has_charges_) scratch.charge.resize(clusters);
   if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
   run_parts(executor_, workers, [&](int worker) {
     const ClusterPairs::Range own = share(pairs.clusters(), worker, workers);
     scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
+    if (functions.wants_lanes) scratch.lanes[static_cast<std::size_t>(worker)].resize(clusters);
     if (has_charges_) sort_by_slot(pairs, charges, charge_unit_, own, scratch.charge);
     if (mixes_) sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
     if (mixes_) sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
-  const auto function =
-      Of::functions(detail::cluster_kernels(instruction_set())).choose(kind(), parameters(), sums != nullptr);
   Turns turns(parts);
   run_parts(executor_, workers, [&](int worker) {
     auto& force = scratch.force[static_cast<std::size_t>(worker)];
+    auto& lanes = scratch.lanes[static_cast<std::size_t>(worker)];
     for (int part = turns.take(); part >= 0; part = turns.take()) {
       const ClusterPairs::Part& own = pairs.parts[static_cast<std::size_t>(part)];
       const ClusterPairs::Part& next = pairs.parts[static_cast<std::size_t>(part) + 1];
       const std::size_t first_row = pairs.first_row(own), last_row = pairs.first_row(next);
+      const Span<const ClusterPairs::Range> ranges{
+          pairs.ranges.data() + own.first_range,
+          static_cast<std::size_t>(next.first_range - own.first_range)};
       const detail::LjTask<Real> task{pairs.rows.data() + first_row,
                                       static_cast<std::int64_t>(last_row - first_row),
                                       pairs.entries.data(),
@@ -207,12 +213,12 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
                                       mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
                                       has_charges_ ? scratch.charge.data()->slot : nullptr,
                                       constants<Real>(),
-                                      force.data()};
+                                      force.data(),
+                                      functions.wants_lanes ? lanes.data()->numbers : nullptr,
+                                      {own.first_cluster, next.first_cluster},
+                                      ranges};
       detail::LjSums found;
       function(task, found);
-      const Span<const ClusterPairs::Range> ranges{
-          pairs.ranges.data() + own.first_range,
-          static_cast<std::size_t>(next.first_range - own.first_range)};
       turns.in_turn(part, [&] {
         add_for_later(ranges, force, scratch.earlier);
         if (sums) give(found, *sums);

@@ -8,8 +8,8 @@
 namespace dch::necklace::detail {
 
 /// Refuses positions that no structure over the beads can work with; those of particles in no chain are not
-/// looked at.
+/// looked at. Returns the largest magnitude of a coordinate.
 /// @throws InvalidParameter for another number of positions than particles, InvalidPosition.
-void check_positions(const Necklace& necklace, Span<const Vec3> positions);
+double check_positions(const Necklace& necklace, Span<const Vec3> positions);
 
 }  // namespace dch::necklace::detail

@@ -159,7 +159,7 @@ class ContactDescent {
   void beads_of_leaves(const ChainTrees::Node& a, const ChainTrees::Node& b, const Pair& pair,
                        const BondRule* rule) {
     const bool ask = rule != nullptr && rule->leaves_out_some(a, b);
-    if (!ask && all_apart(a, b, pair)) return;
+    if (!ask && !Visitor::kWantsSeparated && pair.one_image) return near_beads(a, b, pair);
     for (std::int32_t p = a.first; p < a.first + a.count; ++p) {
       for (std::int32_t q = b.first; q < b.first + b.count; ++q) {
         if (!ask || !rule->leaves_out(q - p)) decide(p, q);
@@ -167,22 +167,27 @@ class ContactDescent {
     }
   }
 
-  /// A quick look without a branch at whether any beads of two leaves are near each other: most often none
-  /// are. Never for a visitor that wants to know of each pair.
-  bool all_apart(const ChainTrees::Node& a, const ChainTrees::Node& b, const Pair& pair) {
-    if (Visitor::kWantsSeparated || !pair.one_image || (a.count == 1 && b.count == 1)) return false;
-    bool near = false;
+  /// Contacts of two leaves, for a visitor that does not want to know of each pair: a bead that is apart from
+  /// the other cage is apart from its beads, and of the others a loop without a branch notes which are near.
+  void near_beads(const ChainTrees::Node& a, const ChainTrees::Node& b, const Pair& pair) {
+    const Ball& cage = cages_[pair.b];
     const double slack = gap_ + hierarchy_.rounding();
     for (std::int32_t p = a.first; p < a.first + a.count; ++p) {
       const Vec3 at = beads_[p].center - pair.shift;
       const double reach = beads_[p].radius + slack;
-      for (std::int32_t q = b.first; q < b.first + b.count; ++q) {
-        const double sum = std::max(reach + beads_[q].radius, 0.0);
-        near |= norm2(beads_[q].center - at) <= sum * sum;
+      const double to_cage = reach + cage.radius + 1e-11 * (cage.radius + beads_[p].radius);
+      if (to_cage < 0 || norm2(cage.center - at) > to_cage * to_cage) continue;
+      std::uint64_t near = 0;  // leaves hold up to 64 beads
+      for (std::int32_t k = 0; k < b.count; ++k) {
+        const Ball& bead = beads_[b.first + k];
+        const double sum = std::max(reach + bead.radius, 0.0);
+        near |= std::uint64_t{norm2(bead.center - at) <= sum * sum} << k;
+      }
+      stats_.bead_pairs += b.count;
+      for (std::int32_t q = b.first; near != 0; near >>= 1, ++q) {
+        if ((near & 1) != 0 && touch(p, q)) visitor_.contact(p, q);
       }
     }
-    if (!near) stats_.bead_pairs += std::int64_t{a.count} * b.count;
-    return !near;
   }
 
   const CageHierarchy& hierarchy_;

@@ -10,6 +10,7 @@
 #include "bead_check.hpp"
 #include "contact_check.hpp"
 #include "contact_of.hpp"
+#include "found_pairs.hpp"
 
 namespace dch::necklace {
 
@@ -25,8 +26,6 @@ void check(const ContactFinderParams& params) {
                            "; it has to be 1 or more");
   }
 }
-
-bool ascending(const Contact& a, const Contact& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }
 
 std::string with_two_digits(double value) {
   const std::string text = std::to_string(value);
@@ -144,8 +143,7 @@ bool ContactFinder::is_contact(std::int32_t p, std::int32_t q, const ContactQuer
 
 Contact ContactFinder::contact_at(std::int32_t p, std::int32_t q) const {
   const auto particle = necklace().particle();
-  auto i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
-  if (particle[i] > particle[j]) std::swap(i, j);
+  const auto i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
   const Vec3 d = box_.nearest_image(by_place_[j] - by_place_[i]);
   return detail::contact_of(particle[i], particle[j], by_place_[i], d, radii_[i], radii_[j]);
 }
@@ -156,15 +154,18 @@ bool ContactFinder::by_dch(const ContactQuery& query, bool first_only, std::vect
     out = necklace::find_contacts(wrapped_now(), query);
     return !out.empty();
   }
+  detail::FoundPairs found(necklace().particle());
   for (std::size_t row = 0; row < list_.size(); ++row) {
     const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
     for (const std::int32_t q : list_.row(row)) {
       if (!is_contact(p, q, query)) continue;
       if (first_only) return true;
-      out.push_back(contact_at(p, q));
+      found.add(p, q);
     }
   }
-  std::sort(out.begin(), out.end(), ascending);
+  const auto& pairs = found.sorted();
+  out.reserve(pairs.size());
+  for (const auto& pair : pairs) out.push_back(contact_at(pair.places[0], pair.places[1]));
   return !out.empty();
 }
 

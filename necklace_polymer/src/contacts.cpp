@@ -9,6 +9,7 @@
 #include "contact_check.hpp"
 #include "contact_descent.hpp"
 #include "contact_of.hpp"
+#include "found_pairs.hpp"
 
 namespace dch::necklace {
 
@@ -33,17 +34,19 @@ struct Any {
   void separated(const CagedBeads&, const CagedBeads&) {}
 };
 
-/// Collects contacts as pairs of places.
+/// Collects contacts.
 struct All {
+  explicit All(const CageHierarchy& hierarchy) : contacts(hierarchy.necklace().particle()) {}
   static constexpr bool kWantsSeparated = false;
-  std::vector<IndexPair> contacts;
-  bool done() const { return false; }
-  void contact(std::int32_t p, std::int32_t q) { contacts.push_back({p, q}); }
+  detail::FoundPairs contacts;
+  static bool done() { return false; }
+  void contact(std::int32_t p, std::int32_t q) { contacts.add(p, q); }
   void separated(const CagedBeads&, const CagedBeads&) {}
 };
 
 /// Collects separating pairs too.
 struct Certified : All {
+  using All::All;
   static constexpr bool kWantsSeparated = true;
   std::vector<SeparatingPair> pairs;
   void separated(const CagedBeads& a, const CagedBeads& b) { pairs.push_back({a, b}); }
@@ -100,23 +103,20 @@ void search(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& 
   if (stats != nullptr) *stats = descent.stats();
 }
 
-Contact contact_at(const CageHierarchy& hierarchy, IndexPair places) {
-  const auto particles = hierarchy.necklace().particle();
-  auto [p, q] = places;
-  if (particles[static_cast<std::size_t>(p)] > particles[static_cast<std::size_t>(q)]) std::swap(p, q);
-  const auto first = static_cast<std::size_t>(p), second = static_cast<std::size_t>(q);
+Contact contact_at(const CageHierarchy& hierarchy, const detail::FoundPairs::Pair& pair) {
+  const auto first = static_cast<std::size_t>(pair.places[0]);
+  const auto second = static_cast<std::size_t>(pair.places[1]);
   const Vec3 at = hierarchy.positions()[first];
   const Vec3 d = hierarchy.box().nearest_image(hierarchy.positions()[second] - at);
-  return detail::contact_of(particles[first], particles[second], at, d, hierarchy.beads()[first].radius,
+  return detail::contact_of(pair.i(), pair.j(), at, d, hierarchy.beads()[first].radius,
                             hierarchy.beads()[second].radius);
 }
 
-std::vector<Contact> sorted(const CageHierarchy& hierarchy, const std::vector<IndexPair>& places) {
+std::vector<Contact> sorted(const CageHierarchy& hierarchy, All& found) {
+  const auto& pairs = found.contacts.sorted();
   std::vector<Contact> result;
-  result.reserve(places.size());
-  for (const IndexPair& pair : places) result.push_back(contact_at(hierarchy, pair));
-  std::sort(result.begin(), result.end(),
-            [](const Contact& a, const Contact& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+  result.reserve(pairs.size());
+  for (const auto& pair : pairs) result.push_back(contact_at(hierarchy, pair));
   return result;
 }
 
@@ -145,15 +145,15 @@ bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, Cont
 
 std::vector<Contact> find_contacts(const CageHierarchy& hierarchy, const ContactQuery& query,
                                    ContactStats* stats) {
-  All visitor;
+  All visitor(hierarchy);
   search(hierarchy, query, visitor, stats);
-  return sorted(hierarchy, visitor.contacts);
+  return sorted(hierarchy, visitor);
 }
 
 Separation separate(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats) {
-  Certified visitor;
+  Certified visitor(hierarchy);
   search(hierarchy, query, visitor, stats);
-  return {std::move(visitor.pairs), sorted(hierarchy, visitor.contacts)};
+  return {std::move(visitor.pairs), sorted(hierarchy, visitor)};
 }
 
 }  // namespace dch::necklace

@@ -29,6 +29,19 @@ double normal_angle(double a, double b, double distance) {
   return std::acos(std::clamp((a * a + b * b - distance * distance) / (2 * a * b), -1.0, 1.0));
 }
 
+/// Names the first coordinate that is not one.
+[[noreturn]] void refuse(const Necklace& necklace, Span<const Vec3> positions) {
+  for (const std::int32_t bead : necklace.particle()) {
+    const Vec3 p = positions[static_cast<std::size_t>(bead)];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(p[axis]) <= kMaxCoordinate) continue;
+      throw InvalidPosition("bead " + std::to_string(bead) + " has the coordinate " + number(p[axis]) +
+                            "; coordinates have to be finite and at most 1e100 in magnitude");
+    }
+  }
+  throw InvalidPosition("positions changed while they were read");
+}
+
 /// Takes the bonds one by one.
 class Measuring {
  public:
@@ -135,20 +148,21 @@ void require(const NecklaceMeasure& measure, const NecklaceLimits& limits) {
 
 namespace detail {
 
-void check_positions(const Necklace& necklace, Span<const Vec3> positions) {
+double check_positions(const Necklace& necklace, Span<const Vec3> positions) {
   if (positions.size() != necklace.particles()) {
     throw InvalidParameter("there are " + std::to_string(positions.size()) + " positions for a necklace of " +
                            std::to_string(necklace.particles()) + " particles; give one for each");
   }
+  bool well = true;
+  double largest = 0;
   for (const std::int32_t bead : necklace.particle()) {
-    const Vec3 p = positions[static_cast<std::size_t>(bead)];
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::abs(p[axis]) <= kMaxCoordinate)) {
-        throw InvalidPosition("bead " + std::to_string(bead) + " has the coordinate " + number(p[axis]) +
-                              "; coordinates have to be finite and at most 1e100 in magnitude");
-      }
-    }
+    const Vec3& p = positions[static_cast<std::size_t>(bead)];
+    const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
+    well &= (x <= kMaxCoordinate) & (y <= kMaxCoordinate) & (z <= kMaxCoordinate);
+    largest = std::max(largest, std::max(std::max(x, y), z));
   }
+  if (!well) refuse(necklace, positions);
+  return largest;
 }
 
 }  // namespace detail

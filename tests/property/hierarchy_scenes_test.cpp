@@ -179,20 +179,5 @@ TEST_P(HierarchyScenes, ListsEqualTheOracleInTheSmallestBox) {
 INSTANTIATE_TEST_SUITE_P(Boxes, HierarchyScenes, ::testing::ValuesIn(scenes::all_boxes(5.0)),
                          [](const auto& p) { return p.param.name; });
 
-TEST(HierarchyScenes, TheSameInputGivesTheSameHierarchy) {
-  const Box box = Box::orthorhombic({5, 5, 5});
-  const std::vector<Vec3> fcc = scenes::fcc(box, 0.5, 500);  // ties everywhere
-  HierarchyParams params;
-  params.radius = kRadius;
-  params.c = 1.25;
-  Hierarchy a(params), b(params);
-  a.build(fcc, box);
-  b.build(fcc, box);
-  for (std::int32_t id = 0; id < static_cast<std::int32_t>(fcc.size()); ++id) {
-    ASSERT_EQ(a.top_level(id), b.top_level(id));
-    ASSERT_EQ(a.parent(id, 0), b.parent(id, 0));
-  }
-}
-
 }  // namespace
 }  // namespace dch

@@ -7,26 +7,22 @@
 #include <set>
 #include <vector>
 
-#include "pair_check.hpp"
-#include "scene.hpp"
+#include "peer_lists.hpp"
 
 namespace dch::bench {
 
 /// OpenMM's CpuNeighborList on one thread: for each block of eight atoms, in an order of its own, the atoms
 /// near any of them. It takes positions in float, wrapped into the box, as OpenMM's CPU platform hands them
 /// over.
-class OpenMmLists {
+class OpenMmLists : public PeerLists {
  public:
   explicit OpenMmLists(const Scene& scene);
 
-  /// Copies the scene's positions to where make() reads them.
-  void take(const Scene& scene);
-  /// Makes the list; what is timed.
-  void make();
-  /// The pairs of the list that are within the radius.
-  PairSum pairs_within(const Scene& scene) const;
-  /// Number of pairs that the list holds, with those of its blocks that are farther apart.
-  std::int64_t pairs_held() const;
+  std::string name() const override { return "OpenMM CpuNeighborList"; }
+  void take(const Scene& scene) override;
+  void make() override;
+  PairSum pairs_within(const Scene& scene) const override;
+  std::int64_t pairs_held() const override;
 
  private:
   static constexpr int kBlockSize = 8;

@@ -104,6 +104,7 @@ struct ClusterPairs {
   std::vector<ClusterOfFour<float>> at_float;           ///< relative to their centers
   std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
   std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
+  bool has_shift_vectors = false;                       ///< of `box`; not so after a search
 
   /// A cluster whose particles were not all given in the image that is near its origin when refresh() last
   /// took them.

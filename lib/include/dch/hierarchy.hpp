@@ -36,7 +36,8 @@ enum class MaintenancePolicy {
 };
 
 struct HierarchyParams {
-  /// rho_0, the edge threshold of level 0 [length]: cutoff + skin of the list that the level-0 edges are.
+  /// rho_0, the edge threshold of level 0, 1e-30..1e30 [length]: cutoff + skin of the list that the level-0
+  /// edges are.
   double radius = 0;
   /// R_0, the radius within which level 1 covers the points [length]. 0: with EdgeRule::additive 2^k r0 for
   /// the k that gives a node of level 1 about 150 children, which suits lists (measured at each build); with

@@ -67,7 +67,8 @@ struct LennardJonesSums {
 /// Every pair in the masks of the ClusterPairs acts, at its distance now, if that is below the cutoff. Forces
 /// of different instruction sets differ by rounding (fused operations, order of sums); those of one set are
 /// the same every time, on any number of threads. One object belongs to one thread at a time; it keeps
-/// scratch memory of 96 bytes a cluster for each thread and once more, 32 a cluster with charges.
+/// scratch memory of 96 bytes a cluster for each thread and once more, with AVX-512 in single precision of
+/// 256 and 64, and 32 a cluster with charges.
 class LennardJones {
  public:
   /// One type. With `shifted` each pair's energy is lowered by what it is at the cutoff.
@@ -130,11 +131,16 @@ class LennardJones {
   struct alignas(4 * sizeof(Real)) FourNumbers {
     Real slot[4];
   };
+  template <class Real>
+  struct alignas(64) Lanes {
+    Real numbers[48];
+  };
   /// Scratch memory for one precision.
   template <class Real>
   struct Scratch {
     // All 0 between calls.
     std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its part
+    std::vector<std::vector<Lanes<Real>>> lanes;          ///< the same before it is summed up, if wanted
     std::vector<ClusterOfFour<Real>> earlier;             ///< found by parts before that of the cluster
     std::vector<FourNumbers<Real>> charge, half_sigma, root_epsilon;
   };

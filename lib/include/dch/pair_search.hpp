@@ -76,7 +76,7 @@ class PairSearch {
 
 /// Cell (voxel) list with a hash over occupied cells, built from scratch at every update: the baseline.
 /// Cells are of the reduced box and at least `radius` / `divisions` wide.
-/// @throws InvalidParameter unless radius is finite and > 0 and divisions is in 1..4.
+/// @throws InvalidParameter unless radius is finite and >= 1e-100 and divisions is in 1..4.
 std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions = 1);
 
 }  // namespace dch

@@ -28,7 +28,7 @@ struct Avx2Float {
   static V madd(V a, V b, V c) { return _mm256_fmadd_ps(a, b, c); }
   static V msub(V a, V b, V c) { return _mm256_fmsub_ps(a, b, c); }
   static V inverse(V a) { return _mm256_div_ps(set1(1), a); }
-  static V sqrt(V a) { return _mm256_sqrt_ps(a); }
+  static V over_root(V, V s) { return _mm256_sqrt_ps(s); }
   /// 2^n of integers n in -126..127.
   static V power_of_two(V n) {
     return _mm256_castsi256_ps(_mm256_slli_epi32(_mm256_castps_si256(add(n, set1(0x1.8p23f + 127))), 23));
@@ -115,7 +115,7 @@ struct Avx2Double {
   static V msub(V a, V b, V c) { return _mm256_fmsub_pd(a, b, c); }
   static V max(V a, V b) { return _mm256_max_pd(a, b); }
   static V inverse(V a) { return _mm256_div_pd(set1(1), a); }
-  static V sqrt(V a) { return _mm256_sqrt_pd(a); }
+  static V over_root(V, V s) { return _mm256_sqrt_pd(s); }
   /// 2^n of integers n in -1022..1023.
   static V power_of_two(V n) {
     return _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(add(n, set1(0x1.8p52 + 1023))), 52));

@@ -21,14 +21,24 @@ struct Avx512Float {
   static V zero() { return _mm512_setzero_ps(); }
   static V set1(float v) { return _mm512_set1_ps(v); }
   static V load(const float* p) { return _mm512_loadu_ps(p); }
+  static void store(float* p, V a) { _mm512_store_ps(p, a); }
   static V add(V a, V b) { return _mm512_add_ps(a, b); }
   static V sub(V a, V b) { return _mm512_sub_ps(a, b); }
   static V mul(V a, V b) { return _mm512_mul_ps(a, b); }
   static V max(V a, V b) { return _mm512_max_ps(a, b); }
   static V madd(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
   static V msub(V a, V b, V c) { return _mm512_fmsub_ps(a, b, c); }
-  static V inverse(V a) { return _mm512_div_ps(set1(1), a); }
-  static V sqrt(V a) { return _mm512_sqrt_ps(a); }
+  /// By an estimate of 14 bits and a Newton step, as division and root keep their unit busy for longer than
+  /// all other operations of a pair take together. Good to a unit in the last place or two.
+  static V inverse(V a) {
+    const V estimate = _mm512_rcp14_ps(a);
+    return madd(estimate, _mm512_fnmadd_ps(a, estimate, set1(1)), estimate);
+  }
+  static V over_root(V r2, V s) {
+    const V estimate = _mm512_rsqrt14_ps(r2), half = set1(0.5f);
+    const V rest = _mm512_fnmadd_ps(mul(r2, estimate), mul(half, estimate), half);
+    return _mm512_maskz_fmadd_ps(_mm512_cmp_ps_mask(s, zero(), _CMP_NEQ_OQ), estimate, rest, estimate);
+  }
   /// 2^n of integers n in -126..127.
   static V power_of_two(V n) {
     return _mm512_castsi512_ps(_mm512_slli_epi32(_mm512_castps_si512(add(n, set1(0x1.8p23f + 127))), 23));
@@ -125,7 +135,7 @@ struct Avx512Double {
   static V msub(V a, V b, V c) { return _mm512_fmsub_pd(a, b, c); }
   static V max(V a, V b) { return _mm512_max_pd(a, b); }
   static V inverse(V a) { return _mm512_div_pd(set1(1), a); }
-  static V sqrt(V a) { return _mm512_sqrt_pd(a); }
+  static V over_root(V, V s) { return _mm512_sqrt_pd(s); }
   /// 2^n of integers n in -1022..1023.
   static V power_of_two(V n) {
     return _mm512_castsi512_pd(_mm512_slli_epi64(_mm512_castpd_si512(add(n, set1(0x1.8p52 + 1023))), 52));

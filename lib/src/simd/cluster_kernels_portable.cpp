@@ -45,8 +45,8 @@ struct Portable {
   }
   static float root(float a) { return __builtin_sqrtf(a); }
   static double root(double a) { return __builtin_sqrt(a); }
-  static V sqrt(const V& a) {
-    return each([&](int k) { return root(a.lane[k]); });
+  static V over_root(const V&, const V& s) {
+    return each([&](int k) { return root(s.lane[k]); });
   }
   static V power_of_two(const V& n) {
     return each([&](int k) { return static_cast<Real>(__builtin_ldexp(1, static_cast<int>(n.lane[k]))); });

@@ -28,7 +28,7 @@ struct SseFloat {
   static V madd(V a, V b, V c) { return add(mul(a, b), c); }
   static V msub(V a, V b, V c) { return sub(mul(a, b), c); }
   static V inverse(V a) { return _mm_div_ps(set1(1), a); }
-  static V sqrt(V a) { return _mm_sqrt_ps(a); }
+  static V over_root(V, V s) { return _mm_sqrt_ps(s); }
   /// 2^n of integers n in -126..127.
   static V power_of_two(V n) {
     return _mm_castsi128_ps(_mm_slli_epi32(_mm_castps_si128(add(n, set1(0x1.8p23f + 127))), 23));
@@ -111,7 +111,7 @@ struct SseDouble {
     const __m128d one = _mm_set1_pd(1);
     return {_mm_div_pd(one, a.low), _mm_div_pd(one, a.high)};
   }
-  static V sqrt(V a) { return {_mm_sqrt_pd(a.low), _mm_sqrt_pd(a.high)}; }
+  static V over_root(V, V s) { return {_mm_sqrt_pd(s.low), _mm_sqrt_pd(s.high)}; }
   /// 2^n of integers n in -1022..1023.
   static V power_of_two(V n) {
     const V shifted = add(n, set1(0x1.8p52 + 1023));

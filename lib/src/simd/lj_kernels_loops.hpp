@@ -246,6 +246,7 @@ void add_reaction_field(typename S::V r2, typename S::V s, typename S::V over_r,
   }
 }
 
+/// S::over_root gives 1/r from these two, and 0 where s is.
 /// @param s inverse squared distances, 0 where nothing acts
 /// @param charge products of charges
 template <class S, bool kSums, ForceKind kKind, class Coefficients>
@@ -258,7 +259,7 @@ PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2
     terms.energy = S::sub(terms.energy, above);
   }
   if constexpr (has_charges(kKind) || is_switched(kKind)) {
-    const V over_r = S::sqrt(s);
+    const V over_r = S::over_root(r2, s);
     if constexpr (is_switched(kKind)) switch_off<S>(S::mul(r2, over_r), over_r, constants, terms);
     if constexpr (has_reaction_field(kKind))
       add_reaction_field<S, kSums>(r2, s, over_r, charge, constants, terms);
@@ -288,6 +289,39 @@ struct RowSums {
   typename S::V energy, coulomb_energy, virial[6];
 };
 
+/// Whether forces on clusters J are kept lane by lane, in memory, while rows are computed. Where one register
+/// holds all 16 pairs this takes a fused operation for each axis; to sum up over cluster I, which is put off
+/// to the end, takes nine more, and shuffles among them.
+template <class S>
+constexpr bool kWantsLanes = S::kParts == 1;
+
+/// Adds force / r times displacements to an entry's lanes and to what the row has summed up.
+template <class S>
+void add_to_lanes(typename S::V force, const Coordinates<S>& d, Coordinates<S>& sum,
+                  typename S::Real* lanes) {
+  static_assert(S::kParts == 1);
+  sum.x[0] = S::madd(force, d.x[0], sum.x[0]);
+  sum.y[0] = S::madd(force, d.y[0], sum.y[0]);
+  sum.z[0] = S::madd(force, d.z[0], sum.z[0]);
+  S::store(lanes, S::madd(force, d.x[0], S::load(lanes)));
+  S::store(lanes + 16, S::madd(force, d.y[0], S::load(lanes + 16)));
+  S::store(lanes + 32, S::madd(force, d.z[0], S::load(lanes + 32)));
+}
+
+/// Sums up the lanes of clusters and leaves them 0.
+template <class S>
+void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range clusters) {
+  for (std::int32_t c = clusters.first; c < clusters.last; ++c) {
+    auto* const lanes = task.lanes + kNumbersOfLanes * c;
+    Coordinates<S> force;
+    force.x[0] = S::load(lanes);
+    force.y[0] = S::load(lanes + 16);
+    force.z[0] = S::load(lanes + 32);
+    S::add_over_i(force, task.force[c]);
+    for (int axis = 0; axis < 3; ++axis) S::store(lanes + 16 * axis, S::zero());
+  }
+}
+
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
 void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
@@ -307,9 +341,13 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
     force.x[p] = S::mul(terms.force, dx);
     force.y[p] = S::mul(terms.force, dy);
     force.z[p] = S::mul(terms.force, dz);
-    sum.force.x[p] = S::add(sum.force.x[p], force.x[p]);
-    sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
-    sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
+    if constexpr (kWantsLanes<S>) {
+      add_to_lanes<S>(terms.force, separation.d, sum.force, task.lanes + kNumbersOfLanes * entry.cluster);
+    } else {
+      sum.force.x[p] = S::add(sum.force.x[p], force.x[p]);
+      sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
+      sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
+    }
     if constexpr (kSums) {
       sum.energy = S::add(sum.energy, terms.energy);
       if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
@@ -321,7 +359,7 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
       sum.virial[5] = S::madd(dy, force.z[p], sum.virial[5]);
     }
   }
-  S::add_over_i(force, task.force[entry.cluster]);
+  if constexpr (!kWantsLanes<S>) S::add_over_i(force, task.force[entry.cluster]);
 }
 
 /// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
@@ -357,6 +395,10 @@ void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
       for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(sum.virial[k]);
     }
   }
+  if constexpr (kWantsLanes<S>) {
+    fold_lanes<S>(task, task.own);
+    for (const ClusterPairs::Range& range : task.later) fold_lanes<S>(task, range);
+  }
 }
 
 template <class S, ForceKind kKind>
@@ -382,7 +424,8 @@ constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
     {lj_functions_that_mix<S, ForceKind::lennard_jones>, lj_functions_of_kind<S, ForceKind::plain>,
      lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
      lj_functions_that_mix<S, ForceKind::switched>,
-     lj_functions_that_mix<S, ForceKind::switched_reaction_field>}};
+     lj_functions_that_mix<S, ForceKind::switched_reaction_field>},
+    kWantsLanes<S>};
 
 }  // namespace
 }  // namespace dch::detail

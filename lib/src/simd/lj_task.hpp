@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <dch/cluster_pairs.hpp>
+#include <dch/span.hpp>
 
 namespace dch::detail {
 
@@ -66,7 +67,13 @@ struct LjTask {
   const Real* charge;        ///< by slot, aligned; null without charges
   LjConstants<Real> constants;
   ClusterOfFour<Real>* force;  ///< by cluster; added to
+  Real* lanes;              ///< kNumbersOfLanes by cluster, aligned, 0 before and after; null unless wanted
+  ClusterPairs::Range own;  ///< clusters of the rows
+  Span<const ClusterPairs::Range> later;  ///< others that the rows name
 };
+
+/// Forces of the 16 pairs of two clusters, not yet summed up to those of a cluster's four slots: x, y, z.
+inline constexpr std::ptrdiff_t kNumbersOfLanes = 48;
 
 /// The same forces of pairs one by one, in double precision.
 struct LjPairTask {
@@ -99,6 +106,7 @@ struct LjFunctions {
     Function of_parameters[3][2];  ///< without sums and with them
   };
   OfKind of_kind[kForceKinds];
+  bool wants_lanes = false;  ///< whether they use LjTask::lanes
 
   Function choose(ForceKind kind, LjParameters parameters, bool sums) const {
     return of_kind[static_cast<int>(kind)].of_parameters[static_cast<int>(parameters)][sums ? 1 : 0];

@@ -9,7 +9,8 @@
 namespace OpenMMDCH {
 namespace {
 
-// Of the largest sum of two radii; not tuned. With more, searches are rarer and pairs between them are more.
+// Of the largest sum of two radii. With more, searches are rarer and pairs between them are more: in a melt
+// 0.3 to 0.45 are equally fast, 0.2 and 0.6 slower.
 constexpr double kSkinFraction = 0.3;
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace OpenMMDCH {
 namespace {
 
 // Of the cutoff: see docs/openmm.md for what it costs.
-constexpr double kSkinFraction = 0.15;
-// While fewer than one particle in so many is away from the box, all stay where they are: to move them takes
-// longer than to refresh the clusters of those few.
+constexpr double kSkinFraction = 0.12;
+// While fewer than one particle in so many is away from its cluster, all stay where they are: to move them
+// takes longer than to refresh the clusters of those few.
 constexpr std::size_t kAwayOfOne = 32;
 
 }  // namespace
@@ -49,10 +49,17 @@ void ClusterPairKeeper::chooseSkin(const dch::Box& box) {
 }
 
 void ClusterPairKeeper::rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
-  periods.resize(positions.size());
+  periods.assign(positions.size(), {});
+  shifts.clear();
   std::size_t away = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const dch::Vec3 n = box.fractional(box.wrap(positions[i])) - box.fractional(positions[i]);
+  for (std::size_t k = 0; k < pairs.particle.size(); ++k) {
+    if (pairs.particle[k] < 0) continue;
+    const auto i = static_cast<std::size_t>(pairs.particle[k]);
+    const std::size_t cluster = k / dch::ClusterPairs::kSlots, slot = k % dch::ClusterPairs::kSlots;
+    const auto& at = pairs.at[cluster];
+    const dch::Vec3 origin = pairs.origin[static_cast<std::size_t>(pairs.origin_of[cluster])];
+    const dch::Vec3 near = origin + dch::Vec3{at.x[slot], at.y[slot], at.z[slot]};
+    const dch::Vec3 n = box.fractional(near) - box.fractional(positions[i]);
     periods[i] = {std::nearbyint(n.x), std::nearbyint(n.y), std::nearbyint(n.z)};
     away += norm2(periods[i]) > 0;
   }
@@ -62,12 +69,14 @@ void ClusterPairKeeper::rememberPeriods(dch::Span<const dch::Vec3> positions, co
 dch::Span<const dch::Vec3> ClusterPairKeeper::broughtNear(dch::Span<const dch::Vec3> positions,
                                                           const dch::Box& box) {
   if (periods.size() != positions.size()) return positions;
-  const dch::Vec3 a = box.vector(0), b = box.vector(1), c = box.vector(2);
-  nearPositions.resize(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const dch::Vec3 n = periods[i];
-    nearPositions[i] = positions[i] + n.x * a + n.y * b + n.z * c;
+  if (shifts.empty() || box != boxOfShifts) {
+    const dch::Vec3 a = box.vector(0), b = box.vector(1), c = box.vector(2);
+    shifts.clear();
+    for (const dch::Vec3 n : periods) shifts.push_back(n.x * a + n.y * b + n.z * c);
+    boxOfShifts = box;
+    nearPositions.resize(positions.size());
   }
+  for (std::size_t i = 0; i < positions.size(); ++i) nearPositions[i] = positions[i] + shifts[i];
   return nearPositions;
 }
 

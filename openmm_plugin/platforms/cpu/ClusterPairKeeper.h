@@ -32,7 +32,7 @@ class ClusterPairKeeper {
 
  private:
   void chooseSkin(const dch::Box& box);
-  /// Remembers by which periods of the box positions are wrapped into it, unless few are outside.
+  /// Remembers by which periods of the box positions are brought to their clusters, unless few are elsewhere.
   void rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box);
   /// Positions moved by those periods, where there are any. OpenMM lets particles wander through any number
   /// of boxes, and clusters of which each particle is in an image of its own are slow to refresh.
@@ -46,7 +46,10 @@ class ClusterPairKeeper {
   std::optional<dch::StaleTest> staleTest;
   dch::ClusterPairs pairs;
   std::int64_t searchCount = 0;
-  std::vector<dch::Vec3> periods, nearPositions;  ///< the former in multiples of the box vectors
+  std::vector<dch::Vec3> periods;  ///< in multiples of the box vectors; empty if few are not 0
+  std::vector<dch::Vec3> shifts;   ///< the same as vectors
+  dch::Box boxOfShifts;
+  std::vector<dch::Vec3> nearPositions;
 };
 
 }  // namespace OpenMMDCH

@@ -23,7 +23,6 @@ class ContactAnalysis {
  public:
   ContactAnalysis(const ContactOptions& options, ProgressBar& progress)
       : options_(options), progress_(progress) {
-    report_.file = options.file;
     report_.query = options.query;
   }
   ContactReport run();
@@ -66,14 +65,7 @@ void ContactAnalysis::scan() {
   const Stopwatch watch;
   const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
   report_.scan_ms = watch.milliseconds();
-  report_.format = scan.format;
-  report_.unit = scan.length_unit;
-  report_.frames_passed = scan.frames_passed;
-  report_.fewest_atoms = scan.fewest_atoms;
-  report_.most_atoms = scan.most_atoms;
-  report_.box_kinds = scan.box_kinds;
-  report_.smallest_height = scan.smallest_height;
-  report_.smallest_height_frame = scan.smallest_height_frame;
+  static_cast<TrajectorySummary&>(report_) = scan;
   report_.has_times = scan.has_times;
   frames_expected_ = scan.frames;
   take_chains(scan);
@@ -116,7 +108,7 @@ void ContactAnalysis::require_gap_fits(const Scan& scan) const {
       "{}: frame {}: twice the largest radius + gap = {} exceeds half the smallest box height, {} "
       "({}); give radii and a gap that sum up to at most that, or leave the frame out with "
       "--frames",
-      scan.path, scan.smallest_height_frame, reach, limit, scan.length_unit));
+      scan.file, scan.smallest_height_frame, reach, limit, scan.unit));
 }
 
 void ContactAnalysis::open_data_file() {

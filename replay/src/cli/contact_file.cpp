@@ -52,22 +52,30 @@ void write_chains(hid_t file, const necklace::Necklace& necklace, const std::vec
   write_column(group, "ring", H5T_STD_I8LE, ring);
 }
 
+/// Writes numbers of pairs of bins a chunk at once: HDF5 compresses a chunk that its cache has no room for
+/// anew with every row.
+template <class Value>
+void write_matrix(hid_t group, const char* name, std::size_t bins, const Value& value) {
+  const std::size_t rows = std::max<std::size_t>(1, kChunkEntries / std::max<std::size_t>(1, bins));
+  const Hdf5Id data = create_growing(group, name, H5T_STD_I64LE, bins, rows);
+  std::vector<std::int64_t> chunk;
+  for (std::size_t first = 0; first < bins; first += rows) {
+    const std::size_t last = std::min(bins, first + rows);
+    chunk.clear();
+    for (std::size_t a = first; a < last; ++a)
+      for (std::size_t b = 0; b < bins; ++b) chunk.push_back(value(a, b));
+    append_rows(data, H5T_NATIVE_INT64, last - first, bins, chunk.data());
+  }
+}
+
 void write_map(hid_t file, const necklace::ContactMap& map) {
   const Hdf5Id group = create_group(file, "map");
   const std::size_t bins = map.bins();
   std::vector<std::int64_t> first;
   for (std::size_t bin = 0; bin <= bins; ++bin) first.push_back(map.first_place(bin));
   write_column(group, "first_place", H5T_STD_I64LE, first);
-  const hsize_t rows = std::max<hsize_t>(1, kChunkEntries / std::max<std::size_t>(1, bins));
-  const Hdf5Id contacts = create_growing(group, "contacts", H5T_STD_I64LE, bins, rows);
-  const Hdf5Id pairs = create_growing(group, "pairs", H5T_STD_I64LE, bins, rows);
-  std::vector<std::int64_t> row(bins);
-  for (std::size_t a = 0; a < bins; ++a) {
-    for (std::size_t b = 0; b < bins; ++b) row[b] = map.contacts(a, b);
-    append_rows(contacts, H5T_NATIVE_INT64, 1, bins, row.data());
-    for (std::size_t b = 0; b < bins; ++b) row[b] = map.pairs(a, b);
-    append_rows(pairs, H5T_NATIVE_INT64, 1, bins, row.data());
-  }
+  write_matrix(group, "contacts", bins, [&](std::size_t a, std::size_t b) { return map.contacts(a, b); });
+  write_matrix(group, "pairs", bins, [&](std::size_t a, std::size_t b) { return map.pairs(a, b); });
 }
 
 void write_probability(hid_t file, const necklace::ContactProbability& probability) {

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // report.json of `dch contacts`. docs/report-schema.md describes every key; change both together.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "contact_report.hpp"
-#include "version.hpp"
+#include "summary_json.hpp"
 
 namespace dch::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kSchemaVersion = 1;
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// One value of each frame as an array.
 template <class Value>
@@ -23,18 +19,7 @@ Json column(const ContactReport& report, Value value) {
 }
 
 Json input_json(const ContactReport& report) {
-  Json json;
-  json["schema"] = kSchemaVersion;
-  json["version"] = kVersion;
-  json["file"] = report.file;
-  json["format"] = report.format;
-  json["unit"] = report.unit;
-  json["frames"] = report.frames.size();
-  json["frames_read"] = report.frames_passed;
-  json["atoms"] = report.most_atoms;
-  json["fewest_atoms"] = report.fewest_atoms;
-  json["box_kinds"] = report.box_kinds;
-  json["smallest_box_height"] = number_or_null(report.smallest_height);
+  Json json = begin_report(report, report.frames.size());
   json["topology"] = report.topology;
   json["chains"] = {{"number", report.chains},
                     {"rings", report.rings},

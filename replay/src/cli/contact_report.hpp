@@ -11,6 +11,8 @@
 #include <dch/necklace/contact_probability.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 
+#include "trajectory_summary.hpp"
+
 namespace dch::cli {
 
 /// Contacts of one frame. Times in milliseconds of wall clock.
@@ -54,13 +56,8 @@ struct FrameSpread {
 };
 
 /// All that `dch contacts` found; its table, JSON and page show nothing else.
-struct ContactReport {
-  std::string file, format, unit, topology;
-  std::int64_t frames_passed = 0;                 ///< frames read, selected or not
-  std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
-  std::vector<std::string> box_kinds;
-  double smallest_height = 0;  ///< infinity without a periodic box [length]
-  std::int64_t smallest_height_frame = 0;
+struct ContactReport : TrajectorySummary {
+  std::string topology;
   bool has_times = false;  ///< events are timed by the frames' times; else by their time steps
   std::int64_t chains = 0, rings = 0, beads = 0, shortest_chain = 0, longest_chain = 0;
   double smallest_radius = 0, largest_radius = 0;  ///< [length]

@@ -84,22 +84,21 @@ std::string cost_text(const ContactReport& report) {
 }  // namespace
 
 std::vector<Row> contact_rows(const ContactReport& report) {
-  return {
-      {"file", fmt::format("{} ({})", report.file, report.format)},
-      {"unit of length", report.unit},
-      {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
-      {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
-      {"chains", chains_text(report)},
-      {"radii", radii_text(report)},
-      {"box", box_text(report.box_kinds, report.smallest_height, report.smallest_height_frame, report.unit)},
-      {"contacts", contact_text(report)},
-      {"in a frame", spread_text(report)},
-      {"events", events_text(report.events)},
-      {"duration", duration_text(report)},
-      {"P(s)", probability_text(report)},
-      {"map", counted(static_cast<std::int64_t>(report.map.bins()), "bin")},
-      {"structure", structure_text(report)},
-      {"ms a frame", cost_text(report)}};
+  return {{"file", fmt::format("{} ({})", report.file, report.format)},
+          {"unit of length", report.unit},
+          {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
+          {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
+          {"chains", chains_text(report)},
+          {"radii", radii_text(report)},
+          {"box", box_text(report)},
+          {"contacts", contact_text(report)},
+          {"in a frame", spread_text(report)},
+          {"events", events_text(report.events)},
+          {"duration", duration_text(report)},
+          {"P(s)", probability_text(report)},
+          {"map", counted(static_cast<std::int64_t>(report.map.bins()), "bin")},
+          {"structure", structure_text(report)},
+          {"ms a frame", cost_text(report)}};
 }
 
 std::string render_table(const ContactReport& report) { return render_rows(contact_rows(report)); }

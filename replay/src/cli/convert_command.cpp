@@ -25,7 +25,7 @@ int run(const ConvertWords& words) {
   ProgressBar progress(words.quiet);
   const Scan scan = scan_trajectory(words.input, range, progress);
   FrameStream stream(words.input, range);
-  const auto writer = trajectory::create_trajectory(words.output, scan.length_unit);
+  const auto writer = trajectory::create_trajectory(words.output, scan.unit);
   progress.start("converting", scan.frames);
   trajectory::Frame frame;
   std::int64_t done = 0;
@@ -37,7 +37,7 @@ int run(const ConvertWords& words) {
   progress.clear();
   if (!words.quiet) {
     fmt::print("{}: {} of {} atoms, lengths in {}\n", words.output, counted(done, "frame"),
-               count_text(scan.fewest_atoms, scan.most_atoms), scan.length_unit);
+               count_text(scan.fewest_atoms, scan.most_atoms), scan.unit);
   }
   return kOk;
 }

@@ -43,12 +43,12 @@ void require_frames(const Scan& scan, const FrameRange& range) {
   if (scan.frames > 0) return;
   if (scan.frames_passed == 0) {
     throw trajectory::FileError(
-        fmt::format("{}: holds no frame; a trajectory needs at least one", scan.path));
+        fmt::format("{}: holds no frame; a trajectory needs at least one", scan.file));
   }
   throw UsageError(
       fmt::format("--frames selects no frame of {}: it starts at frame {}, and the file's frames are 0 to "
                   "{}; give a smaller first frame",
-                  scan.path, range.begin, scan.frames_passed - 1));
+                  scan.file, range.begin, scan.frames_passed - 1));
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ bool FrameStream::next(trajectory::Frame& frame) {
 Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress) {
   FrameStream stream(path, range);
   Scan scan;
-  scan.path = path;
+  scan.file = path;
   scan.format = stream.reader().format();
   scan.smallest_height = std::numeric_limits<double>::infinity();
   progress.start("checking " + path);
@@ -82,7 +82,7 @@ Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressB
     progress.advance(stream.index());
   }
   scan.frames_passed = stream.passed();
-  scan.length_unit = stream.reader().length_unit();
+  scan.unit = stream.reader().length_unit();
   progress.clear();
   require_frames(scan, range);
   return scan;

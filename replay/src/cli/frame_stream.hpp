@@ -11,6 +11,7 @@
 
 #include "option_values.hpp"
 #include "progress_bar.hpp"
+#include "trajectory_summary.hpp"
 
 namespace dch::cli {
 
@@ -35,21 +36,13 @@ class FrameStream {
 };
 
 /// What one pass over the selected frames tells about a trajectory.
-struct Scan {
-  std::string path;
-  std::string format;
-  std::string length_unit;
-  std::int64_t frames = 0;             ///< selected
-  std::int64_t frames_passed = 0;      ///< read; all the file's frames if the range is unbounded
-  std::vector<std::string> box_kinds;  ///< Box::description() in order of appearance, each once
-  double smallest_height = 0;          ///< over the selected frames [length]; infinity without a periodic box
-  std::int64_t smallest_height_frame = 0;  ///< the first frame with it
+struct Scan : TrajectorySummary {
+  std::int64_t frames = 0;  ///< selected
   std::int64_t last_step = 0;
   std::optional<double> last_time;
-  std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
-  bool has_times = true;                          ///< each frame has a time
-  bool atoms_change = false;                      ///< some frame has other ids than the one before
-  trajectory::Frame first_frame;                  ///< the first selected frame
+  bool has_times = true;          ///< each frame has a time
+  bool atoms_change = false;      ///< some frame has other ids than the one before
+  trajectory::Frame first_frame;  ///< the first selected frame
 };
 
 /// Reads all selected frames once: every broken frame is found here, before any work has been done.

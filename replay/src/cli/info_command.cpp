@@ -14,6 +14,7 @@
 #include "number_text.hpp"
 #include "option_values.hpp"
 #include "report_rows.hpp"
+#include "summary_json.hpp"
 
 namespace dch::cli {
 namespace {
@@ -56,10 +57,10 @@ void print_text(const Scan& scan) {
   const auto row = [](const char* name, const std::string& value) {
     fmt::print("  {:<22}{}\n", name, value);
   };
-  const std::string unit = unit_suffix(scan.length_unit);
-  row("file", scan.path);
+  const std::string unit = unit_suffix(scan.unit);
+  row("file", scan.file);
   row("format", scan.format);
-  row("unit of length", scan.length_unit);
+  row("unit of length", scan.unit);
   row("frames", grouped(scan.frames));
   row("steps", fmt::format("{} to {}", scan.first_frame.step, scan.last_step));
   if (scan.first_frame.time && scan.last_time)
@@ -81,17 +82,16 @@ void print_text(const Scan& scan) {
 
 void print_json(const Scan& scan) {
   nlohmann::ordered_json json;
-  json["file"] = scan.path;
+  json["file"] = scan.file;
   json["format"] = scan.format;
-  json["unit"] = scan.length_unit;
+  json["unit"] = scan.unit;
   json["frames"] = scan.frames;
   json["atoms"] = scan.most_atoms;
   json["fewest_atoms"] = scan.fewest_atoms;
   json["box_kinds"] = scan.box_kinds;
-  const bool has_height = std::isfinite(scan.smallest_height);
-  json["smallest_box_height"] = has_height ? nlohmann::ordered_json(scan.smallest_height) : nullptr;
+  json["smallest_box_height"] = number_or_null(scan.smallest_height);
   json["smallest_box_height_frame"] =
-      has_height ? nlohmann::ordered_json(scan.smallest_height_frame) : nullptr;
+      std::isfinite(scan.smallest_height) ? nlohmann::ordered_json(scan.smallest_height_frame) : nullptr;
   json["first_step"] = scan.first_frame.step;
   json["last_step"] = scan.last_step;
   json["types"] = nlohmann::ordered_json::object();

@@ -32,7 +32,7 @@ void require_cutoff_fits(const ReplayOptions& options, const Scan& scan) {
       fmt::format("{}: frame {}: cutoff + skin = {} exceeds half the smallest box height, {} ({}); give a "
                   "cutoff and a skin that "
                   "sum up to at most {}, or leave the frame out with --frames",
-                  scan.path, scan.smallest_height_frame, radius, limit, scan.length_unit, limit));
+                  scan.file, scan.smallest_height_frame, radius, limit, scan.unit, limit));
 }
 
 /// One run: what is found out beforehand, and the state that goes through the frames.
@@ -75,7 +75,6 @@ Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
   params_.cutoffs = TypeCutoffs(options.cutoff);
   params_.skin = options.skin;
   params_.kind = options.kind;
-  report_.file = options.file;
   report_.cutoff = options.cutoff;
   report_.skin = options.skin;
   report_.list_kind = options.kind;
@@ -99,14 +98,7 @@ void Replay::scan() {
   const Stopwatch watch;
   const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
   report_.scan_ms = watch.milliseconds();
-  report_.format = scan.format;
-  report_.unit = scan.length_unit;
-  report_.frames_passed = scan.frames_passed;
-  report_.fewest_atoms = scan.fewest_atoms;
-  report_.most_atoms = scan.most_atoms;
-  report_.box_kinds = scan.box_kinds;
-  report_.smallest_height = scan.smallest_height;
-  report_.smallest_height_frame = scan.smallest_height_frame;
+  static_cast<TrajectorySummary&>(report_) = scan;
   frames_expected_ = scan.frames;
   atoms_change_ = scan.atoms_change;
   require_cutoff_fits(options_, scan);

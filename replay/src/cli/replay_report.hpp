@@ -10,6 +10,7 @@
 #include <dch/neighbor_list.hpp>
 
 #include "engine.hpp"
+#include "trajectory_summary.hpp"
 #include "verifier.hpp"
 
 namespace dch::cli {
@@ -45,13 +46,7 @@ struct ExclusionRecord {
 };
 
 /// All that a replay found; the table, report.json and report.html show nothing else.
-struct ReplayReport {
-  std::string file, format, unit;
-  std::int64_t frames_passed = 0;                 ///< frames read, selected or not
-  std::int64_t fewest_atoms = 0, most_atoms = 0;  ///< in a frame
-  std::vector<std::string> box_kinds;
-  double smallest_height = 0;  ///< infinity without a periodic box [length]
-  std::int64_t smallest_height_frame = 0;
+struct ReplayReport : TrajectorySummary {
   double cutoff = 0, skin = 0;  ///< [length]
   ListKind list_kind = ListKind::half;
   EngineOptions engine;

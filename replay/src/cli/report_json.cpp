@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 // report.json. docs/report-schema.md describes every key; change both together.
-#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "replay_report.hpp"
-#include "version.hpp"
+#include "summary_json.hpp"
 
 namespace dch::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kSchemaVersion = 1;
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
@@ -26,18 +22,7 @@ Json column(const ReplayReport& report, Value value) {
 }
 
 Json input_json(const ReplayReport& report) {
-  Json json;
-  json["schema"] = kSchemaVersion;
-  json["version"] = kVersion;
-  json["file"] = report.file;
-  json["format"] = report.format;
-  json["unit"] = report.unit;
-  json["frames"] = report.frames.size();
-  json["frames_read"] = report.frames_passed;
-  json["atoms"] = report.most_atoms;
-  json["fewest_atoms"] = report.fewest_atoms;
-  json["box_kinds"] = report.box_kinds;
-  json["smallest_box_height"] = number_or_null(report.smallest_height);
+  Json json = begin_report(report, report.frames.size());
   json["engine"] = to_string(report.engine.kind);
   if (report.engine.kind == EngineKind::dch) {
     json["c"] = report.engine.c;

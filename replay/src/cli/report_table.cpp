@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vector>
@@ -54,20 +53,6 @@ std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
 
 }  // namespace
 
-std::string unit_suffix(const std::string& unit) {
-  return unit.find(' ') == std::string::npos ? unit : "[" + unit + "]";
-}
-
-std::string box_text(const std::vector<std::string>& kinds, double smallest_height, std::int64_t frame,
-                     const std::string& unit) {
-  std::string text = fmt::format("{}", fmt::join(kinds, "; "));
-  if (std::isfinite(smallest_height)) {
-    text += fmt::format(", smallest height {} {} (frame {})", readable(smallest_height), unit_suffix(unit),
-                        frame);
-  }
-  return text;
-}
-
 std::string engine_text(const EngineOptions& engine) {
   switch (engine.kind) {
     case EngineKind::cell:
@@ -87,14 +72,13 @@ std::string list_text(const ReplayReport& report) {
 
 std::vector<Row> report_rows(const ReplayReport& report) {
   const ReplayTotals totals = report.totals();
-  std::vector<Row> rows{
-      {"file", fmt::format("{} ({})", report.file, report.format)},
-      {"unit of length", report.unit},
-      {"engine", engine_text(report.engine)},
-      {"list", list_text(report)},
-      {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
-      {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
-      {"box", box_text(report.box_kinds, report.smallest_height, report.smallest_height_frame, report.unit)}};
+  std::vector<Row> rows{{"file", fmt::format("{} ({})", report.file, report.format)},
+                        {"unit of length", report.unit},
+                        {"engine", engine_text(report.engine)},
+                        {"list", list_text(report)},
+                        {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
+                        {"atoms", count_text(report.fewest_atoms, report.most_atoms)},
+                        {"box", box_text(report)}};
   if (!report.exclusions.source.empty()) rows.push_back({"excluded", exclusion_text(report.exclusions)});
   rows.push_back({"pairs a frame", fmt::format("min {}, mean {}, max {}", grouped(totals.pairs_min),
                                                readable(totals.pairs_mean), grouped(totals.pairs_max))});

@@ -63,6 +63,19 @@ def energy_and_forces(context, positions=None):
     return state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole), np.array(forces)
 
 
+def positions_from_checkpoint(context, integrator):
+    """Positions 30 steps after a checkpoint was made, and 30 steps after it was loaded."""
+    context.setVelocitiesToTemperature(100, 3)
+    integrator.step(20)
+    checkpoint = context.createCheckpoint()
+    found = []
+    for _ in range(2):
+        integrator.step(30)
+        found.append(context.getState(getPositions=True).getPositions(asNumpy=True)._value)
+        context.loadCheckpoint(checkpoint)
+    return found
+
+
 def all_pairs_lennard_jones(positions, vectors, cutoff, sigma=0.34, epsilon=0.996):
     """Energy and forces by all pairs and all their images within the cutoff, in double."""
     energy, forces = 0.0, np.zeros_like(positions)

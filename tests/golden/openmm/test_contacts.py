@@ -13,7 +13,7 @@ from openmm import app, unit
 
 import openmm_dch  # noqa: F401  registers the kernels
 from openmm_dch import NecklaceContactForce
-from openmm_systems import PLATFORMS, context_of, energy_and_forces
+from openmm_systems import PLATFORMS, context_of, energy_and_forces, positions_from_checkpoint
 
 BOND, RADIUS, BOX = 0.3, 0.16, 2.5
 
@@ -241,14 +241,7 @@ class SimulationTest(unittest.TestCase):
                 context = context_of(system, platform, integrator)
                 context.setPositions(positions)
                 openmm.LocalEnergyMinimizer.minimize(context, 10)
-                context.setVelocitiesToTemperature(100, 3)
-                integrator.step(20)
-                checkpoint = context.createCheckpoint()
-                integrator.step(30)
-                first = context.getState(getPositions=True).getPositions(asNumpy=True)._value
-                context.loadCheckpoint(checkpoint)
-                integrator.step(30)
-                second = context.getState(getPositions=True).getPositions(asNumpy=True)._value
+                first, second = positions_from_checkpoint(context, integrator)
                 np.testing.assert_allclose(second, first, atol=1e-6)
 
 

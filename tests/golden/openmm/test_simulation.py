@@ -15,7 +15,7 @@ from openmm import app, unit
 import openmm_dch
 from openmm_dch import DCHNonbondedForce
 from openmm_systems import (PLATFORMS, all_pairs_lennard_jones, context_of, energy_and_forces, lennard_jones_fluid,
-                            relative_error, water_box)
+                            positions_from_checkpoint, relative_error, water_box)
 
 TOLERANCE = {"Reference": 1e-9, "CPU": 1e-5}
 
@@ -52,14 +52,7 @@ class SimulationTest(unittest.TestCase):
                 integrator = openmm.VerletIntegrator(0.002)
                 context = context_of(system, platform, integrator)
                 context.setPositions(positions)
-                context.setVelocitiesToTemperature(100, 3)
-                integrator.step(20)
-                checkpoint = context.createCheckpoint()
-                integrator.step(30)
-                first = context.getState(getPositions=True).getPositions(asNumpy=True)._value
-                context.loadCheckpoint(checkpoint)
-                integrator.step(30)
-                second = context.getState(getPositions=True).getPositions(asNumpy=True)._value
+                first, second = positions_from_checkpoint(context, integrator)
                 np.testing.assert_allclose(second, first, atol=tolerance)
 
     def test_two_contexts_at_once(self):

@@ -9,6 +9,7 @@
 
 #include "contact_file.hpp"
 #include "expect_error.hpp"
+#include "hdf5_read.hpp"
 #include "temporary_folder.hpp"
 
 namespace dch::cli {
@@ -107,16 +108,6 @@ TEST(ContactReportTest, JsonHasNoNumbersThatAreNone) {
 
 using ContactFileTest = TemporaryFolder;
 
-std::vector<std::int64_t> read(hid_t file, const char* name) {
-  const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
-  const hid_t space = H5Dget_space(data);
-  std::vector<std::int64_t> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  EXPECT_GE(H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-  H5Sclose(space);
-  H5Dclose(data);
-  return values;
-}
-
 TEST_F(ContactFileTest, HoldsWhatItWasGiven) {
   const ContactReport report = small_report(kTwo);
   ContactFile file(path("contacts.h5"), {"a.xtc", "a.chains", "nm", "step", report.query},
@@ -131,14 +122,15 @@ TEST_F(ContactFileTest, HoldsWhatItWasGiven) {
 
   const hid_t data = H5Fopen(path("contacts.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(data, 0);
-  EXPECT_THAT(read(data, "chains/ids"), ElementsAre(3, 4, 8, 9));
-  EXPECT_THAT(read(data, "frames/within"), ElementsAre(0, 2, 0));
-  EXPECT_THAT(read(data, "events/i"), ElementsAre(3, 3));
-  EXPECT_THAT(read(data, "events/j"), ElementsAre(8, 9));
-  EXPECT_THAT(read(data, "events/not_ended"), ElementsAre(0, 1));
-  EXPECT_THAT(read(data, "map/first_place"), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(read(data, "map/contacts"), ElementsAre(0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0));
-  EXPECT_THAT(read(data, "separation/pairs"), ElementsAre(0, 0, 2, 1));
+  EXPECT_THAT(read_integers(data, "chains/ids"), ElementsAre(3, 4, 8, 9));
+  EXPECT_THAT(read_integers(data, "frames/within"), ElementsAre(0, 2, 0));
+  EXPECT_THAT(read_integers(data, "events/i"), ElementsAre(3, 3));
+  EXPECT_THAT(read_integers(data, "events/j"), ElementsAre(8, 9));
+  EXPECT_THAT(read_integers(data, "events/not_ended"), ElementsAre(0, 1));
+  EXPECT_THAT(read_integers(data, "map/first_place"), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(read_integers(data, "map/contacts"),
+              ElementsAre(0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0));
+  EXPECT_THAT(read_integers(data, "separation/pairs"), ElementsAre(0, 0, 2, 1));
   H5Fclose(data);
 }
 

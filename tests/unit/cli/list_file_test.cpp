@@ -7,6 +7,7 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "expect_error.hpp"
+#include "hdf5_read.hpp"
 #include "temporary_folder.hpp"
 
 namespace dch::cli {
@@ -36,16 +37,6 @@ class ListFileTest : public TemporaryFolder {
     return frame;
   }
 
-  static std::vector<std::int64_t> read(hid_t file, const char* name) {
-    const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
-    const hid_t space = H5Dget_space(data);
-    std::vector<std::int64_t> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    EXPECT_GE(H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-    H5Sclose(space);
-    H5Dclose(data);
-    return values;
-  }
-
   static double read_number(hid_t file, const char* name) {
     double value = 0;
     const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
@@ -70,11 +61,11 @@ TEST_F(ListFileTest, HoldsRowsOfEveryFrameAndSharesThoseOfKeptLists) {
 
   const hid_t file = H5Fopen(path("lists.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
-  EXPECT_THAT(read(file, "ids"), ElementsAre(11, 12, 13, 11, 12, 13, 11, 12, 13, 11, 12, 13));
-  EXPECT_THAT(read(file, "frame"), ElementsAre(0, 2, 4, 6));
-  EXPECT_THAT(read(file, "step"), ElementsAre(100, 200, 300, 400));
-  EXPECT_THAT(read(file, "j"), ElementsAre(1, 2, 2));
-  EXPECT_THAT(read(file, "first"), ElementsAre(0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3));
+  EXPECT_THAT(read_integers(file, "ids"), ElementsAre(11, 12, 13, 11, 12, 13, 11, 12, 13, 11, 12, 13));
+  EXPECT_THAT(read_integers(file, "frame"), ElementsAre(0, 2, 4, 6));
+  EXPECT_THAT(read_integers(file, "step"), ElementsAre(100, 200, 300, 400));
+  EXPECT_THAT(read_integers(file, "j"), ElementsAre(1, 2, 2));
+  EXPECT_THAT(read_integers(file, "first"), ElementsAre(0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3));
   EXPECT_EQ(read_number(file, "cutoff"), 1.5);
   EXPECT_EQ(read_number(file, "skin"), 0.25);
   H5Fclose(file);
@@ -87,8 +78,8 @@ TEST_F(ListFileTest, FillsFramesOfFewerAtomsWithEmptyRows) {
   lists.commit();
   const hid_t file = H5Fopen(path("lists.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
-  EXPECT_THAT(read(file, "ids"), ElementsAre(11, 13, -1, 11, 12, 13));
-  EXPECT_THAT(read(file, "first"), ElementsAre(0, 1, 1, 1, 1, 1, 2, 2));
+  EXPECT_THAT(read_integers(file, "ids"), ElementsAre(11, 13, -1, 11, 12, 13));
+  EXPECT_THAT(read_integers(file, "first"), ElementsAre(0, 1, 1, 1, 1, 1, 2, 2));
   H5Fclose(file);
 }
 

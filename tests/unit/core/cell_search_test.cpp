@@ -132,8 +132,8 @@ TEST(CellSearchLarge, PairsFarFromTheOthersAreFound) {
 }
 
 TEST(CellSearchErrors, BadRadiusAndDivisions) {
-  for (const double radius :
-       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double radius : {0.0, -1.0, 9e-101, std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(make_cell_search(radius), InvalidParameter) << radius;
   }
   EXPECT_THROW(make_cell_search(1, 0), InvalidParameter);

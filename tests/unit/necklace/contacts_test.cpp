@@ -24,7 +24,6 @@ using dch::necklace::Chains;
 using dch::necklace::check_certificate;
 using dch::necklace::Contact;
 using dch::necklace::ContactQuery;
-using dch::necklace::ContactStats;
 using dch::necklace::find_contacts;
 using dch::necklace::LayeredHierarchy;
 using dch::necklace::Necklace;
@@ -64,33 +63,25 @@ void expect_right(const Shape& shape, double radius, const ContactQuery& query) 
   }
 }
 
-std::int64_t visited(const Shape& shape, double radius) {
-  ContactStats stats;
-  EXPECT_FALSE(any_contact(wrapped_of(shape, radius), every_pair(), &stats));
-  return stats.cage_pairs;
-}
-
-TEST(Contacts, CollinearBeadsVisitEachInnerNodeOnce) {
-  for (const std::int32_t k : {1, 4, 10}) {
-    const std::int32_t n = 1 << k;
-    EXPECT_EQ(visited(dch::necklace::grid_necklace(n, 1, 1), 0.49), n - 1);
-  }
-}
-
-TEST(Contacts, GridNecklacesVisitAsManyPairsAsTheTheoremSays) {
-  for (const std::int32_t side : {4, 16, 64}) {
-    const double n = double(side) * side;
-    const double ratio =
-        double(visited(dch::necklace::grid_necklace(side, side, 1), 0.49)) / (n * std::log2(n));
-    EXPECT_GT(ratio, 1.3) << "side " << side;
-    EXPECT_LT(ratio, 2.1) << "side " << side;
-  }
-  for (const std::int32_t side : {4, 8, 16}) {
-    const double n = std::pow(side, 3);
-    const double ratio =
-        double(visited(dch::necklace::grid_necklace(side, side, side), 0.49)) / std::pow(n, 4.0 / 3);
-    EXPECT_GT(ratio, 4.5) << "side " << side;
-    EXPECT_LT(ratio, 7.7) << "side " << side;
+TEST(Contacts, AreInOrderWhetherTheyAreFewOrManyForTheParticles) {
+  // A chain whose beads are named in no order, among as many other particles as `spread` says.
+  for (const std::int32_t spread : {1, 200}) {
+    constexpr std::int32_t kBeads = 40;
+    std::vector<std::int32_t> order;
+    for (std::int32_t k = 0; k < kBeads; ++k) order.push_back((17 * k) % kBeads * spread);
+    Chains chains(static_cast<std::size_t>(kBeads * spread));
+    chains.add(order);
+    const Necklace necklace(chains, 0.5);
+    std::vector<Vec3> positions(necklace.particles());
+    for (std::int32_t k = 0; k < kBeads; ++k) {
+      positions[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])] = {0.3 * (k % 6), 0.2 * k, 0};
+    }
+    WrappedHierarchy hierarchy(necklace);
+    hierarchy.build(positions, Box::none());
+    const auto found = dch::test::pairs_of(find_contacts(hierarchy, {}));
+    EXPECT_GT(found.size(), 40U);
+    EXPECT_LT(found.size(), 200U * kBeads / 8);
+    EXPECT_EQ(found, contact_oracle(necklace, positions, Box::none(), {})) << "spread " << spread;
   }
 }
 

@@ -41,12 +41,15 @@ class CageHierarchy {
   CageHierarchy& operator=(const CageHierarchy&) = default;
   CageHierarchy& operator=(CageHierarchy&&) = default;
 
-  /// Takes positions into beads(); nothing is held if it throws.
+  /// Takes positions into beads(); nothing is held if it throws. Into `moved2`, if there is one, goes by
+  /// place the squared distance of each bead from where it was [length^2].
   /// @throws InvalidParameter, InvalidPosition, Undetermined.
-  void take(Span<const Vec3> positions, const Box& box);
+  void take(Span<const Vec3> positions, const Box& box, std::vector<double>* moved2 = nullptr);
   std::vector<Ball>& mutable_cages() { return cages_; }
 
  private:
+  void place_beads(Span<const Vec3> positions, Span<const Vec3> placed, std::vector<double>* moved2);
+
   Necklace necklace_;
   ChainTrees trees_;
   Box box_;

@@ -69,6 +69,7 @@ class ContactFinder {
   void measured(const ContactStats& stats);
   bool list_near(const ContactQuery& query);
   bool is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const;
+  /// @param p the place of the particle of lower index
   Contact contact_at(std::int32_t p, std::int32_t q) const;
   bool by_dch(const ContactQuery& query, bool first_only, std::vector<Contact>& out);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <dch/necklace/cage_hierarchy.hpp>
@@ -13,14 +15,17 @@ enum class Verification {
   /// From the children of a cage downwards, as far as their cages stick out of it (thesis 4.4.2).
   cascade,
   /// All beads of the cage: O(n lg n) tests. For comparison.
-  naive
+  naive,
+  /// Of a large cage only the beads that were farthest out when all of them were last looked at, as long as
+  /// what beads and cage have moved since cannot have brought another one out; of a small cage all beads.
+  watched
 };
 
 struct WrappedParams {
   /// Nodes of this many beads and fewer are leaves, whose beads are looked at one by one, 1 .. 64. 1 gives
   /// the hierarchy of the thesis; with more there are fewer cages to keep and to compare.
   int leaf_beads = 8;
-  Verification verification = Verification::cascade;
+  Verification verification = Verification::watched;
 };
 
 /// What updates did; sums since the hierarchy was made, without the first build.
@@ -30,6 +35,7 @@ struct WrappedStats {
   std::int64_t containment_tests = 0;  ///< is a cage, or a bead, inside a cage? Beads of its basis are
   std::int64_t escapes = 0;            ///< beads that had left a cage and entered its basis
   std::int64_t basis_changes = 0;      ///< cages whose basis is another one, or a part of what it was
+  std::int64_t looks = 0;              ///< watched cages of which all beads had to be looked at
 };
 
 /// The wrapped hierarchy (thesis 4.4): the cage of a node is the minimum enclosing ball of its beads. It is
@@ -61,14 +67,32 @@ class WrappedHierarchy : public CageHierarchy {
   std::size_t memory_bytes() const;
 
  private:
+  /// What is remembered of a large cage since all its beads were last looked at.
+  struct Watch {
+    std::array<std::int32_t, 16> places{};  ///< of the beads farthest out then
+    Vec3 center;                            ///< of the cage then
+    /// No other bead reached farther from there; infinite before the first look.
+    double rest = std::numeric_limits<double>::infinity();
+    double travelled = 0;  ///< no bead of the cage has moved farther since then
+  };
+
   EnclosingBall of_leaf(const ChainTrees::Node& node) const;
   EnclosingBall of_children(std::int32_t k) const;
-  void repair(std::int32_t k, EnclosingBall found);
+  void repair(std::int32_t k, EnclosingBall found, Verification verification);
+  std::int32_t farthest(std::int32_t k, const EnclosingBall& found, Verification verification, double& reach);
   std::int32_t farthest_by_cascade(std::int32_t k, const EnclosingBall& found, double& reach);
   std::int32_t farthest_of_range(const ChainTrees::Node& node, const EnclosingBall& found, double& reach);
+  std::int32_t farthest_of_watched(const ChainTrees::Node& node, Watch& watch, const EnclosingBall& found,
+                                   double& reach);
+  void look(const ChainTrees::Node& node, Vec3 center, Watch& watch);
+  void note_motion();
 
   WrappedParams params_;
+  bool even_ = true;  ///< all beads have the same radius
   std::vector<Basis> bases_;
+  std::vector<std::int32_t> watch_of_;  ///< by node: which of watches_, -1 for none
+  std::vector<Watch> watches_;
+  std::vector<double> bead_moved2_, moved2_;  ///< by place, by node: squared, at most, in the last update
   WrappedStats stats_;
 };
 

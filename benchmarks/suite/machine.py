@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""What a run was made on: processor, compiler, commit, versions of hosts."""
+
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+UNKNOWN = "unknown"
+
+
+def output_of(*command):
+    """Standard output of a program, or "" if there is no such program or it fails."""
+    if shutil.which(command[0]) is None:
+        return ""
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True, check=False, cwd=ROOT)
+    return done.stdout if done.returncode == 0 else ""
+
+
+def first_match(pattern, text):
+    found = re.search(pattern, text, re.MULTILINE)
+    return found.group(1).strip() if found else UNKNOWN
+
+
+def cpu():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return first_match(r"^model name\s*:\s*(.*)$", file.read())
+
+
+def widest_instruction_set():
+    """The set that the library chooses on this processor, from the flags that it looks for; or what is forced."""
+    if "DCH_FORCE_ISA" in os.environ:
+        return os.environ["DCH_FORCE_ISA"]
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        flags = set(first_match(r"^flags\s*:\s*(.*)$", file.read()).split())
+    for name, needed in (("avx512", "avx512f avx512bw avx512vl avx512dq avx512_vbmi2"), ("avx2", "avx2 fma bmi2"),
+                         ("sse4.2", "sse4_2 popcnt")):
+        if set(needed.split()) <= flags:
+            return name
+    return "portable"
+
+
+def machine():
+    return {"cpu": cpu(), "processors": os.cpu_count(), "instruction_set": widest_instruction_set(),
+            "system": f"{platform.system()} {platform.release()}", "load_before": os.getloadavg()[0]}
+
+
+def build_facts(build):
+    """Compiler and flags of a folder of a build, from CMake's cache."""
+    with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as file:
+        cache = file.read()
+    compiler = first_match(r"^CMAKE_CXX_COMPILER:[A-Z]*=(.*)$", cache)
+    kind = first_match(r"^CMAKE_BUILD_TYPE:[A-Z]*=(.*)$", cache)
+    flags = first_match(rf"^CMAKE_CXX_FLAGS_{kind.upper()}:[A-Z]*=(.*)$", cache)
+    return {"compiler": output_of(compiler, "--version").split("\n")[0] or compiler, "type": kind, "flags": flags}
+
+
+def source_facts():
+    commit = output_of("git", "rev-parse", "HEAD").strip() or UNKNOWN
+    return {"commit": commit, "changed": bool(output_of("git", "status", "--porcelain", "--untracked-files=no").strip())}
+
+
+def python_version_of(module, expression):
+    return output_of("/usr/bin/python3", "-c", f"import {module}; print({expression})").strip() or UNKNOWN
+
+
+def lammps():
+    return first_match(r"Massively Parallel Simulator - (.*)$", output_of("lmp", "-h"))
+
+
+def gromacs():
+    return first_match(r"^GROMACS version:\s*(.*)$", output_of("gmx", "--version"))
+
+
+def nanoflann():
+    """Of the header, which has it as 0xMmp."""
+    try:
+        with open("/usr/include/nanoflann.hpp", encoding="utf-8") as file:
+            digits = first_match(r"#define NANOFLANN_VERSION 0x([0-9a-fA-F]{3})", file.read())
+    except FileNotFoundError:
+        return UNKNOWN
+    return ".".join(digits) if digits != UNKNOWN else UNKNOWN
+
+
+HOSTS = {
+    "LAMMPS": lammps,
+    "GROMACS": gromacs,
+    "OpenMM": lambda: python_version_of("openmm", "openmm.Platform.getOpenMMVersion()"),
+    "SciPy": lambda: python_version_of("scipy", "scipy.__version__"),
+    "nanoflann": nanoflann,
+    "Python": lambda: sys.version.split()[0],
+}
+
+
+def versions(hosts):
+    return {host: HOSTS[host]() for host in hosts}

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""Tests of what benchmarks/run does besides running programs: figures, records, reports. Run by CTest."""
+
+import os
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+
+from suite import html_report, markdown_report, plot, ratios, record, words  # noqa: E402  (the path comes first)
+from suite.machine import ROOT  # noqa: E402
+from suite.running import Failed, Missing, Suite  # noqa: E402
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def suite(folder):
+    return Suite(folder, folder, "tiny", min(os.sched_getaffinity(0)))
+
+
+class ExampleFamily:
+    NAME, TITLE = "example", "An <example>"
+
+
+def example(folder):
+    facts = {"machine": {"cpu": "C", "processors": 1, "instruction_set": "avx2", "system": "S", "load_before": 0.0},
+             "build": {"compiler": "g++", "type": "Release", "flags": "-O3"},
+             "source": {"commit": "0123456789abcdef", "changed": False}, "hosts": {"LAMMPS": "1"}}
+    result = record.Result(
+        measurements=[record.Measurement("s", "slow|er", "ns", [2.0, 6.0, 3.0], "base", [1.0, 2.0, 3.0])],
+        tables=[record.Table("T", ["a", "b"], [[1, 0.5], ["x < y", None]])],
+        plots=[record.Plot("P", "x", "y", {"one & two": [[1.0, 0.0], [2.0, 1e-3]]})], seed=1)
+    return record.as_record(ExampleFamily, result, suite(folder), facts)
+
+
+class Figures(unittest.TestCase):
+    def test_ratio_is_that_of_the_same_repetition(self):
+        facts = record.Measurement("s", "n", "ns", [2.0, 6.0, 3.0], "base", [1.0, 2.0, 3.0]).facts()
+        self.assertEqual((facts["median"], facts["low"], facts["high"], facts["repetitions"]), (3.0, 2.0, 6.0, 3))
+        self.assertEqual((facts["ratio"]["median"], facts["ratio"]["low"], facts["ratio"]["high"]), (2.0, 1.0, 3.0))
+
+    def test_other_numbers_of_repetitions_are_refused(self):
+        with self.assertRaises(ValueError):
+            record.Measurement("s", "n", "ns", [1.0, 2.0], "base", [1.0]).facts()
+        with self.assertRaises(ValueError):
+            record.Measurement("s", "n", "ns", []).facts()
+
+    def test_numbers(self):
+        for value, text in ((0.0, "0"), (7, "7"), (1.234, "1.23"), (12.34, "12.3"), (1234.5, "1234"), (1.5e-9, "1.5e-09"),
+                            (None, "-"), ("x", "x")):
+            self.assertEqual(words.number(value), text)
+
+
+class Programs(unittest.TestCase):
+    def test_status_tells_wrong_from_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = suite(folder)
+            self.assertEqual(one.run(["sh", "-c", "echo well"]), "well\n")
+            with self.assertRaisesRegex(Failed, "status 1"):
+                one.run(["sh", "-c", "exit 1"], missing_status=2)
+            with self.assertRaises(Missing):
+                one.run(["sh", "-c", "exit 2"], missing_status=2)
+            with self.assertRaisesRegex(Missing, "no_program is not in the build"):
+                one.program("no_program")
+            self.assertNotIn(folder, " ".join(one.commands))
+
+    def test_programs_stay_on_one_processor(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = suite(folder).run(["/usr/bin/python3", "-c", "import os; print(len(os.sched_getaffinity(0)))"])
+            self.assertEqual(found.strip(), "1")
+
+
+class Reports(unittest.TestCase):
+    def test_page_and_markdown_hold_the_record(self):
+        with tempfile.TemporaryDirectory() as folder:
+            record.write(folder, example(folder))
+            records = record.read_all(folder, ["nothing", "example"])
+            self.assertEqual([r["family"] for r in records], ["example"])
+            for writer, escaped in ((html_report, "An &lt;example&gt;"), (markdown_report, "slow\\|er")):
+                path = os.path.join(folder, "report")
+                writer.write(path, records)
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                for expected in (escaped, "0123456789ab", "2.00 .. 6.00", "LAMMPS 1", "tiny run"):
+                    self.assertIn(expected, text)
+
+    def test_a_busy_machine_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = example(folder)
+            self.assertNotIn("Others used", words.warning([one]))
+            self.assertNotIn("Not here", words.warning([one]))
+            self.assertIn("not been run: A, B.", words.warning([one], ["A", "B"]))
+            one["machine"]["load_before"] = 3.0
+            self.assertIn("Others used", words.warning([one]))
+
+    def test_pages_are_well_formed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = html_report.page([example(folder)])
+        tree = xml.etree.ElementTree.fromstring(text.removeprefix("<!DOCTYPE html>"))
+        targets = [a.get("href") for a in tree.iter("a")]
+        names = {f"#{element.get('id')}" for element in tree.iter() if element.get("id")}
+        self.assertIn("#example", targets)
+        self.assertLessEqual(set(targets), names)
+
+    def test_markdown_shows_the_plots_that_it_writes_and_no_older_ones(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "results.md")
+            os.makedirs(os.path.join(folder, "results-plots"))
+            with open(os.path.join(folder, "results-plots", "old.svg"), "w", encoding="utf-8"):
+                pass
+            markdown_report.write(path, [example(folder)])
+            self.assertEqual(os.listdir(os.path.join(folder, "results-plots")), ["example-1.svg"])
+            with open(path, encoding="utf-8") as file:
+                self.assertIn("![P](results-plots/example-1.svg)", file.read())
+
+
+class Plots(unittest.TestCase):
+    def marks(self, drawing):
+        tree = xml.etree.ElementTree.fromstring(drawing)
+        return [(float(c.get("cx")), float(c.get("cy"))) for c in tree.iter(SVG + "circle") if c.get("r") == "3.5"]
+
+    def test_zero_is_at_the_bottom(self):
+        with tempfile.TemporaryDirectory() as folder:
+            points = self.marks(plot.svg(example(folder)["plots"][0]))
+        self.assertEqual(points[0][1], plot.TOP + plot.PLOT_HEIGHT)
+        self.assertLess(points[1][1], points[0][1])
+        self.assertEqual(plot.svg({"series": {}}), "")
+
+    def test_dots_stand_left_of_the_line_at_one_if_they_are_less(self):
+        one = {"series": {"a": [["x", 0.5], ["y", 2.0]], "b": [["y", 1.0]]}, "x": "ratio", "kind": "dots"}
+        (x_a, row_x), (y_a, row_y), (y_b, row_y_too) = self.marks(plot.svg(one))
+        self.assertLess(x_a, y_b)
+        self.assertLess(y_b, y_a)
+        self.assertLess(row_x, row_y)
+        self.assertEqual(row_y, row_y_too)
+
+    def test_labels_do_not_overlap(self):
+        for low, high in ((1.0, 1.7), (0.02, 4.0), (1e-9, 1e3), (4000.0, 1e6)):
+            axis = plot.Axis([low, high], 0, plot.PLOT_WIDTH, True)
+            labels = axis.ticks()
+            self.assertGreaterEqual(len(labels), 2, (low, high))
+            tree = xml.etree.ElementTree.fromstring("<g>" + "".join(plot.x_axis(axis, 100, "")) + "</g>")
+            spans = [(float(t.get("x")), plot.width_of([t.text])) for t in tree.iter("text") if t.text]
+            for (x, width), (next_x, next_width) in zip(spans, spans[1:]):
+                self.assertGreater(next_x - next_width / 2, x + width / 2, (low, high))
+
+
+class Ratios(unittest.TestCase):
+    def test_every_row_has_what_the_table_needs(self):
+        for group in ratios.groups():
+            self.assertLessEqual({"title", "source", "rows"}, set(group))
+            for row in group["rows"]:
+                self.assertLessEqual(set(row), {"what", "asked", "at_least", "measured", "smaller", "note", "command", "record"}, row)
+                self.assertTrue(row["what"] and row["command"], row)
+                self.assertEqual(row["measured"], sorted(row["measured"]), row)
+                self.assertLessEqual(len(row["measured"]), 2, row)
+
+    def test_verdicts(self):
+        for measured, asked, expected in (([1.0, 1.1], 1.1, ratios.HELD), ([1.0, 1.2], 1.1, ratios.PARTLY),
+                                          ([1.2], 1.1, ratios.MISSED), ([], 1.1, ratios.NOT_MEASURED)):
+            self.assertEqual(ratios.verdict({"measured": measured, "asked": asked}), expected)
+        self.assertEqual(ratios.verdict({"measured": [2.9], "asked": 3, "at_least": True}), ratios.MISSED)
+        self.assertEqual(ratios.verdict({"measured": [2.9]}), ratios.NO_AIM)
+        self.assertEqual(ratios.verdict({"measured": [0.9], "asked": 1, "smaller": True}), ratios.SMALLER)
+
+    def test_records_are_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            records = [example(folder)]
+        for scene, count in (("s", 1), ("~", 1), ("t", 0)):
+            self.assertEqual(len(ratios.recorded({"record": ["example", scene, "slow|er"]}, records)), count)
+        group = {"rows": [{"what": "w", "asked": 1.3, "measured": [1.4, 1.45], "command": "c",
+                           "record": ["example", "s", "slow|er"]}]}
+        self.assertEqual(list(ratios.rows_of(group, records)),
+                         [["w", "at most 1.30", "1.40 to 1.45", ratios.MISSED, "2.00 (1.00 .. 3.00)", "c"]])
+
+    def test_documents_that_are_named_exist(self):
+        for group in ratios.groups():
+            self.assertTrue(os.path.exists(os.path.join(ROOT, group["source"])), group["source"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""Numbers and facts as both reports print them."""
+
+
+def number(value):
+    """Three significant digits; whole numbers as they are."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**7 else f"{value:.3g}"
+    if not isinstance(value, float):
+        return str(value)
+    if value != value:
+        return "-"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e7:
+        digits = 0 if abs(value) >= 100 else 1 if abs(value) >= 10 else 2 if abs(value) >= 1 else 3
+        return f"{value:.{digits}f}"
+    return f"{value:.1e}"
+
+
+MEASURED = ["scene", "what", "unit", "median", "lowest .. highest", "runs", "ratio", "lowest .. highest", "to"]
+
+
+def measured_row(m):
+    row = [m["scene"], m["name"], m["unit"], number(m["median"]), f"{number(m['low'])} .. {number(m['high'])}",
+           str(m["repetitions"])]
+    ratio = m.get("ratio")
+    if not ratio:
+        return row + ["", "", ""]
+    return row + [number(ratio["median"]), f"{number(ratio['low'])} .. {number(ratio['high'])}", ratio["to"]]
+
+
+def facts(record):
+    """Name and value of what a reader has to know of a run."""
+    machine, build, source = record["machine"], record["build"], record["source"]
+    hosts = ", ".join(f"{name} {version}" for name, version in record["hosts"].items())
+    hashes = ", ".join(f"{scene} {value}" for scene, value in record["list_hash"].items())
+    return [("processor", f"{machine['cpu']}, {machine['processors']} of them, {machine['instruction_set']}"),
+            ("load when it began", number(machine["load_before"])),
+            ("system", machine["system"]),
+            ("compiler", f"{build['compiler']}, {build['type']} {build['flags']}"),
+            ("commit", source["commit"][:12] + (" and changes to it" if source["changed"] else "")),
+            ("hosts", hosts), ("seed", number(record["seed"])), ("list hash", hashes),
+            ("took", f"{number(record['seconds'])} s, {number(record['processor_seconds'])} s of them on the processor"), ("checked", record["checked"])]
+
+
+def warning(records, missing=()):
+    """What limits the figures, or "". `missing` are titles of families that have no record."""
+    sizes = {record["size"] for record in records}
+    busy = [record["title"] for record in records if record["machine"]["load_before"] > 0.5]
+    found = []
+    if sizes != {"full"}:
+        found.append(f"These are figures of a {'/'.join(sorted(sizes))} run: small sizes, for a first look.")
+    if busy:
+        found.append("Others used the machine when these began, so that times scatter: " + ", ".join(busy) + ".")
+    if missing:
+        found.append("Not here, since they have not been run: " + ", ".join(missing) + ".")
+    return " ".join(found)
