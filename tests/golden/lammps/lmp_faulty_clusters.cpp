@@ -93,16 +93,21 @@ void repeat(const AtomPoints& points, ClusterList& list) {
   for (std::size_t g = 1; g < pairs.groups.size(); ++g) ++pairs.groups[g].first;
 }
 
+/// All that lead to another image, since any one of them may hold no pair but such as nobody misses.
 void other_image(const AtomPoints& points, ClusterList& list) {
   if (list.one_by_one) {
     if (list.pair_list.groups.size() < 3) no_place("group of another image");
-    ++list.pair_list.groups[1].image[0];
+    for (std::size_t g = 1; g + 1 < list.pair_list.groups.size(); ++g) ++list.pair_list.groups[g].image[0];
     return;
   }
   dch::ClusterPairs& pairs = list.pairs;
-  const std::size_t s = first_that(pairs.shift.size(), "shift to another image",
-                                   [&](std::size_t k) { return norm2(pairs.shift[k].image) > 0; });
-  pairs.shift[s].image.x += 1;
+  bool is_planted = false;
+  for (auto& shift : pairs.shift) {
+    if (norm2(shift.image) == 0) continue;
+    shift.image.x += 1;
+    is_planted = true;
+  }
+  if (!is_planted) no_place("shift to another image");
   pairs.refresh({points.positions().data(), pairs.particles}, points.box());
 }
 
