@@ -55,6 +55,7 @@ configure_and_build() {
   heading "Build $preset"
   if command -v ccache >/dev/null; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    export CCACHE_SLOPPINESS=pch_defines,time_macros  # without which it keeps nothing that uses precompiled headers
   fi
   mkdir -p build
   if ! cmake --preset "$preset" "${launcher[@]}" >"build/$preset.configure.log" 2>&1; then

@@ -2,21 +2,19 @@
 //
 // The lists of a hierarchy that is kept up over many configurations of a scene, each compared with a search
 // that shares no code with it: see benchmarks/README.md.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
 
 #include "list_check.hpp"
+#include "program.hpp"
 #ifdef DCH_BENCH_HAS_LAMMPS
 #include "lammps_scene.hpp"
 #endif
 
 namespace dch::bench {
 namespace {
-
-constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
 
 struct Options {
   std::vector<std::string> scenes;
@@ -61,8 +59,23 @@ void check_scene(const std::string& name, const Options& options) {
 #endif
 }
 
+int run(const Options& options) {
+  if (!options.state.empty() && options.scenes.size() > 1)
+    throw CLI::ValidationError("--state",
+                               fmt::format("is of one scene, not of {}: name one", options.scenes.size()));
+  if (const auto folder = std::filesystem::path(options.state).parent_path();
+      !folder.empty() && !std::filesystem::is_directory(folder))
+    throw CLI::ValidationError("--state", folder.string() + ": no such folder; make it first");
+  for (const std::string& name : options.scenes) {
+    check_scene(name, options);
+    std::fflush(stdout);
+  }
+  return kOk;
+}
+
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("Lists of a hierarchy kept up over many frames, compared with a search of another kind");
+  CLI::App app("Lists of a hierarchy kept up over many frames, compared with a search of another kind",
+               "dch_check_frames");
   Options options;
   app.add_option("scenes", options.scenes, "Scenes of dch_bench_table")->required();
   app.add_option("--trajectories", options.scene.trajectories, "Folder filled by make_trajectories");
@@ -87,38 +100,10 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--scale", options.scene.scale,
                  "Particles of artificial scenes, relative to the usual number")
       ->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
-  }
-  if (!options.state.empty() && options.scenes.size() > 1) {
-    fmt::print(stderr, "--state is of one scene, not of {}: name one\n", options.scenes.size());
-    return kUsage;
-  }
-  if (const auto folder = std::filesystem::path(options.state).parent_path();
-      !folder.empty() && !std::filesystem::is_directory(folder)) {
-    fmt::print(stderr, "{}: no such folder; make it first\n", folder.string());
-    return kUsage;
-  }
-  for (const std::string& name : options.scenes) {
-    check_scene(name, options);
-    std::fflush(stdout);
-  }
-  return kOk;
+  return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace dch::bench
 
-int main(int argc, char** argv) {
-  try {
-    return dch::bench::parse_and_run(argc, argv);
-  } catch (const dch::bench::WrongList& error) {
-    fmt::print(stderr, "dch_check_frames: {}\n", error.what());
-    return dch::bench::kWrongList;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "dch_check_frames: {}\n", error.what());
-    return dch::bench::kBadFile;
-  }
-}
+int main(int argc, char** argv) { return dch::bench::parse_and_run(argc, argv); }

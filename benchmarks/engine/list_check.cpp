@@ -35,15 +35,15 @@ std::vector<PairSum> all_expected(const Scene& scene) {
 void expect_pairs(const Scene& scene, int configuration, const std::vector<PairSum>& found,
                   const std::vector<PairSum>& expected) {
   if (found != expected)
-    throw WrongList(fmt::format("{}: the lists at configuration {} have {} pairs, expected {}", scene.name,
-                                configuration, pairs_in(found), pairs_in(expected)));
+    throw WrongAnswer(fmt::format("{}: the lists at configuration {} have {} pairs, expected {}", scene.name,
+                                  configuration, pairs_in(found), pairs_in(expected)));
 }
 
 void validate(const Scene& scene, int configuration, const Contenders& contenders) {
   for (const auto& contender : contenders)
     if (const std::string fault = contender->validate(); !fault.empty())
-      throw WrongList(fmt::format("{}: the structure of '{}' at configuration {} is broken: {}", scene.name,
-                                  contender->name(), configuration, fault));
+      throw WrongAnswer(fmt::format("{}: the structure of '{}' at configuration {} is broken: {}", scene.name,
+                                    contender->name(), configuration, fault));
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ CheckedLists check_lists(Scene& scene, Contenders& contenders, const ListCheck& 
       const std::vector<PairSum> found = sums_of(*contender, scene, made);
       if (wanted.empty()) wanted = found;
       if (wanted != found)
-        throw WrongList(fmt::format(
+        throw WrongAnswer(fmt::format(
             "{}: the lists of '{}' at configuration {} have {} pairs, those of '{}' {}", scene.name,
             contender->name(), k, pairs_in(found), contenders.front()->name(), pairs_in(wanted)));
     }

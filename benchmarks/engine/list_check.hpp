@@ -5,18 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include <dch/error.hpp>
-
 #include "contender.hpp"
+#include "program.hpp"
 #include "scene.hpp"
 
 namespace dch::bench {
-
-/// A list that does not hold the pairs it should.
-class WrongList : public Error {
- public:
-  using Error::Error;
-};
 
 using Contenders = std::vector<std::unique_ptr<Contender>>;
 
@@ -40,7 +33,8 @@ struct CheckedLists {
 
 /// The lists of all contenders, made anew at the first configuration and kept up to the last, or to the last
 /// that there is.
-/// @throws WrongList if one has not the pairs of another, or not those expected, or its structure is broken.
+/// @throws WrongAnswer if one has not the pairs of another, or not those expected, or its structure is
+/// broken.
 CheckedLists check_lists(Scene& scene, Contenders& contenders, const ListCheck& check);
 
 }  // namespace dch::bench

@@ -3,7 +3,6 @@
 // Neighbor lists of the hierarchy against those of grids made with the same kernels, scene by scene: see
 // benchmarks/README.md. All lists are compared before anything is timed; then all contenders take turns at
 // each configuration.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -12,14 +11,13 @@
 
 #include "affinity.hpp"
 #include "list_check.hpp"
+#include "program.hpp"
 #include "stopwatch.hpp"
 #include "table_report.hpp"
 #include "write_scene.hpp"
 
 namespace dch::bench {
 namespace {
-
-constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
 
 struct Options {
   std::vector<std::string> scenes = scene_names();
@@ -127,7 +125,7 @@ int run(const Options& options) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("Neighbor lists of the hierarchy and of grids, compared and timed");
+  CLI::App app("Neighbor lists of the hierarchy and of grids, compared and timed", "dch_bench_table");
   Options options;
   app.add_option("--scenes", options.scenes, "Scenes to measure; all if left out")->delimiter(',');
   app.add_option("--trajectories", options.scene.trajectories, "Folder filled by make_trajectories");
@@ -146,25 +144,10 @@ int parse_and_run(int argc, char** argv) {
                  "Folder for the first configurations, as other programs may read them; "
                  "then nothing is measured");
   app.add_option("--json", options.json, "File for all measurements");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
-  }
-  return run(options);
+  return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace dch::bench
 
-int main(int argc, char** argv) {
-  try {
-    return dch::bench::parse_and_run(argc, argv);
-  } catch (const dch::bench::WrongList& error) {
-    fmt::print(stderr, "dch_bench_table: {}\n", error.what());
-    return dch::bench::kWrongList;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "dch_bench_table: {}\n", error.what());
-    return dch::bench::kBadFile;
-  }
-}
+int main(int argc, char** argv) { return dch::bench::parse_and_run(argc, argv); }

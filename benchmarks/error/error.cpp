@@ -2,7 +2,6 @@
 //
 // Speed against error: the Lennard-Jones melt run with several skins and rebuild rules, each compared with
 // the pairs within the cutoff that a cell list finds. See benchmarks/README.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -12,12 +11,12 @@
 #include "affinity.hpp"
 #include "error_report.hpp"
 #include "pair_check.hpp"
+#include "program.hpp"
 #include "rebuild_rules.hpp"
 
 namespace dch::bench {
 namespace {
 
-constexpr int kOk = 0, kMissed = 1, kUsage = 2, kFailed = 3;
 constexpr std::uint64_t kSeed = 1;
 constexpr double kSwitchesSkin = 0.3;
 
@@ -85,7 +84,7 @@ int run(const Options& options) {
   report.switches_skin = kSwitchesSkin;
   report.trials = planned(options);
   for (TrialResult& result : report.trials) result.errors = errors_of(start, result.trial, options.length);
-  if (!are_complete(options, report.trials)) return kMissed;
+  if (!are_complete(options, report.trials)) return kWrong;
   for (int repetition = 0; repetition < options.repetitions; ++repetition)
     for (TrialResult& result : report.trials)
       result.ns.push_back(time_of(start, result.trial, options.length));
@@ -97,7 +96,7 @@ int run(const Options& options) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("Speed against error: skins and rebuild rules in the Lennard-Jones melt");
+  CLI::App app("Speed against error: skins and rebuild rules in the Lennard-Jones melt", "dch_bench_error");
   Options options;
   app.add_option("--cells", options.cells, "Cubic cells of four atoms along each axis, 5 or more")
       ->check(CLI::Range(5, 100));
@@ -117,22 +116,10 @@ int parse_and_run(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--processor", options.processor, "Processor to stay on")->check(CLI::NonNegativeNumber);
   app.add_option("--json", options.json, "File for all measurements");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
-  }
-  return run(options);
+  return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace dch::bench
 
-int main(int argc, char** argv) {
-  try {
-    return dch::bench::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "dch_bench_error: {}\n", error.what());
-    return dch::bench::kFailed;
-  }
-}
+int main(int argc, char** argv) { return dch::bench::parse_and_run(argc, argv); }

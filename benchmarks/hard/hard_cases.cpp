@@ -3,7 +3,6 @@
 // dch_hard_cases: the table of hard cases (tests/support/hard_cases), what is expected of each beside what
 // came out. Exit status: 0; 1 if a case came out otherwise, or otherwise than a document says; 2 for a wrong
 // call; 3 for a file that cannot be read or written.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -11,11 +10,13 @@
 #include <set>
 
 #include "hard_case.hpp"
+#include "program.hpp"
 
 namespace dch::hard {
 namespace {
 
-constexpr int kOk = 0, kWrong = 1, kUsage = 2, kFailed = 3;
+using bench::kOk;
+using bench::kWrong;
 
 struct Options {
   Effort effort;
@@ -93,7 +94,7 @@ int run(const Options& options) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("Hard cases: what is expected of each, and what came out");
+  CLI::App app("Hard cases: what is expected of each, and what came out", "dch_hard_cases");
   Options options;
   app.add_option("--repairs", options.effort.repairs, "Repairs in a row")->check(CLI::Range(100, 10000000));
   app.add_option("--most-beads", options.effort.most_beads, "Beads of the longest necklaces")
@@ -101,22 +102,10 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--json", options.json, "File for all rows");
   app.add_flag("--markdown", options.markdown, "Print the table in Markdown");
   app.add_option("--document", options.document, "File in which all rows have to stand, in Markdown");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
-  }
-  return run(options);
+  return bench::run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace dch::hard
 
-int main(int argc, char** argv) {
-  try {
-    return dch::hard::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "dch_hard_cases: {}\n", error.what());
-    return dch::hard::kFailed;
-  }
-}
+int main(int argc, char** argv) { return dch::hard::parse_and_run(argc, argv); }

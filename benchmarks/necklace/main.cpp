@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // dch_bench_necklace: what benchmarks/README.md says about necklaces.
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
-
 #include "affinity.hpp"
 #include "parts.hpp"
+#include "program.hpp"
 
 namespace dch::bench {
 
@@ -27,7 +24,7 @@ CLI::Option* add_beads(CLI::App* command, Words& words) {
       ->capture_default_str();
 }
 
-int run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app("Measures necklaces: see benchmarks/README.md", "dch_bench_necklace");
   app.require_subcommand(1);
   Words words;
@@ -71,19 +68,10 @@ int run(int argc, char** argv) {
   chain->add_option("OUT", words.path, "Data file")->required();
   add_beads(chain, words);
   chain->callback([&] { write_chain(words.path, words.beads); });
-  CLI11_PARSE(app, argc, argv);
-  return 0;
+  return run_program(app, argc, argv, [] { return kOk; });  // the parts' callbacks do the work
 }
 
 }  // namespace
-
 }  // namespace dch::bench
 
-int main(int argc, char** argv) {
-  try {
-    return dch::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "dch_bench_necklace: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return dch::bench::parse_and_run(argc, argv); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The lists of a library, one thread, and the hierarchy on the same configurations, taking turns.
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
@@ -12,13 +11,12 @@
 #include "contender.hpp"
 #include "list_check.hpp"
 #include "peer_lists.hpp"
+#include "program.hpp"
 #include "stopwatch.hpp"
 #include "table_report.hpp"
 
 namespace dch::bench {
 namespace {
-
-constexpr int kOk = 0, kWrongList = 1, kUsage = 2, kBadFile = 3;
 
 struct Options {
   std::string scene = "melt32k";
@@ -36,8 +34,8 @@ void check(const Scene& scene, PeerLists& lists) {
   constexpr double kAtTheRadius = 1e-5;  // of all pairs
   const double allowed = lists.in_double() ? 0 : kAtTheRadius * static_cast<double>(expected.pairs);
   if (static_cast<double>(differing) > allowed || (lists.in_double() && expected != found))
-    throw WrongList(fmt::format("{}: {} has {} pairs within the radius, expected {}", scene.name,
-                                lists.name(), found.pairs, expected.pairs));
+    throw WrongAnswer(fmt::format("{}: {} has {} pairs within the radius, expected {}", scene.name,
+                                  lists.name(), found.pairs, expected.pairs));
   const double per_particle = 1 / static_cast<double>(scene.positions.size());
   fmt::print(
       "{}: {} pairs within the radius, {} of them in the list of {}, which holds {:.1f} pairs for each of {} "
@@ -118,7 +116,9 @@ int run(Options options, const PeerMaker& make_peer, const PeerMaker& make_more)
   return kOk;
 }
 
-int parse_and_run(int argc, char** argv, const PeerMaker& make_peer, const PeerMaker& make_more) {
+}  // namespace
+
+int run_beside(int argc, char** argv, const PeerMaker& make_peer, const PeerMaker& make_more) {
   CLI::App app("Lists of another library and of the hierarchy on the same configurations");
   Options options;
   app.add_option("scene", options.scene, "A scene with one list radius and a periodic box. Default melt32k");
@@ -131,26 +131,7 @@ int parse_and_run(int argc, char** argv, const PeerMaker& make_peer, const PeerM
                  "Particles of artificial scenes, relative to the usual number")
       ->check(CLI::PositiveNumber);
   app.add_option("--json", options.json, "File for the times of all repetitions");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
-  }
-  return run(options, make_peer, make_more);
-}
-
-}  // namespace
-
-int run_beside(int argc, char** argv, const PeerMaker& make_peer, const PeerMaker& make_more) {
-  try {
-    return parse_and_run(argc, argv, make_peer, make_more);
-  } catch (const WrongList& error) {
-    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
-    return kWrongList;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
-    return kBadFile;
-  }
+  return run_program(app, argc, argv, [&] { return run(options, make_peer, make_more); });
 }
 
 }  // namespace dch::bench
