@@ -10,6 +10,9 @@ import sys
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 UNKNOWN = "unknown"
+# Of the library, each wider than the one before, and the flags of a processor that it looks for.
+INSTRUCTION_SETS = {"portable": "", "sse4.2": "sse4_2 popcnt", "avx2": "avx2 fma bmi2",
+                    "avx512": "avx512f avx512bw avx512vl avx512dq avx512_vbmi2"}
 
 
 def output_of(*command):
@@ -31,21 +34,20 @@ def cpu():
         return first_match(r"^model name\s*:\s*(.*)$", file.read())
 
 
-def widest_instruction_set():
-    """The set that the library chooses on this processor, from the flags that it looks for; or what is forced."""
-    if "DCH_FORCE_ISA" in os.environ:
-        return os.environ["DCH_FORCE_ISA"]
+def instruction_sets():
+    """Those that this processor has."""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         flags = set(first_match(r"^flags\s*:\s*(.*)$", file.read()).split())
-    for name, needed in (("avx512", "avx512f avx512bw avx512vl avx512dq avx512_vbmi2"), ("avx2", "avx2 fma bmi2"),
-                         ("sse4.2", "sse4_2 popcnt")):
-        if set(needed.split()) <= flags:
-            return name
-    return "portable"
+    return [name for name, needed in INSTRUCTION_SETS.items() if set(needed.split()) <= flags]
+
+
+def instruction_set():
+    """What the library chooses: the widest set, or what is forced."""
+    return os.environ.get("DCH_FORCE_ISA", instruction_sets()[-1])
 
 
 def machine():
-    return {"cpu": cpu(), "processors": os.cpu_count(), "instruction_set": widest_instruction_set(),
+    return {"cpu": cpu(), "processors": os.cpu_count(), "instruction_set": instruction_set(),
             "system": f"{platform.system()} {platform.release()}", "load_before": os.getloadavg()[0]}
 
 

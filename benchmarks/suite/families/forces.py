@@ -3,12 +3,13 @@
 
 import collections
 
+from .. import machine
 from ..record import Measurement, Plot, Result, Table
 
 NAME = "forces"
 TITLE = "Cluster pairs and forces"
 HOSTS = ()
-SETS = ("portable", "sse4.2", "avx2", "avx512")
+SETS = tuple(machine.INSTRUCTION_SETS)  # as the program numbers them
 
 
 def run(suite):
