@@ -8,6 +8,7 @@
 namespace dch::detail {
 namespace {
 
+enum Coefficient {
   kCutoff2,
   kForce12,
   kForce6,
