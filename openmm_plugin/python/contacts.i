@@ -78,10 +78,10 @@ PyObject* list_of(const std::vector<OpenMMDCH::NecklaceContact>& contacts) {
 %typemap(in, numinputs=0) std::vector<int>& particles_out (std::vector<int> values) { $1 = &values; }
 %typemap(in, numinputs=0) std::vector<double>& radii_out (std::vector<double> values) { $1 = &values; }
 %typemap(argout) std::vector<int>& particles_out, std::vector<double>& radii_out {
-  $result = SWIG_Python_AppendOutput($result, tuple_of(*$1));
+  %append_output(tuple_of(*$1));
 }
 %typemap(in, numinputs=0) bool& closed_out (bool value = false) { $1 = &value; }
-%typemap(argout) bool& closed_out { $result = SWIG_Python_AppendOutput($result, PyBool_FromLong(*$1)); }
+%typemap(argout) bool& closed_out { %append_output(PyBool_FromLong(*$1)); }
 %typemap(out) std::vector<OpenMMDCH::NecklaceContact> {
   const std::vector<OpenMMDCH::NecklaceContact>& contacts = $1;
   $result = list_of(contacts);

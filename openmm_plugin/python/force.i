@@ -81,7 +81,7 @@ void raise(const char* message) {
 }
 %typemap(in, numinputs=0) std::string& parameter_out (std::string text) { $1 = &text; }
 %typemap(argout) std::string& parameter_out {
-  $result = SWIG_Python_AppendOutput($result, PyUnicode_FromString($1->c_str()));
+  %append_output(PyUnicode_FromString($1->c_str()));
 }
 %apply std::string& parameter_out { std::string& parameter };
 %apply double& OUTPUT {
