@@ -125,9 +125,10 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
 }
 
 /// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
-/// than what a processor can look ahead over.
+/// than what a processor can look ahead over. All that is called has to be part of the loop, since a call
+/// would spill every register; compilers do not see that where there are two places to call from.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
-void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
+[[gnu::flatten]] void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   PairCoefficients<S, kParameters> coefficient(task);
   const Constants<S> constants(task.constants);
   RowCharges<S> charges{};
