@@ -63,9 +63,13 @@ struct Avx2Float {
             twice(_mm_add_ps(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55))),
             twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
   }
-  static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
                   int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
+    if (types <= kFewTypes)
+      return _mm256_permutevar_ps(
+          _mm256_set_m128(_mm_loadu_ps(table + row[2 * part + 1]), _mm_loadu_ps(table + row[2 * part])),
+          _mm256_set_m128i(columns, columns));
     const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
     const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
     return _mm256_i32gather_ps(table, _mm256_set_m128i(second, first), 4);
@@ -136,9 +140,16 @@ struct Avx2Double {
             add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
             add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
   }
-  static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int part) {
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
+                  const std::int32_t* column, int part) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
+    if (types <= kFewTypes) {
+      // The two halves of number k are the numbers 2 k and 2 k + 1 of 32 bits.
+      const __m256i k = _mm256_cvtepi32_epi64(columns), low = _mm256_add_epi64(k, k);
+      const __m256i high = _mm256_add_epi64(low, _mm256_set1_epi64x(1));
+      return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(table + row[part])),
+                                                       _mm256_or_si256(low, _mm256_slli_epi64(high, 32))));
+    }
     return _mm256_i32gather_pd(table, _mm_add_epi32(columns, _mm_set1_epi32(row[part])), 8);
   }
   static V over_i(const V* parts) { return add(add(parts[0], parts[1]), add(parts[2], parts[3])); }

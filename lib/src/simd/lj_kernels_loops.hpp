@@ -5,6 +5,15 @@
 
 #include "lj_terms_loops.hpp"
 
+/// All that a loop calls has to be part of it, since a call would spill every register; compilers do not see
+/// that where there are two places to call from. With a sanitizer's checks, or with arrays for registers,
+/// that would take minutes to compile.
+#if defined(__SSE4_2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define DCH_IN_ONE_PIECE [[gnu::flatten]]
+#else
+#define DCH_IN_ONE_PIECE
+#endif
+
 namespace dch::detail {
 namespace {
 
@@ -38,7 +47,11 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
     found.d.y[p] = dy;
     found.d.z[p] = dz;
     found.r2[p] = r2;
-    V reach2 = coefficient(kCutoff2, p);
+    V reach2;
+    if constexpr (has_one_cutoff(kKind))
+      reach2 = coefficient.common_cutoff2();
+    else
+      reach2 = coefficient(kCutoff2, p);
     if constexpr (has_two_cutoffs(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
     found.s[p] = S::keep(S::less(r2, reach2, entry.mask, p), S::inverse(r2));
   }
@@ -84,6 +97,9 @@ void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range cluste
   }
 }
 
+template <class S>
+constexpr bool kMeasuresAhead = S::kParts <= 2;
+
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
 void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
@@ -124,11 +140,10 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
   if constexpr (!kWantsLanes<S>) S::add_over_i(force, task.force[entry.cluster]);
 }
 
-/// Separations are measured one entry ahead: the chain of dependent operations through one entry is longer
-/// than what a processor can look ahead over. All that is called has to be part of the loop, since a call
-/// would spill every register; compilers do not see that where there are two places to call from.
+/// Separations are measured one entry ahead, if they take few registers: the chain of dependent operations
+/// through one entry is longer than what a processor can look ahead over.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
-[[gnu::flatten]] void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
+DCH_IN_ONE_PIECE void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   PairCoefficients<S, kParameters> coefficient(task);
   const Constants<S> constants(task.constants);
   RowCharges<S> charges{};
@@ -146,9 +161,14 @@ template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
     const ClusterPairs::Entry* const last = task.entries + task.rows[r + 1].first - 1;
     Separations<S> separation = measure<S, kParameters, kKind>(task, row, i, *entry, coefficient);
     for (; entry != last; ++entry) {
-      const Separations<S> next = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
-      apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
-      separation = next;
+      if constexpr (kMeasuresAhead<S>) {
+        const Separations<S> next = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
+        apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
+        separation = next;
+      } else {
+        apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
+        separation = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
+      }
     }
     apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
     S::subtract_over_j(sum.force, task.force[row.cluster]);

@@ -36,6 +36,8 @@ constexpr bool has_charges(ForceKind kind) {
 constexpr bool is_switched(ForceKind kind) {
   return kind == ForceKind::switched || kind == ForceKind::switched_reaction_field;
 }
+/// Whether all pairs and charges have the same cutoff.
+constexpr bool has_one_cutoff(ForceKind kind) { return has_reaction_field(kind) || is_switched(kind); }
 /// Whether charges may have a cutoff of their own.
 constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_reaction_field(kind); }
 

@@ -37,6 +37,7 @@ struct PairCoefficients<S, LjParameters::one_type> {
   void choose_i(std::int32_t) {}
   void choose_j(std::int32_t) {}
   V operator()(int k, int) const { return value[k]; }
+  V common_cutoff2() const { return value[kCutoff2]; }
 
   V value[kCoefficients];
 };
@@ -47,20 +48,23 @@ struct PairCoefficients<S, LjParameters::by_type> {
   using V = typename S::V;
   using Real = typename S::Real;
   explicit PairCoefficients(const LjTask<Real>& task)
-      : type(task.type), types(task.types), c(task.coefficients), table{c.cutoff2,        c.force12,
-                                                                        c.force6,         c.energy12,
-                                                                        c.energy6,        c.energy_shift,
-                                                                        c.coulomb_cutoff2} {}
+      : type(task.type),
+        types(task.types),
+        c(task.coefficients),
+        table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift, c.coulomb_cutoff2},
+        cutoff2(S::set1(*c.cutoff2)) {}
   void choose_i(std::int32_t cluster) {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
   void choose_j(std::int32_t cluster) { of_j = type + 4 * cluster; }
   V operator()(int k, int part) const { return S::lookup(table[k], types, row, of_j, part); }
+  V common_cutoff2() const { return cutoff2; }
 
   const std::int32_t* type;
   std::int32_t types;
   LjCoefficients<Real> c;
   const Real* table[kCoefficients];
+  V cutoff2;
   std::int32_t row[4]{};
   const std::int32_t* of_j = nullptr;
 };
@@ -83,6 +87,7 @@ struct PairCoefficients<S, LjParameters::by_particle> {
   }
   void choose_j(std::int32_t cluster) { of_j = 4 * cluster; }
   V operator()(int, int) const { return cutoff2; }
+  V common_cutoff2() const { return cutoff2; }
   V sigma(int p) const { return S::add(sigma_of_i[p], S::repeat(half_sigma + of_j)); }
   V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], S::repeat(root_epsilon + of_j)); }
 
