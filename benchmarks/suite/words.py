@@ -40,7 +40,7 @@ def facts(record):
     hosts = ", ".join(f"{name} {version}" for name, version in record["hosts"].items())
     hashes = ", ".join(f"{scene} {value}" for scene, value in record["list_hash"].items())
     return [("processor", f"{machine['cpu']}, {machine['processors']} of them, {machine['instruction_set']}"),
-            ("load when it began", number(machine["load_before"])),
+            ("processors that others used when it began", number(machine["load_before"])),
             ("system", machine["system"]),
             ("compiler", f"{build['compiler']}, {build['type']} {build['flags']}"),
             ("commit", source["commit"][:12] + (" and changes to it" if source["changed"] else "")),
