@@ -176,12 +176,18 @@ struct Avx2Double {
   static V gather(const double* from, const std::int32_t* at) {
     return _mm256_i32gather_pd(from, _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), 8);
   }
+  /// By loads and shuffles, with which pairs one by one take two thirds of their time with gathers (Zen 3).
   static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
-    const __m128i k = _mm_loadu_si128(reinterpret_cast<const __m128i*>(at));
-    const __m128i first = _mm_add_epi32(k, _mm_add_epi32(k, k));
-    x = _mm256_i32gather_pd(from, first, 8);
-    y = _mm256_i32gather_pd(from + 1, first, 8);
-    z = _mm256_i32gather_pd(from + 2, first, 8);
+    const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const auto point = [&](int lane) {
+      return _mm256_maskload_pd(from + 3 * static_cast<std::ptrdiff_t>(at[lane]), three);
+    };
+    const V a = point(0), b = point(1), c = point(2), d = point(3);
+    const V xz_of_ab = _mm256_unpacklo_pd(a, b), y_of_ab = _mm256_unpackhi_pd(a, b);
+    const V xz_of_cd = _mm256_unpacklo_pd(c, d), y_of_cd = _mm256_unpackhi_pd(c, d);
+    x = _mm256_permute2f128_pd(xz_of_ab, xz_of_cd, 0x20);
+    y = _mm256_permute2f128_pd(y_of_ab, y_of_cd, 0x20);
+    z = _mm256_permute2f128_pd(xz_of_ab, xz_of_cd, 0x31);
   }
 };
 
