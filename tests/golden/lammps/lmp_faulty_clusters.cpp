@@ -108,6 +108,7 @@ void other_image(const AtomPoints& points, ClusterList& list) {
     is_planted = true;
   }
   if (!is_planted) no_place("shift to another image");
+  pairs.has_shift_vectors = false;
   pairs.refresh({points.positions().data(), pairs.particles}, points.box());
 }
 
