@@ -97,6 +97,8 @@ void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range cluste
   }
 }
 
+/// Whether two entries at a time fit into registers. Four parts do not: spilling costs more than waiting
+/// does.
 template <class S>
 constexpr bool kMeasuresAhead = S::kParts <= 2;
 
