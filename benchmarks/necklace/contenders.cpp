@@ -23,8 +23,8 @@ using necklace::LayeredHierarchy;
 using necklace::WrappedHierarchy;
 
 std::int64_t ask_cages(const CageHierarchy& hierarchy, const QueryScene& scene) {
-  if (scene.yes_or_no) return any_contact(hierarchy, scene.query()) ? 1 : 0;
-  return static_cast<std::int64_t>(find_contacts(hierarchy, scene.query()).size());
+  if (scene.yes_or_no) return any_contact(hierarchy, scene.query(), nullptr, scene.executor) ? 1 : 0;
+  return static_cast<std::int64_t>(find_contacts(hierarchy, scene.query(), nullptr, scene.executor).size());
 }
 
 std::vector<IndexPair> contacts_of_cages(const CageHierarchy& hierarchy, const QueryScene& scene) {
@@ -109,7 +109,7 @@ class Search : public Contender {
 /// What the scene choice takes.
 class Finder : public Contender {
  public:
-  explicit Finder(const QueryScene& scene) : scene_(scene), finder_(scene.necklace()) {}
+  explicit Finder(const QueryScene& scene) : scene_(scene), finder_(scene.necklace(), params_of(scene)) {}
   std::string name() const override { return "scene choice"; }
   void update(const std::vector<Vec3>& positions) override { finder_.update(positions, Box::none()); }
   std::int64_t ask() override {
@@ -124,6 +124,12 @@ class Finder : public Contender {
   std::string note() const override { return finder_.choice().reason; }
 
  private:
+  static necklace::ContactFinderParams params_of(const QueryScene& scene) {
+    necklace::ContactFinderParams params;
+    params.executor = scene.executor;
+    return params;
+  }
+
   const QueryScene& scene_;
   necklace::ContactFinder finder_;
 };
@@ -157,9 +163,12 @@ necklace::Necklace QueryScene::necklace() const {
 }
 
 std::vector<std::unique_ptr<Contender>> make_contenders(const QueryScene& scene) {
+  HierarchyParams dch;
+  dch.radius = scene.reach();
+  dch.executor = scene.executor;
   std::vector<std::unique_ptr<Contender>> contenders;
   contenders.push_back(std::make_unique<Search>(scene, "cell list", make_cell_search(scene.reach())));
-  contenders.push_back(std::make_unique<Search>(scene, "DCH", make_dch_search(scene.reach())));
+  contenders.push_back(std::make_unique<Search>(scene, "DCH", make_dch_search(dch)));
   contenders.push_back(std::make_unique<Wrapped>(scene, true));
   contenders.push_back(std::make_unique<Wrapped>(scene, false));
   contenders.push_back(std::make_unique<Layered>(scene));

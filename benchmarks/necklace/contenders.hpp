@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/exclusions.hpp>
+#include <dch/executor.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/vec3.hpp>
 
@@ -18,7 +19,8 @@ struct QueryScene {
   std::vector<Vec3> frames[2];
   double radius;
   double gap;
-  bool yes_or_no;  ///< is there any contact? else: all of them. Of bonded beads none counts
+  bool yes_or_no;                ///< is there any contact? else: all of them. Of bonded beads none counts
+  Executor* executor = nullptr;  ///< threads to search on, for those that can
 
   necklace::Necklace necklace() const;
   necklace::ContactQuery query() const { return {gap, 1, true, true}; }

@@ -10,7 +10,7 @@ namespace {
 
 struct Words {
   std::int64_t most = 32768;
-  int beads = 100000, chain_beads = 100, rounds = 11, frames = 1000000, processor = 0;
+  int beads = 100000, chain_beads = 100, rounds = 11, frames = 1000000, threads = 1, processor = 0;
   std::string path, folder, json;
 };
 
@@ -33,7 +33,7 @@ int parse_and_run(int argc, char** argv) {
     CLI::App* command = app.add_subcommand(name, text);
     command->add_option("--json", words.json, "Write the table to this file too");
     command->callback([&words, measure] {
-      pin_to(words.processor);
+      if (words.threads == 1) pin_to(words.processor);
       const Table table = measure();
       if (!words.json.empty()) write_json(words.json, table);
     });
@@ -51,11 +51,16 @@ int parse_and_run(int argc, char** argv) {
                           [&] { return measure_motion(words.path, words.frames); });
   motion->add_option("TRAJECTORY", words.path, "One open chain, whole")->required();
   motion->add_option("--frames", words.frames, "Frames to read at most")->check(CLI::Range(2, 1'000'000));
-  CLI::App* query = part("query", "Contact queries by all structures of the library",
-                         [&] { return measure_queries(words.beads, words.rounds, words.folder); });
+  CLI::App* query = part("query", "Contact queries by all structures of the library", [&] {
+    return measure_queries(words.beads, words.rounds, words.threads, words.folder);
+  });
   add_beads(query, words);
   query->add_option("--rounds", words.rounds, "Times that each contender has its turn")
       ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  query
+      ->add_option("--threads", words.threads, "Threads to search on; if more than 1, no processor is pinned")
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   query->add_option("--positions", words.folder, "Folder to write the positions to, for other programs");
 #ifdef DCH_BENCH_HAS_POWER_DIAGRAM

@@ -71,11 +71,12 @@ struct Times {
 std::vector<Times> time_all(const QueryScene& scene, std::vector<std::unique_ptr<Contender>>& contenders,
                             int rounds) {
   std::vector<Times> times(contenders.size());
+  const Clock clock = scene.executor != nullptr ? Clock::wall : Clock::thread;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t k = 0; k < contenders.size(); ++k) {
       Contender& contender = *contenders[k];
-      const double update = seconds_of([&] { contender.update(scene.frames[round % 2]); });
-      const double query = seconds_of([&] { contender.ask(); });
+      const double update = seconds_of([&] { contender.update(scene.frames[round % 2]); }, clock);
+      const double query = seconds_of([&] { contender.ask(); }, clock);
       times[k].update.push_back(1e3 * update);
       times[k].query.push_back(1e3 * query);
       times[k].both.push_back(1e3 * (update + query));
@@ -131,17 +132,19 @@ void write_positions(const std::string& path, const std::vector<Vec3>& positions
 
 }  // namespace
 
-Table measure_queries(int beads, int rounds, const std::string& folder) {
+Table measure_queries(int beads, int rounds, int threads, const std::string& folder) {
   const Shape swollen = necklace::self_avoiding_walk(beads, 1, 1);
   const Shape globule = necklace::globule(beads, 0.1, 1);
   // Radii without contact leave room for the steps.
   const Shape stretched = necklace::grid_necklace(beads, 1, 1);
-  const QueryScene scenes[] = {
+  QueryScene scenes[] = {
       scene_of("stretched_apart", stretched, 0.47, 0, true),
       scene_of("swollen_apart", swollen, 0.47, 0, true), scene_of("swollen", swollen, 0.5, 0.3, false),
       scene_of("globule_apart", globule, 0.38, 0, true), scene_of("globule", globule, 0.5, 0.1, false)};
+  const auto executor = threads > 1 ? make_thread_pool(threads) : nullptr;
   Table table;
-  for (const QueryScene& scene : scenes) {
+  for (QueryScene& scene : scenes) {
+    scene.executor = executor.get();
     measure_scene(scene, rounds, table);
     if (!folder.empty()) write_positions(folder + "/" + scene.name + ".positions", scene.frames[1]);
   }

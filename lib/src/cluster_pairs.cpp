@@ -137,7 +137,7 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
   const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
   const auto refresh = detail::cluster_kernels(instruction_set()).refresh;
   std::vector<std::int32_t> far(at.size(), kPadding);
-  detail::for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
+  for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
     const detail::RefreshTask task{first,           last,
                                    particle.data(), origin_of.data(),
                                    origin.data(),   positions.data(),

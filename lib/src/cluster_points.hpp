@@ -147,19 +147,4 @@ inline std::int16_t rounded(double v) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
 }
 
-/// Runs task(first, last) over parts of [0, count), on the threads of `executor` or, if that is null, as one
-/// part.
-template <class Task>
-void for_ranges(Executor* executor, std::int32_t count, const Task& task) {
-  if (!executor || executor->threads() == 1) {
-    task(0, count);
-    return;
-  }
-  const int parts = executor->threads();
-  executor->run(parts, [&](int part) {
-    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{count} * k / parts); };
-    task(cut(part), cut(part + 1));
-  });
-}
-
 }  // namespace dch::detail

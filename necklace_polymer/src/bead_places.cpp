@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "parameter_check.hpp"
+#include <dch/error.hpp>
 
 namespace dch::necklace::detail {
 
@@ -12,8 +12,10 @@ namespace {
 std::int32_t place_of(std::int32_t particle, Span<const std::int32_t> by_particle) {
   const bool exists = particle >= 0 && static_cast<std::size_t>(particle) < by_particle.size();
   const std::int32_t place = exists ? by_particle[static_cast<std::size_t>(particle)] : -1;
-  require_parameter(place >= 0, "a contact names the particle " + std::to_string(particle) +
-                                    ", which stands in no chain of the necklace; give contacts of its beads");
+  if (place < 0) {
+    throw InvalidParameter("a contact names the particle " + std::to_string(particle) +
+                           ", which stands in no chain of the necklace; give contacts of its beads");
+  }
   return place;
 }
 

@@ -19,11 +19,11 @@ bool in_order(const Pair& a, const OtherPair& b) {
 void check_order(Span<const Contact> contacts) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const bool ascends = k == 0 || in_order(contacts[k - 1], contacts[k]);
-    detail::require_parameter(ascends && contacts[k].i < contacts[k].j,
-                              "contact " + std::to_string(k) + ", of the beads " +
-                                  std::to_string(contacts[k].i) + " and " + std::to_string(contacts[k].j) +
-                                  ", is out of order; contacts have to ascend and to have i < j, as "
-                                  "find_contacts() gives them");
+    if (ascends && contacts[k].i < contacts[k].j) continue;
+    throw InvalidParameter("contact " + std::to_string(k) + ", of the beads " +
+                           std::to_string(contacts[k].i) + " and " + std::to_string(contacts[k].j) +
+                           ", is out of order; contacts have to ascend and to have i < j, as find_contacts() "
+                           "gives them");
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -10,7 +12,6 @@
 #include "bead_check.hpp"
 #include "contact_check.hpp"
 #include "contact_of.hpp"
-#include "found_pairs.hpp"
 
 namespace dch::necklace {
 
@@ -58,7 +59,7 @@ bool ContactFinder::any_contact(const ContactQuery& query) {
   std::vector<Contact> found;
   if (!measures_now()) return by_dch(query, true, found);
   ContactStats stats;
-  const bool any = necklace::any_contact(wrapped_now(), query, &stats);
+  const bool any = necklace::any_contact(wrapped_now(), query, &stats, params_.executor);
   if (!any) measured(stats);
   return any;
 }
@@ -70,7 +71,7 @@ std::vector<Contact> ContactFinder::find_contacts(const ContactQuery& query) {
     return found;
   }
   ContactStats stats;
-  found = necklace::find_contacts(wrapped_now(), query, &stats);
+  found = necklace::find_contacts(wrapped_now(), query, &stats, params_.executor);
   measured(stats);
   return found;
 }
@@ -121,6 +122,7 @@ bool ContactFinder::list_near(const ContactQuery& query) {
   if (search_ == nullptr || !fits) {
     HierarchyParams structure;
     structure.radius = search_radius_ = radius;
+    structure.executor = params_.executor;
     structure.size_classes =
         necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
     search_ = make_dch_search(structure);
@@ -151,22 +153,30 @@ Contact ContactFinder::contact_at(std::int32_t p, std::int32_t q) const {
 bool ContactFinder::by_dch(const ContactQuery& query, bool first_only, std::vector<Contact>& out) {
   detail::check_query(necklace(), box_, query);
   if (!list_near(query)) {
-    out = necklace::find_contacts(wrapped_now(), query);
+    out = necklace::find_contacts(wrapped_now(), query, nullptr, params_.executor);
     return !out.empty();
   }
+  std::atomic<bool> any{false};
+  std::mutex joining;
   detail::FoundPairs found(necklace().particle());
-  for (std::size_t row = 0; row < list_.size(); ++row) {
-    const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
-    for (const std::int32_t q : list_.row(row)) {
-      if (!is_contact(p, q, query)) continue;
-      if (first_only) return true;
-      found.add(p, q);
+  for_ranges(params_.executor, list_.size(), [&](std::size_t first, std::size_t last) {
+    detail::FoundPairs part(necklace().particle());
+    for (std::size_t row = first; row < last && !(first_only && any); ++row) {
+      const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
+      for (const std::int32_t q : list_.row(row)) {
+        if (!is_contact(p, q, query)) continue;
+        any = true;
+        part.add(p, q);
+      }
     }
-  }
-  const auto& pairs = found.sorted();
-  out.reserve(pairs.size());
-  for (const auto& pair : pairs) out.push_back(contact_at(pair.places[0], pair.places[1]));
-  return !out.empty();
+    const std::lock_guard lock(joining);
+    found.add(std::move(part));
+  });
+  if (first_only) return any;
+  out = detail::contacts_of(found, params_.executor, [&](const detail::FoundPairs::Pair& pair) {
+    return contact_at(pair.places[0], pair.places[1]);
+  });
+  return any;
 }
 
 }  // namespace dch::necklace

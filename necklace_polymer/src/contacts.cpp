@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <string>
+#include <utility>
 
+#include <dch/executor.hpp>
 #include <dch/necklace/contacts.hpp>
-#include <dch/pair_search.hpp>
 
 #include "contact_check.hpp"
 #include "contact_descent.hpp"
 #include "contact_of.hpp"
-#include "found_pairs.hpp"
+#include "contact_tasks.hpp"
 
 namespace dch::necklace {
 
 namespace {
-
-/// From how many chains on a cell list of roots is worth its cost.
-constexpr std::size_t kManyChains = 32;
 
 void check(const CageHierarchy& hierarchy, const ContactQuery& query) {
   detail::check_query(hierarchy.necklace(), hierarchy.box(), query);
@@ -25,20 +25,25 @@ void check(const CageHierarchy& hierarchy, const ContactQuery& query) {
   }
 }
 
-/// Stops at the first contact.
+/// Stops at the first contact, on whichever thread it is found.
 struct Any {
   static constexpr bool kWantsSeparated = false;
-  bool found = false;
-  bool done() const { return found; }
-  void contact(std::int32_t, std::int32_t) { found = true; }
+  std::atomic<bool>& found;
+  Any part() const { return *this; }
+  void join(Any&&) {}
+  bool done() const { return found.load(std::memory_order_relaxed); }
+  void contact(std::int32_t, std::int32_t) { found.store(true, std::memory_order_relaxed); }
   void separated(const CagedBeads&, const CagedBeads&) {}
 };
 
 /// Collects contacts.
 struct All {
-  explicit All(const CageHierarchy& hierarchy) : contacts(hierarchy.necklace().particle()) {}
+  explicit All(const CageHierarchy& of) : hierarchy(of), contacts(of.necklace().particle()) {}
   static constexpr bool kWantsSeparated = false;
+  const CageHierarchy& hierarchy;
   detail::FoundPairs contacts;
+  All part() const { return All(hierarchy); }
+  void join(All&& part) { contacts.add(std::move(part.contacts)); }
   static bool done() { return false; }
   void contact(std::int32_t p, std::int32_t q) { contacts.add(p, q); }
   void separated(const CagedBeads&, const CagedBeads&) {}
@@ -52,55 +57,103 @@ struct Certified : All {
   void separated(const CagedBeads& a, const CagedBeads& b) { pairs.push_back({a, b}); }
 };
 
-/// Pairs of chains whose roots may be close to each other; all of them if `all`.
-std::vector<IndexPair> pairs_of_chains(const CageHierarchy& hierarchy, double gap, bool all) {
-  const auto roots = hierarchy.trees().roots();
-  std::vector<Vec3> centers;
-  std::vector<double> radii;
-  ListParams params;
-  params.skin = std::max(gap, 0.0) + hierarchy.rounding();
-  double largest = 0;
-  for (const std::int32_t root : roots) {
-    const Ball& cage = hierarchy.cages()[static_cast<std::size_t>(root)];
-    centers.push_back(cage.center);
-    radii.push_back(cage.radius * (1 + 1e-11));
-    largest = std::max(largest, radii.back());
+/// A search on several threads is cut into so many parts for each, so that the last ones do not keep the
+/// others waiting.
+constexpr int kPartsOfThread = 8;
+/// Nodes of fewer beads are not worth a task.
+constexpr std::int64_t kFewestBeads = 64;
+
+template <class Visitor>
+ContactStats search_alone(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& visitor) {
+  detail::ContactDescent<Visitor> descent(hierarchy, query, visitor);
+  const detail::ChainTasks tasks(hierarchy, query, Visitor::kWantsSeparated);
+  for (std::size_t chain = 0; chain < tasks.chains() && !visitor.done(); ++chain) {
+    tasks.of_chain(chain, [&](const detail::ContactTask& task) { descent.run(task); });
   }
-  params.radii = radii;
-  std::vector<IndexPair> result;
-  const bool by_cells = !all && roots.size() >= kManyChains && largest > 0 &&
-                        2 * largest + params.skin <= hierarchy.box().max_cutoff();
-  if (!by_cells) {
-    for (std::int32_t a = 0; a < static_cast<std::int32_t>(roots.size()); ++a) {
-      for (std::int32_t b = a + 1; b < static_cast<std::int32_t>(roots.size()); ++b) result.push_back({a, b});
+  return descent.stats();
+}
+
+/// The parts of a search on several threads.
+struct SearchParts {
+  detail::ChainTasks chains;
+  std::int64_t most;                         ///< beads of a task that is left whole
+  std::vector<detail::ContactTask> smaller;  ///< what those of more beads were begun into
+};
+
+template <class Visitor>
+SearchParts parts_of(const CageHierarchy& hierarchy, const ContactQuery& query, int threads,
+                     detail::ContactDescent<Visitor>& descent) {
+  const ChainTrees& trees = hierarchy.trees();
+  SearchParts parts{{hierarchy, query, false}, 0, {}};
+  const auto beads = static_cast<std::int64_t>(hierarchy.necklace().size());
+  parts.most = std::max(beads / (kPartsOfThread * threads), kFewestBeads);
+  std::vector<detail::ContactTask> large;
+  std::int64_t longest = 0;
+  for (const std::int32_t root : trees.roots())
+    longest = std::max<std::int64_t>(longest, trees.node(root).count);
+  for (std::size_t chain = 0; 2 * longest > parts.most && chain < parts.chains.chains(); ++chain) {
+    parts.chains.of_chain(chain, [&](const detail::ContactTask& task) {
+      if (beads_of(trees, task) > parts.most) large.push_back(task);
+    });
+  }
+  while (!large.empty()) {
+    const detail::ContactTask task = large.back();
+    large.pop_back();
+    if (beads_of(trees, task) > parts.most) {
+      descent.begin(task, large);
+    } else {
+      parts.smaller.push_back(task);
     }
-    return result;
   }
-  const auto search = make_cell_search(params.list_radius());
-  search->update(centers, hierarchy.box());
-  const NeighborList list = search->list(params);
-  for (std::size_t a = 0; a < list.size(); ++a) {
-    for (const std::int32_t b : list.row(a)) result.push_back({static_cast<std::int32_t>(a), b});
-  }
-  return result;
+  return parts;
 }
 
 template <class Visitor>
-void search(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& visitor,
-            ContactStats* stats) {
-  check(hierarchy, query);
-  detail::ContactDescent<Visitor> descent(hierarchy, query, visitor);
-  const std::size_t chains = hierarchy.necklace().chains().size();
-  for (std::size_t chain = 0; query.within_chains && chain < chains && !visitor.done(); ++chain) {
-    descent.within(chain);
-  }
-  if (query.between_chains && chains > 1 && !visitor.done()) {
-    for (const auto& [a, b] : pairs_of_chains(hierarchy, query.gap, Visitor::kWantsSeparated)) {
-      if (visitor.done()) break;
-      descent.between(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+ContactStats search_side_by_side(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& visitor,
+                                 Executor& executor) {
+  const ChainTrees& trees = hierarchy.trees();
+  detail::ContactDescent<Visitor> first(hierarchy, query, visitor);
+  const SearchParts parts = parts_of(hierarchy, query, executor.threads(), first);
+  const int count = kPartsOfThread * executor.threads();
+  const auto begins = detail::equal_ranges(trees, parts.smaller, static_cast<std::size_t>(count));
+  const int ranges = static_cast<int>(begins.size()) - 1;
+  const auto run_range = [&](std::size_t range, detail::ContactDescent<Visitor>& descent) {
+    for (std::size_t k = begins[range]; k < begins[range + 1]; ++k) descent.run(parts.smaller[k]);
+  };
+  // Chains of lower index have more pairs.
+  const auto run_every = [&](std::size_t chain, detail::ContactDescent<Visitor>& descent) {
+    for (; chain < parts.chains.chains(); chain += static_cast<std::size_t>(count)) {
+      parts.chains.of_chain(chain, [&](const detail::ContactTask& task) {
+        if (beads_of(trees, task) <= parts.most) descent.run(task);
+      });
     }
-  }
-  if (stats != nullptr) *stats = descent.stats();
+  };
+  ContactStats sum = first.stats();
+  std::mutex joining;
+  executor.run(ranges + count, [&](int part) {
+    Visitor found = visitor.part();
+    detail::ContactDescent<Visitor> descent(hierarchy, query, found);
+    if (part < ranges) {
+      run_range(static_cast<std::size_t>(part), descent);
+    } else {
+      run_every(static_cast<std::size_t>(part - ranges), descent);
+    }
+    const std::lock_guard lock(joining);
+    visitor.join(std::move(found));
+    sum.cage_pairs += descent.stats().cage_pairs;
+    sum.bead_pairs += descent.stats().bead_pairs;
+  });
+  return sum;
+}
+
+template <class Visitor>
+void search(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& visitor, ContactStats* stats,
+            Executor* executor) {
+  check(hierarchy, query);
+  const bool alone = executor == nullptr || executor->threads() == 1;
+  const ContactStats sum = alone ? search_alone(hierarchy, query, visitor)
+                                 : search_side_by_side(hierarchy, query, visitor, *executor);
+  if (stats != nullptr) *stats = sum;
 }
 
 Contact contact_at(const CageHierarchy& hierarchy, const detail::FoundPairs::Pair& pair) {
@@ -112,12 +165,10 @@ Contact contact_at(const CageHierarchy& hierarchy, const detail::FoundPairs::Pai
                             hierarchy.beads()[second].radius);
 }
 
-std::vector<Contact> sorted(const CageHierarchy& hierarchy, All& found) {
-  const auto& pairs = found.contacts.sorted();
-  std::vector<Contact> result;
-  result.reserve(pairs.size());
-  for (const auto& pair : pairs) result.push_back(contact_at(hierarchy, pair));
-  return result;
+std::vector<Contact> sorted(All& found, Executor* executor) {
+  return detail::contacts_of(found.contacts, executor, [&](const detail::FoundPairs::Pair& pair) {
+    return contact_at(found.hierarchy, pair);
+  });
 }
 
 }  // namespace
@@ -137,23 +188,27 @@ void detail::check_query(const Necklace& necklace, const Box& box, const Contact
   }
 }
 
-bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats) {
-  Any visitor;
-  search(hierarchy, query, visitor, stats);
-  return visitor.found;
+bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats,
+                 Executor* executor) {
+  std::atomic<bool> found{false};
+  Any visitor{found};
+  search(hierarchy, query, visitor, stats, executor);
+  return found;
 }
 
 std::vector<Contact> find_contacts(const CageHierarchy& hierarchy, const ContactQuery& query,
-                                   ContactStats* stats) {
+                                   ContactStats* stats, Executor* executor) {
   All visitor(hierarchy);
-  search(hierarchy, query, visitor, stats);
-  return sorted(hierarchy, visitor);
+  search(hierarchy, query, visitor, stats, executor);
+  return sorted(visitor, executor);
 }
 
 Separation separate(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats) {
+  check(hierarchy, query);
   Certified visitor(hierarchy);
-  search(hierarchy, query, visitor, stats);
-  return {std::move(visitor.pairs), sorted(hierarchy, visitor)};
+  const ContactStats sum = search_alone(hierarchy, query, visitor);
+  if (stats != nullptr) *stats = sum;
+  return {std::move(visitor.pairs), sorted(visitor, nullptr)};
 }
 
 }  // namespace dch::necklace

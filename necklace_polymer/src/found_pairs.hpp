@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <dch/executor.hpp>
 #include <dch/pair_search.hpp>
 #include <dch/span.hpp>
 
@@ -31,15 +32,19 @@ class FoundPairs {
     if (i > j) std::swap(i, j), std::swap(p, q);
     pairs_.push_back({i << 32 | j, {p, q}});
   }
+  void add(FoundPairs&& others) {
+    if (pairs_.empty()) return pairs_.swap(others.pairs_);
+    pairs_.insert(pairs_.end(), others.pairs_.begin(), others.pairs_.end());
+  }
   /// In ascending order of particles. O(c lg c) for c contacts; O(c) if the particles are not many more than
   /// the contacts and none has many.
-  const std::vector<Pair>& sorted() {
+  const std::vector<Pair>& sorted(Executor* executor) {
     std::uint64_t most = 0;
     for (const Pair& pair : pairs_) most = std::max(most, pair.key >> 32);
     if (pairs_.size() < most / 8) {
       sort(pairs_.begin(), pairs_.end());
     } else {
-      sort_by_rows(most);
+      sort_by_rows(most, executor);
     }
     return pairs_;
   }
@@ -53,18 +58,17 @@ class FoundPairs {
 
   /// Counts the contacts of each lower particle, of which `most` is the last, puts them together, and sorts
   /// what one has.
-  void sort_by_rows(std::uint64_t most) {
+  void sort_by_rows(std::uint64_t most, Executor* executor) {
     std::vector<std::size_t> end(most + 2, 0);
     for (const Pair& pair : pairs_) ++end[(pair.key >> 32) + 1];
     for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
     std::vector<Pair> rows(pairs_.size());
     for (const Pair& pair : pairs_) rows[end[pair.key >> 32]++] = pair;
     pairs_.swap(rows);
-    std::size_t first = 0;
-    for (std::size_t i = 0; i <= most; first = end[i++]) {
-      const auto begin = pairs_.begin();
-      sort(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end[i]));
-    }
+    const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(k); };
+    for_ranges(executor, most + 1, [&](std::uint64_t first, std::uint64_t last) {
+      for (std::uint64_t i = first; i < last; ++i) sort(at(i == 0 ? 0 : end[i - 1]), at(end[i]));
+    });
   }
 
   Span<const std::int32_t> particle_;

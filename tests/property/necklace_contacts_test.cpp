@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <dch/executor.hpp>
+#include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/layered_hierarchy.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
@@ -19,7 +23,11 @@ using dch::Box;
 using dch::Vec3;
 using dch::necklace::any_contact;
 using dch::necklace::Chains;
+using dch::necklace::Contact;
+using dch::necklace::ContactFinder;
+using dch::necklace::ContactFinderParams;
 using dch::necklace::ContactQuery;
+using dch::necklace::ContactStats;
 using dch::necklace::find_contacts;
 using dch::necklace::LayeredHierarchy;
 using dch::necklace::Necklace;
@@ -144,6 +152,63 @@ TEST(NecklaceContacts, EqualBruteForceUnderMotion) {
           << "seed " << seed << ", step " << step;
       for (Vec3& p : scene.positions) p = p + random.in_ball(0.05);
     }
+  }
+}
+
+bool same(const Contact& a, const Contact& b) {
+  return a.i == b.i && a.j == b.j && a.gap == b.gap && a.on_i == b.on_i && a.on_j == b.on_j;
+}
+
+/// Contacts, to the last bit, and the work are those of one thread; by either structure.
+void expect_same_on_threads(const Scene& scene, dch::Executor& threads, const std::string& where) {
+  WrappedHierarchy wrapped(scene.necklace);
+  wrapped.build(scene.positions, scene.box);
+  ContactStats stats, threads_stats;
+  const auto expected = find_contacts(wrapped, scene.query, &stats);
+  const auto found = find_contacts(wrapped, scene.query, &threads_stats, &threads);
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same)) << where;
+  EXPECT_EQ(threads_stats.cage_pairs, stats.cage_pairs) << where;
+  EXPECT_EQ(threads_stats.bead_pairs, stats.bead_pairs) << where;
+  EXPECT_EQ(any_contact(wrapped, scene.query, nullptr, &threads), !expected.empty()) << where;
+  ContactFinderParams params;
+  params.to_dch = params.to_wrapped = 0;  // the DCH after the first search
+  params.executor = &threads;
+  ContactFinder finder(scene.necklace, params);
+  for (int search = 0; search < 2; ++search) {
+    finder.update(scene.positions, scene.box);
+    const auto chosen = finder.find_contacts(scene.query);
+    EXPECT_TRUE(std::equal(chosen.begin(), chosen.end(), expected.begin(), expected.end(), same)) << where;
+    EXPECT_EQ(finder.any_contact(scene.query), !expected.empty()) << where;
+  }
+}
+
+TEST(NecklaceContacts, AreTheSameOnSeveralThreads) {
+  const int counts[] = {2, 3, 16};
+  std::uint64_t seed = 3001;
+  for (const int count : counts) {
+    const auto threads = dch::make_thread_pool(count);
+    const std::uint64_t end = seed + static_cast<std::uint64_t>(dch::effort(60));
+    for (; seed < end && !HasFailure(); ++seed) {
+      expect_same_on_threads(random_scene(seed), *threads,
+                             "seed " + std::to_string(seed) + " on " + std::to_string(count) + " threads");
+    }
+  }
+}
+
+/// One long chain, which only parts of its tree can keep threads busy with.
+TEST(NecklaceContacts, OfALongChainAreTheSameOnSeveralThreads) {
+  const auto threads = dch::make_thread_pool(3);
+  for (const bool closed : {false, true}) {
+    Random random(8);
+    Scene scene;
+    scene.positions = walk(6000, closed, {}, 0.5, random);
+    Chains chains(scene.positions.size());
+    std::vector<std::int32_t> names(scene.positions.size());
+    for (std::size_t k = 0; k < names.size(); ++k) names[k] = static_cast<std::int32_t>(k);
+    chains.add(names, closed);
+    scene.necklace = Necklace(chains, 0.5);
+    scene.query.gap = 0.1;
+    expect_same_on_threads(scene, *threads, closed ? "ring" : "open chain");
   }
 }
 

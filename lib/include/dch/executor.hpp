@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -23,5 +24,17 @@ class Executor {
 /// A pool of `threads` - 1 standing threads and the one that calls run().
 /// @throws InvalidParameter unless 1 <= threads <= 4096.
 std::unique_ptr<Executor> make_thread_pool(int threads);
+
+/// Calls task(first, last) for ranges that make up [0, count), one for each thread of `executor`; if that is
+/// null or has one thread, for the whole.
+template <class Count, class Task>
+void for_ranges(Executor* executor, Count count, const Task& task) {
+  const int parts = executor ? executor->threads() : 1;
+  if (parts == 1) return task(Count{0}, count);
+  executor->run(parts, [&](int part) {
+    const auto cut = [&](int k) { return static_cast<Count>(static_cast<std::int64_t>(count) * k / parts); };
+    task(cut(part), cut(part + 1));
+  });
+}
 
 }  // namespace dch

@@ -16,8 +16,11 @@ constexpr double kSkinFraction = 0.3;
 }  // namespace
 
 ContactKeeper::ContactKeeper(dch::necklace::Necklace necklace,
-                             const dch::necklace::ContactQuery& contactQuery)
-    : hierarchy(std::move(necklace)), query(contactQuery), beads(hierarchy.necklace().size()) {}
+                             const dch::necklace::ContactQuery& contactQuery, dch::Executor* threads)
+    : hierarchy(std::move(necklace)),
+      query(contactQuery),
+      executor(threads),
+      beads(hierarchy.necklace().size()) {}
 
 /// As large as there is room, or near it, since boxes change all the time under a barostat.
 void ContactKeeper::chooseSkin(const dch::Box& box) {
@@ -44,7 +47,7 @@ std::vector<dch::necklace::Contact> ContactKeeper::contacts(dch::Span<const dch:
                                                             const dch::Box& box, double gap) {
   hierarchy.update(positions, box);
   query.gap = gap;
-  return dch::necklace::find_contacts(hierarchy, query);
+  return dch::necklace::find_contacts(hierarchy, query, nullptr, executor);
 }
 
 }  // namespace OpenMMDCH

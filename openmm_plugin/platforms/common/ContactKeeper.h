@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <dch/executor.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 #include <dch/stale_test.hpp>
@@ -16,7 +17,9 @@ namespace OpenMMDCH {
 class ContactKeeper {
  public:
   /// @param query  its gap is not looked at
-  ContactKeeper(dch::necklace::Necklace necklace, const dch::necklace::ContactQuery& query);
+  /// @param threads  to search on; null for that of the caller alone. They outlive the object
+  ContactKeeper(dch::necklace::Necklace necklace, const dch::necklace::ContactQuery& query,
+                dch::Executor* threads);
 
   const dch::necklace::Necklace& necklace() const { return hierarchy.necklace(); }
 
@@ -34,6 +37,7 @@ class ContactKeeper {
 
   dch::necklace::WrappedHierarchy hierarchy;
   dch::necklace::ContactQuery query;
+  dch::Executor* executor;
   double skin = 0;
   std::optional<dch::StaleTest> staleTest;
   std::vector<dch::Vec3> beads;  ///< by place

@@ -66,7 +66,7 @@ void NecklaceContactKernel::initialize(const OpenMM::System& system, const Neckl
   query.within_chains = force.getActsWithinChains();
   query.between_chains = force.getActsBetweenChains();
   potential.emplace(force);
-  withHostErrors([&] { keeper.emplace(necklaceOf(system, force), query); });
+  withHostErrors([&] { keeper.emplace(necklaceOf(system, force), query, executor.get()); });
   if (!isPeriodic) return;
   OpenMM::Vec3 vectors[3];
   system.getDefaultPeriodicBoxVectors(vectors[0], vectors[1], vectors[2]);
@@ -77,7 +77,7 @@ void NecklaceContactKernel::copyParametersToContext(OpenMM::ContextImpl& context
                                                     const NecklaceContactForce& force) {
   Necklace necklace = withHostErrors([&] { return necklaceOf(context.getSystem(), force); });
   checkSame(keeper->necklace().chains(), necklace.chains());
-  keeper.emplace(std::move(necklace), query);
+  keeper.emplace(std::move(necklace), query, executor.get());
   potential->setStrength(force.getStrength());
 }
 

@@ -2,8 +2,13 @@
 #ifndef OPENMM_DCH_NECKLACE_CONTACT_KERNEL_H_
 #define OPENMM_DCH_NECKLACE_CONTACT_KERNEL_H_
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include <dch/executor.hpp>
 
 #include "ContactKeeper.h"
 #include "ContactPotential.h"
@@ -12,10 +17,14 @@
 
 namespace OpenMMDCH {
 
-/// A NecklaceContactForce on platforms on the processor, all in double and on one thread.
+/// A NecklaceContactForce on platforms on the processor, all in double. Contacts are searched on the threads
+/// that the platform lends, forces are added on one.
 class NecklaceContactKernel : public CalcNecklaceContactForceKernel {
  public:
-  using CalcNecklaceContactForceKernel::CalcNecklaceContactForceKernel;
+  /// @param threads  null for one
+  NecklaceContactKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
+                        std::unique_ptr<dch::Executor> threads = nullptr)
+      : CalcNecklaceContactForceKernel(kernelName, onPlatform), executor(std::move(threads)) {}
 
   void initialize(const OpenMM::System& system, const NecklaceContactForce& force) override;
   double execute(OpenMM::ContextImpl& context, bool includeForces, bool includeEnergy) override;
@@ -27,6 +36,7 @@ class NecklaceContactKernel : public CalcNecklaceContactForceKernel {
   HostState stateOf(OpenMM::ContextImpl& context) const;
   double addPairs(const HostState& state);
 
+  std::unique_ptr<dch::Executor> executor;
   bool isPeriodic = false;
   dch::necklace::ContactQuery query;
   std::optional<ContactKeeper> keeper;

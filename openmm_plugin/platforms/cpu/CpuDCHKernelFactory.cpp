@@ -2,6 +2,7 @@
 //
 // The plugin of the CPU platform.
 #include <CpuPlatform.h>
+#include <memory>
 #include <openmm/KernelFactory.h>
 #include <openmm/OpenMMException.h>
 #include <openmm/Platform.h>
@@ -9,6 +10,7 @@
 
 #include "CpuDCHKernels.h"
 #include "NecklaceContactKernel.h"
+#include "PoolExecutor.h"
 
 namespace {
 
@@ -16,11 +18,12 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
  public:
   OpenMM::KernelImpl* createKernelImpl(std::string name, const OpenMM::Platform& platform,
                                        OpenMM::ContextImpl& context) const override {
+    OpenMM::ThreadPool& threads = OpenMM::CpuPlatform::getPlatformData(context).threads;
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
-      return new OpenMMDCH::CpuCalcDCHNonbondedForceKernel(
-          name, platform, OpenMM::CpuPlatform::getPlatformData(context).threads);
+      return new OpenMMDCH::CpuCalcDCHNonbondedForceKernel(name, platform, threads);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
-      return new OpenMMDCH::NecklaceContactKernel(name, platform);
+      return new OpenMMDCH::NecklaceContactKernel(name, platform,
+                                                  std::make_unique<OpenMMDCH::PoolExecutor>(threads));
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
 };

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
 #include <utility>
 
+#include <dch/executor.hpp>
 #include <dch/trajectory/file_error.hpp>
 
 #include "chain_topology.hpp"
@@ -24,6 +26,7 @@ class ContactAnalysis {
   ContactAnalysis(const ContactOptions& options, ProgressBar& progress)
       : options_(options), progress_(progress) {
     report_.query = options.query;
+    report_.threads = options.threads;
   }
   ContactReport run();
 
@@ -47,6 +50,7 @@ class ContactAnalysis {
   std::int64_t frames_expected_ = 0;
   BeadChains beads_;
   std::optional<BeadFinder> finder_;
+  std::unique_ptr<Executor> threads_;  ///< the hierarchy's too
   std::optional<necklace::WrappedHierarchy> hierarchy_;
   necklace::ContactEvents events_;
   double last_time_ = 0;
@@ -89,6 +93,7 @@ void ContactAnalysis::take_chains(const Scan& scan) {
     report_.rings += beads_.chains.closed(chain) ? 1 : 0;
   }
   require_gap_fits(scan);
+  threads_ = make_thread_pool(options_.threads);
   hierarchy_.emplace(necklace::Necklace(beads_.chains, radii));
   const necklace::Necklace& necklace = hierarchy_->necklace();
   report_.map = necklace::ContactMap(necklace, options_.query, options_.bins);
@@ -143,6 +148,7 @@ void ContactAnalysis::follow_frame(const trajectory::Frame& frame, std::int64_t 
   record.read_ms = read_ms;
   const double time = time_of(frame, index);
   const std::vector<necklace::Contact> contacts = contacts_of(frame, index, record);
+  const Stopwatch follow;
   for (const necklace::Contact& contact : contacts) {
     const bool within = beads_.chains.chain_of(contact.i) == beads_.chains.chain_of(contact.j);
     ++(within ? record.within : record.between);
@@ -151,6 +157,7 @@ void ContactAnalysis::follow_frame(const trajectory::Frame& frame, std::int64_t 
   report_.probability.add(contacts);
   const auto ended = events_.add(time, contacts);
   report_.events.add(ended);
+  record.follow_ms = follow.milliseconds();
   if (data_) {
     const Stopwatch watch;
     data_->append(record);
@@ -190,7 +197,7 @@ std::vector<necklace::Contact> ContactAnalysis::contacts_of(const trajectory::Fr
     hierarchy_->update(positions, frame.box);
     record.update_ms = update.milliseconds();
     const Stopwatch search;
-    auto contacts = necklace::find_contacts(*hierarchy_, options_.query);
+    auto contacts = necklace::find_contacts(*hierarchy_, options_.query, nullptr, threads_.get());
     record.search_ms = search.milliseconds();
     return contacts;
   } catch (const necklace::Undetermined& error) {

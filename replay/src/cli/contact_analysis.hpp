@@ -21,6 +21,7 @@ struct ContactOptions {
   BeadRadii radii{"0"};
   std::int32_t bins = 512;  ///< at most, of the contact map
   FrameRange frames;
+  int threads = 1;   ///< to find contacts with
   std::string data;  ///< contacts.h5; empty: none
 };
 

@@ -67,6 +67,7 @@ Json per_frame_json(const ContactReport& report) {
   json["read_ms"] = column(report, [](const ContactFrame& f) { return f.read_ms; });
   json["update_ms"] = column(report, [](const ContactFrame& f) { return f.update_ms; });
   json["search_ms"] = column(report, [](const ContactFrame& f) { return f.search_ms; });
+  json["follow_ms"] = column(report, [](const ContactFrame& f) { return f.follow_ms; });
   return json;
 }
 
@@ -86,6 +87,7 @@ std::string render_json(const ContactReport& report) {
                        {"containment_tests", stats.containment_tests},
                        {"escapes", stats.escapes},
                        {"basis_changes", stats.basis_changes}};
+  json["threads"] = report.threads;
   json["timings_ms"] = {
       {"check_file", report.scan_ms}, {"write", report.write_ms}, {"total", report.total_ms}};
   json["per_frame"] = per_frame_json(report);

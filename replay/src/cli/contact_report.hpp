@@ -22,6 +22,7 @@ struct ContactFrame {
   std::optional<double> time;            ///< in the file's unit
   std::int64_t within = 0, between = 0;  ///< contacts within a chain and between two
   double read_ms = 0, update_ms = 0, search_ms = 0;
+  double follow_ms = 0;  ///< events, map and P(s)
 
   std::int64_t contacts() const { return within + between; }
 };
@@ -69,6 +70,7 @@ struct ContactReport : TrajectorySummary {
   std::vector<std::int32_t> chain_ends;  ///< first places of the chains, and the number of places
   necklace::WrappedStats structure;
   std::int64_t cages = 0;
+  int threads = 1;  ///< that contacts were found with
   double scan_ms = 0, write_ms = 0, total_ms = 0;
 
   /// Of ContactFrame::contacts.

@@ -70,15 +70,18 @@ std::string structure_text(const ContactReport& report) {
 }
 
 std::string cost_text(const ContactReport& report) {
-  double read = 0, update = 0, search = 0;
+  double read = 0, update = 0, search = 0, follow = 0;
   for (const ContactFrame& frame : report.frames) {
     read += frame.read_ms;
     update += frame.update_ms;
     search += frame.search_ms;
+    follow += frame.follow_ms;
   }
   const auto frames = static_cast<double>(report.frames.size());
-  return fmt::format("read {}, update {}, search {}", readable(read / frames), readable(update / frames),
-                     readable(search / frames));
+  const std::string threads = report.threads > 1 ? fmt::format(" ({} threads)", report.threads) : "";
+  return fmt::format("read {}, update {}, search {}{}, follow {}", readable(read / frames),
+                     readable(update / frames), readable(search / frames), threads,
+                     readable(follow / frames));
 }
 
 }  // namespace

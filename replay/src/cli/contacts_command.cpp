@@ -19,12 +19,14 @@ namespace {
 
 /// The command line's words, not yet looked into.
 struct ContactWords {
-  std::string file, topology, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames;
+  std::string file, topology, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames,
+                                   threads = "1";
   std::string data, report, plot;
   bool quiet = false;
 };
 
 constexpr std::int64_t kMostBins = 4096;
+constexpr std::int64_t kMostThreads = 1024;
 
 void declare_contact_options(CLI::App& command, ContactWords& words) {
   command
@@ -68,6 +70,7 @@ void declare_options(CLI::App& command, ContactWords& words) {
                   "Frames to look at, first:end:step as in Python, counted from 0, the end not included. "
                   "Default: all")
       ->type_name("A:B:S");
+  command.add_option("--threads", words.threads, "Threads to find contacts with. Default 1")->type_name("N");
   command.add_option("--out", words.data, "Write events, contact map and P(s) to this HDF5 file")
       ->type_name("CONTACTS.h5");
   command.add_option("--report", words.report, "Write what was found to this JSON file")
@@ -95,6 +98,8 @@ ContactOptions contact_options(const ContactWords& words) {
   options.bins = static_cast<std::int32_t>(
       parse_whole_number("--bins", words.bins, 1, kMostBins, "the largest number of bins of the map"));
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
+  options.threads = static_cast<int>(
+      parse_whole_number("--threads", words.threads, 1, kMostThreads, "the number of threads"));
   options.data = words.data;
   require_distinct_files({{"FILE", words.file}, {"--topology", words.topology}},
                          {{"--out", words.data}, {"--report", words.report}, {"--plot", words.plot}});

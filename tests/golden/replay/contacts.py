@@ -118,14 +118,15 @@ def check_long_chain(checks, command, data, folder):
     """A real molecule without a box as one chain, and as a ring with beads in reverse."""
     path, topology = os.path.join(data, "nopbc.dcd"), os.path.join(folder, "one.chains")
     frames = converted(command, folder, path)
-    for ids, ring, skip, bins, gap in ((list(range(1, 402)), False, 4, 512, 4.3210987654),
-                                       (list(range(400, 1, -1)), True, 2, 50, 3.2109876543)):
+    for ids, ring, skip, bins, gap, threads in ((list(range(1, 402)), False, 4, 512, 4.3210987654, 1),
+                                                (list(range(400, 1, -1)), True, 2, 50, 3.2109876543, 3)):
         chains = [(ids, ring)] + ([([401], False)] if ring else [])
         write_chains(topology, chains)
         expected = Contacts(frames, chains, lambda atom: 0, gap, skip, "within")
         file, report = follow(checks, command, folder, path, "--gap", str(gap), "--skip-bonds", str(skip), "--pairs",
-                              "within", "--bins", str(bins), "--topology", topology)
+                              "within", "--bins", str(bins), "--topology", topology, "--threads", str(threads))
         compare(checks, f"a molecule, ring: {ring}", expected, file, report)
+        checks.that(report["threads"] == threads, f"threads: {report['threads']}")
 
 
 def check_water(checks, command, data, folder):

@@ -96,6 +96,8 @@ def wrong_contacts(data):
         (contacts("--pairs", "some"), ["--pairs 'some'", "all, within, between"]),
         (contacts("--bins", "0"), ["--bins '0'", "from 1 to 4096"]),
         (contacts("--bins", "4097"), ["--bins '4097'"]),
+        (contacts("--threads", "0"), ["--threads '0'", "from 1 to 1024", "number of threads"]),
+        (contacts("--threads", "1025"), ["--threads '1025'"]),
         (contacts("--frames", "42:"), [polymer, "frame 42", "0 to 41"]),
         (["contacts", water, "--gap", "0.1", "--out", "contacts.h5"], [water, "no molecule column", "--topology"]),
         (["contacts", polymer, "--gap", "1", "--out", "same", "--plot", "same"], ["--out and --plot", "same file"]),

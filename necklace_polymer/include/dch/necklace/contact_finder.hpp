@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <dch/box.hpp>
+#include <dch/executor.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 #include <dch/pair_search.hpp>
@@ -36,6 +37,9 @@ struct ContactFinderParams {
   double to_wrapped = 0.8;
   /// While the DCH has its turn, one search in so many is the wrapped hierarchy's, to measure, >= 1.
   int measure_every = 50;
+  /// Threads to search on, whichever structure does; null for that of the caller alone. Not owned; contacts
+  /// do not depend on it.
+  Executor* executor = nullptr;
 };
 
 /// Contacts by the structure that suits the scene: a figure for how packed the chains are, visited pairs for

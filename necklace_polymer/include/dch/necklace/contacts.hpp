@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <dch/executor.hpp>
 #include <dch/necklace/cage_hierarchy.hpp>
 #include <dch/vec3.hpp>
 
@@ -65,17 +66,20 @@ struct Separation {
 /// chain is connected; Necklace::measure() reports the constants. Packed chains and gaps much larger than
 /// beads cost more. Between m chains, pairs of roots come from a cell list if the largest root allows it,
 /// else all m^2/2 are looked at.
+/// @param executor threads to search on; null for that of the caller alone. The answer and, where there is no
+///   contact to end at, the stats do not depend on it.
 /// @throws InvalidParameter for a gap that is not finite, skip_bonds < 0, and a hierarchy without positions;
 ///   CutoffTooLarge if twice the largest radius + gap exceeds box.max_cutoff(), so that a bead might touch
 ///   two images of another.
-bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats = nullptr);
+bool any_contact(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats = nullptr,
+                 Executor* executor = nullptr);
 
 /// All contacts, in ascending order of (i, j), each pair once. As any_contact().
 std::vector<Contact> find_contacts(const CageHierarchy& hierarchy, const ContactQuery& query,
-                                   ContactStats* stats = nullptr);
+                                   ContactStats* stats = nullptr, Executor* executor = nullptr);
 
 /// All contacts, with the separating family that shows that there are no others. As any_contact(), but all
-/// pairs of roots are looked at.
+/// pairs of roots are looked at, on one thread.
 Separation separate(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats = nullptr);
 
 /// Checks a certificate against nothing but the beads of the hierarchy: each cage encloses its beads (within
