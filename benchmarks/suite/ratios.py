@@ -11,8 +11,9 @@ COLUMNS = ["ratio", "asked", "measured", "held?", "in the records below", "comma
 HELD, MISSED, PARTLY, NOT_MEASURED, NO_AIM = "held", "missed", "in part", "not measured", "-"
 SMALLER = "not measured at that size"
 NOTE = ("Times of ours over times of the other, unless a row says otherwise: smaller is better, and above 1 is a loss. 'Measured' is of "
-        "runs at full size, from the document named; the records below are those of this report, with what limits them. Commands "
-        "are those of benchmarks/README.md.")
+        "runs at full size on a Xeon with AVX-512, from the document named, and what is held or missed goes by that; the records "
+        "below are those of this report, with the processor and the size that they name. Commands are those of "
+        "benchmarks/README.md.")
 WHEN_NOT_TITLE = "When not to use DCH"
 WHEN_NOT = [
     "Your particles are spread evenly, with one cutoff, and you can have a good SIMD grid: built anew each time from the same kernels, "
