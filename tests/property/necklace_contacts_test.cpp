@@ -23,7 +23,6 @@ using dch::Box;
 using dch::Vec3;
 using dch::necklace::any_contact;
 using dch::necklace::Chains;
-using dch::necklace::Contact;
 using dch::necklace::ContactFinder;
 using dch::necklace::ContactFinderParams;
 using dch::necklace::ContactQuery;
@@ -33,6 +32,7 @@ using dch::necklace::LayeredHierarchy;
 using dch::necklace::Necklace;
 using dch::necklace::WrappedHierarchy;
 using dch::scenes::Random;
+using dch::test::same;
 
 /// Chains of 2 to 2,000 beads in all, open and closed, in a box, with solvent between them.
 struct Scene {
@@ -153,10 +153,6 @@ TEST(NecklaceContacts, EqualBruteForceUnderMotion) {
       for (Vec3& p : scene.positions) p = p + random.in_ball(0.05);
     }
   }
-}
-
-bool same(const Contact& a, const Contact& b) {
-  return a.i == b.i && a.j == b.j && a.gap == b.gap && a.on_i == b.on_i && a.on_j == b.on_j;
 }
 
 /// Contacts, to the last bit, and the work are those of one thread; by either structure.

@@ -16,6 +16,11 @@ inline std::vector<IndexPair> pairs_of(const std::vector<necklace::Contact>& con
   return pairs;
 }
 
+/// To the last bit.
+inline bool same(const necklace::Contact& a, const necklace::Contact& b) {
+  return a.i == b.i && a.j == b.j && a.gap == b.gap && a.on_i == b.on_i && a.on_j == b.on_j;
+}
+
 /// Where each particle stands: chain (-1: none) and number along it.
 struct Standing {
   std::vector<int> chain, along;

@@ -22,7 +22,6 @@ using dch::InvalidParameter;
 using dch::InvalidPosition;
 using dch::Vec3;
 using dch::necklace::Chains;
-using dch::necklace::Contact;
 using dch::necklace::ContactFinder;
 using dch::necklace::ContactFinderParams;
 using dch::necklace::ContactQuery;
@@ -32,6 +31,7 @@ using dch::necklace::Structure;
 using dch::necklace::WrappedHierarchy;
 using dch::scenes::Random;
 using dch::test::message_of;
+using dch::test::same;
 using testing::HasSubstr;
 
 /// Takes the DCH after its first search, whatever the scene.
@@ -50,10 +50,6 @@ const ContactQuery kAllPairs{0, 0, true, true};
 void measure(ContactFinder& finder, const std::vector<Vec3>& positions, const Box& box) {
   finder.update(positions, box);
   finder.find_contacts({});
-}
-
-bool same(const Contact& a, const Contact& b) {
-  return a.i == b.i && a.j == b.j && a.gap == b.gap && a.on_i == b.on_i && a.on_j == b.on_j;
 }
 
 /// The DCH gives the contacts of the wrapped hierarchy, bit for bit.
