@@ -3,6 +3,7 @@
 #include <exception>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,16 +16,15 @@ namespace {
 class ThreadPool final : public Executor {
  public:
   explicit ThreadPool(int threads) {
-    for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
-  }
-  ~ThreadPool() override {
-    {
-      const std::lock_guard lock(mutex_);
-      closing_ = true;
+    try {
+      for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+    } catch (const std::system_error& error) {
+      close();
+      throw Error("of a pool of " + std::to_string(threads) + " threads only " +
+                  std::to_string(workers_.size() + 1) + " can be had (" + error.what() + "); choose fewer");
     }
-    wake_.notify_all();
-    for (std::thread& worker : workers_) worker.join();
   }
+  ~ThreadPool() override { close(); }
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
@@ -45,6 +45,15 @@ class ThreadPool final : public Executor {
   }
 
  private:
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      closing_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+  }
+
   void work() {
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -22,7 +22,7 @@ class Executor {
 };
 
 /// A pool of `threads` - 1 standing threads and the one that calls run().
-/// @throws InvalidParameter unless 1 <= threads <= 4096.
+/// @throws InvalidParameter unless 1 <= threads <= 4096, Error if the system does not give that many.
 std::unique_ptr<Executor> make_thread_pool(int threads);
 
 /// Calls task(first, last) for ranges that make up [0, count), one for each thread of `executor`; if that is

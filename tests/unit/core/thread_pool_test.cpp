@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <atomic>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <stdexcept>
+#include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include <dch/error.hpp>
 #include <dch/executor.hpp>
+
+#include "error_message.hpp"
 
 namespace dch {
 namespace {
@@ -48,6 +52,19 @@ TEST(ThreadPool, RefusesNumbersOutOfRange) {
   EXPECT_THROW(make_thread_pool(-2), InvalidParameter);
   EXPECT_THROW(make_thread_pool(5000), InvalidParameter);
 }
+
+#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)  // which reserve terabytes themselves
+TEST(ThreadPool, SaysHowManyThreadsThereAreIfNotEnough) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit little{rlim_t{2} << 30, before.rlim_max};  // the stacks of some 200 threads
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  const std::string message = test::message_of<Error>([] { make_thread_pool(4096); });
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_THAT(message, testing::HasSubstr("of a pool of 4096 threads only "));
+  EXPECT_THAT(message, testing::HasSubstr("choose fewer"));
+}
+#endif
 
 }  // namespace
 }  // namespace dch
