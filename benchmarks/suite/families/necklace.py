@@ -9,6 +9,7 @@ from ..record import Measurement, Plot, Result, Table
 NAME = "necklace"
 TITLE = "Necklaces: contacts of chains"
 HOSTS = ("LAMMPS", "SciPy")
+MELT_CHAIN = 100  # beads of a chain of the trajectory chain32k
 MISSING_STATUS = 2  # of the scripts in benchmarks/necklace
 LAWS = {"grid 2D": ("n lg n", lambda n: n * math.log2(n)), "grid 3D": ("n^(4/3)", lambda n: n ** (4 / 3))}
 CHECKED = ("Contacts of all structures and of SciPy's trees were compared before anything was timed, cages that were kept up "
@@ -20,12 +21,21 @@ def run(suite):
     program = [suite.program("benchmarks", "necklace", "dch_bench_necklace"), "--processor", suite.processor]
     result = Result(seed=1, checked=CHECKED)
     growth = suite.run_for_json([*program, "growth", "--most", suite.pick(tiny=256, quick=16384, full=262144)])["table"]
-    radii = suite.run_for_json([*program, "radii", "--most", suite.pick(tiny=128, quick=4096, full=4096)])["table"]
+    radii = radii_of(suite, program)
     result.plots += [growth_plot(growth, shape) for shape in LAWS] + [radii_plot(radii)]
     result.tables += [growth_table(growth), radii_table(radii)]
     add_contacts(suite, result)
     add_motion(suite, result)
     return result
+
+
+def radii_of(suite, program):
+    """Rows of shapes, and of a real melt if LAMMPS has made one; its beads are those of a chain."""
+    words = [*program, "radii", "--most", suite.pick(tiny=128, quick=4096, full=4096)]
+    if suite.has_trajectory("chain32k.h5"):
+        words += ["--trajectory", os.path.join(suite.trajectories, "chain32k.h5"), "--chain-beads", MELT_CHAIN]
+    melt = {"shape": f"melt, chains of {MELT_CHAIN}", "beads": MELT_CHAIN}
+    return [{**row, **melt} if row["shape"] == "trajectory" else row for row in suite.run_for_json(words)["table"]]
 
 
 def growth_plot(table, shape):
@@ -58,7 +68,8 @@ def radii_table(table):
     return Table("Layered cages over wrapped ones, the least that enclose the beads",
                  ["shape", "beads", "root", "mean", "largest", "sqrt(floor(lg n))"],
                  [[row[key] for key in ("shape", "beads", "root", "mean", "largest", "sqrt_floor_lg_n")]
-                  for row in largest.values()])
+                  for row in largest.values()],
+                 "The melt is a Kremer-Grest melt from LAMMPS; its root is the mean over the roots of its chains.")
 
 
 def add_contacts(suite, result):
