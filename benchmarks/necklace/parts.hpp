@@ -20,8 +20,8 @@ Table measure_radii(std::int64_t most_beads, const std::string& trajectory, int 
 /// Verification and repair over the frames of one open chain, against building for each frame.
 Table measure_motion(const std::string& trajectory, int most_frames);
 
-/// Contact queries of chains of so many beads by all structures of the library. Those that can search on so
-/// many threads. Positions go to `folder`, if one is named, for other programs: NAME.positions, three doubles
+/// Contact queries of chains of so many beads by all structures of the library, on so many threads by those
+/// that can. Positions go to `folder`, if one is named, for other programs: NAME.positions, three doubles
 /// a bead.
 Table measure_queries(int beads, int rounds, int threads, const std::string& folder);
 
