@@ -16,26 +16,31 @@ die() {
 
 heading() { printf '\n== %s\n' "$*"; }
 
-wanted_packages() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' scripts/packages.txt; }
+# wanted_packages [further ones ...]
+wanted_packages() {
+  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' scripts/packages.txt
+  if [ $# -gt 0 ]; then printf '%s\n' "$@"; fi
+}
 
 missing_packages() {
   local package
-  for package in $(wanted_packages); do
+  for package in $(wanted_packages "$@"); do
     if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
       printf '%s\n' "$package"
     fi
   done
 }
 
-# Installs the Debian packages that are missing, after saying which. A user who is not root is told what to install.
+# need_packages [further ones ...]: installs the Debian packages that are missing, after saying which. A user who is not
+# root is told what to install.
 need_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     printf 'This is no Debian system, so nothing is installed. Needed, by their names in Debian 12:\n'
-    wanted_packages | sed 's/^/  /'
+    wanted_packages "$@" | sed 's/^/  /'
     return
   fi
   local missing
-  missing=$(missing_packages | paste -sd ' ')
+  missing=$(missing_packages "$@" | paste -sd ' ')
   [ -n "$missing" ] || return 0
   if [ "$(id -u)" -ne 0 ]; then
     die "These Debian packages are missing. Install them as root, then run this again:
