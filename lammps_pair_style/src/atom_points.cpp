@@ -12,6 +12,8 @@
 
 #include <dch/error.hpp>
 
+#include "ghosts_sent.h"
+
 namespace LAMMPS_NS {
 namespace {
 
@@ -57,7 +59,7 @@ bool AtomPoints::is_flat() const {
 }
 
 bool AtomPoints::may_use_box(double radius) const {
-  if (comm->nprocs != 1 || !is_flat()) return false;
+  if (comm->nprocs != 1 || GhostsSent::on_one_side(*comm) || !is_flat()) return false;
   try {
     const dch::Box box = box_of(*domain);
     return !box.any_periodic() || radius < box.max_cutoff() * (1 - 1e-9);

@@ -23,8 +23,9 @@ class AtomPoints : protected Pointers {
  public:
   explicit AtomPoints(LAMMPS* lammps) : Pointers(lammps) {}
 
-  /// Whether the own atoms in the box are enough for pairs within `radius`: there is one process, and only
-  /// the nearest image of an atom can be that near.
+  /// Whether the own atoms in the box are enough for pairs within `radius`: there is one process, only the
+  /// nearest image of an atom can be that near, and LAMMPS has a ghost for whichever of the two atoms of a
+  /// pair through a face is looked at from the other.
   bool may_use_box(double radius) const;
 
   /// Takes the atoms as they are now, with `neigh_modify include` only those of its group. Positions are not

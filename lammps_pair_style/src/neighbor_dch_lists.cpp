@@ -10,6 +10,7 @@
 #include <pair.h>
 #include <utility>
 
+#include "ghosts_sent.h"
 #include "lammps_versions.h"
 #include "neighbor_dch.h"
 
@@ -142,6 +143,8 @@ std::string NeighborDCH::native_reason(const NeighList& list) const {
   if (force->pair_match("kim", 0) || force->pair_match("kim", 0, 1))
     return "pair kim sets cutoffs of its own";
   if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
+  // Which of its pairs LAMMPS loses depends on the side that its own builder would store them on.
+  if (GhostsSent::of_one_group(*comm)) return "ghosts of one group only (comm_modify group)";
   if (!(cutneighmax > 0)) return "no cutoff";
   if (list.ghost && includegroup) return "ghost rows with neigh_modify include";
   // No style of the packages that the adapter is tested with asks for one.

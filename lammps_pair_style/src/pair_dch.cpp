@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atom.h>
+#include <comm.h>
 #include <domain.h>
 #include <error.h>
 #include <force.h>
@@ -14,6 +15,7 @@
 
 #include <dch/error.hpp>
 
+#include "ghosts_sent.h"
 #include "lammps_versions.h"
 #include "neighbor_dch.h"
 
@@ -177,6 +179,7 @@ std::string PairDCH::reason_for_plain() const {
   if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
   if (atom->molecular == Atom::TEMPLATE) return "atom_style template";
   if (neighbor->includegroup) return "neigh_modify include";
+  if (GhostsSent::of_one_group(*comm)) return "ghosts of one group only (comm_modify group)";
   return {};
 }
 
