@@ -78,7 +78,7 @@ void ContactAnalysis::scan() {
 }
 
 void ContactAnalysis::take_chains(const Scan& scan) {
-  beads_ = read_bead_chains(options_.input.name(), options_.topology, scan.first_frame);
+  beads_ = read_bead_chains(options_.input.name(), options_.chains, scan.first_frame);
   finder_.emplace(options_.input.name(), beads_);
   const std::vector<double> radii = options_.radii.of(beads_, options_.input.name());
   report_.topology = beads_.source;
@@ -226,7 +226,9 @@ std::string ContactAnalysis::bond_text(const necklace::Undetermined& error, cons
   }
   return fmt::format(
       "the bond of the atoms with the ids {} and {} is {} long, not below half the smallest box "
-      "height, {}, so that which image it leads to cannot be told; check the chains of {}",
+      "height, {}, so that which image it leads to cannot be told; check the chains of {}, or name those "
+      "that "
+      "are chains with --molecules and other bonds with --topology",
       beads_.ids[first], beads_.ids[second], length, box.max_cutoff(), beads_.source);
 }
 

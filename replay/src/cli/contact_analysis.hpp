@@ -17,7 +17,7 @@ namespace dch::cli {
 /// `dch contacts` as asked for on the command line, its numbers checked.
 struct ContactOptions {
   TrajectoryInput input;
-  std::string topology;  ///< empty: chains come from the molecule column
+  ChainSource chains;
   necklace::ContactQuery query;
   BeadRadii radii{"0"};
   std::int32_t bins = 512;  ///< at most, of the contact map

@@ -20,7 +20,8 @@ namespace {
 /// The command line's words, not yet looked into.
 struct ContactWords {
   InputWords input;
-  std::string topology, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames, threads = "1";
+  std::string topology, molecules, length, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames,
+                                                threads = "1";
   std::string data, report, plot;
   bool quiet = false;
 };
@@ -45,6 +46,18 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
                   "Where the chains are: a LAMMPS data file (.data), a list of bonds (.bonds) or of chains "
                   "(.chains). Default: the dump's mol column, each molecule a chain in order of atom id")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--molecules", words.molecules,
+          "Those molecules of the mol column that are chains, as in 1,4-7; the others, solvent, say, are "
+          "left out. Default: all")
+      ->type_name("LIST");
+  command
+      .add_option(
+          "--chain-length", words.length,
+          "All atoms, in order of id, make chains of N beads one after the other: for files without a "
+          "mol column")
+      ->type_name("N");
   command
       .add_option("--skip-bonds", words.skip,
                   "Leave out pairs with this many bonds between them and fewer. Default 1: bonded beads")
@@ -81,7 +94,7 @@ void declare_options(CLI::App& command, ContactWords& words) {
 
 ContactOptions contact_options(const ContactWords& words) {
   ContactOptions options;
-  options.topology = words.topology;
+  options.chains = ChainSource(words.topology, words.molecules, words.length);
   options.query.gap = parse_number(
       "--gap", words.gap,
       {0, kMaxCoordinate, false, "the largest distance of two surfaces, a length in the file's unit"});

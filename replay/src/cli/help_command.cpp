@@ -16,8 +16,7 @@ void print_help(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* command = &app;
   std::string name = app.get_name();
   for (const std::string& word : words) {
-    const auto found =
-        command->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
+    const auto found = command->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
     if (found.empty()) throw UsageError(unknown_subcommand(*command, word));
     command = found.front();
     name += " " + word;

@@ -51,7 +51,7 @@ int parse_and_run(int argc, char** argv) {
       "  dch help replay                                    all options of a subcommand\n"
       "\n"
       "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
-      "cannot be read or written.",
+      "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).",
       "dch");
   int exit_code = kOk;
   declare(app, exit_code);

@@ -102,7 +102,8 @@ std::string format_of(const InputWords& words) {
 void require_format(const InputWords& words) {
   if (!format_of(words).empty()) return;
   if (!words.format.empty()) {
-    throw UsageError(fmt::format("--format '{}': not known; choose one of {}", words.format, known_formats()));
+    throw UsageError(
+        fmt::format("--format '{}': not known; choose one of {}", words.format, known_formats()));
   }
   if (words.file == "-") {
     throw UsageError("standard input has no name to tell its format; give it with --format, one of " +
@@ -142,7 +143,8 @@ TrajectoryInput::TrajectoryInput(const InputWords& words)
 
 void TrajectoryInput::copy(int descriptor) {
   if (format_ == "h5" || format_ == "h5md") {
-    throw UsageError(name_ + ": H5MD cannot be read from a pipe, since HDF5 opens files by their names alone; "
+    throw UsageError(name_ +
+                     ": H5MD cannot be read from a pipe, since HDF5 opens files by their names alone; "
                      "save it to a file and name that");
   }
   copy_ = owned(make_nameless_file(name_));

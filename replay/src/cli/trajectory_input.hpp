@@ -27,9 +27,9 @@ struct InputWords {
 void add_input_options(CLI::App& command, InputWords& words, const std::string& argument,
                        const std::string& help);
 
-/// A trajectory that can be opened as often as need be. Standard input and named pipes, which can be read once
-/// only, are copied to a nameless file in the folder for temporary files first, to their end; so they are
-/// checked before any work is done, as files are, and no kind of file needs a reader of its own for them.
+/// A trajectory that can be opened as often as need be. Standard input and named pipes, which can be read
+/// once only, are copied to a nameless file in the folder for temporary files first, to their end; so they
+/// are checked before any work is done, as files are, and no kind of file needs a reader of its own for them.
 class TrajectoryInput {
  public:
   TrajectoryInput() = default;

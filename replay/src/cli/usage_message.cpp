@@ -89,9 +89,10 @@ std::string closest_word(const std::string& word, const std::vector<std::string>
 std::string unknown_subcommand(const CLI::App& command, const std::string& word) {
   const std::vector<std::string> known = subcommands_of(command);
   const std::string name = full_name(command);
-  if (known.empty()) return fmt::format("unknown subcommand '{}': {} has none; see {} --help", word, name, name);
-  return fmt::format("unknown subcommand '{}'{}; {} has {}; see {} --help", word, suggestion(word, known), name,
-                     fmt::join(known, ", "), name);
+  if (known.empty())
+    return fmt::format("unknown subcommand '{}': {} has none; see {} --help", word, name, name);
+  return fmt::format("unknown subcommand '{}'{}; {} has {}; see {} --help", word, suggestion(word, known),
+                     name, fmt::join(known, ", "), name);
 }
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
@@ -107,7 +108,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   }
   if (option != unknown.end()) {
     const std::string word = option->substr(0, option->find('='));
-    return fmt::format("unknown option '{}'{}; see {} --help", word, suggestion(word, options_of(command)), name);
+    return fmt::format("unknown option '{}'{}; see {} --help", word, suggestion(word, options_of(command)),
+                       name);
   }
   if (!known.empty() && command.get_subcommands().empty()) {
     return fmt::format("{} needs a subcommand: {}; see {} --help", name, fmt::join(known, ", "), name);
