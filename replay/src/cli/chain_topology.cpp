@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include <dch/trajectory/file_error.hpp>
@@ -10,6 +12,7 @@
 
 #include "exit_code.hpp"
 #include "number_text.hpp"
+#include "option_values.hpp"
 
 namespace dch::cli {
 namespace {
@@ -120,20 +123,97 @@ BeadChains from_bonds(const Topology& topology, const trajectory::Frame& frame) 
   return beads;
 }
 
-Topology read(const std::string& file, const std::string& topology, const trajectory::Frame& frame) {
-  if (!topology.empty()) return trajectory::read_topology(topology, frame.ids);
+/// The molecule column with 0, which is none, for those that were not asked for.
+std::vector<std::int32_t> chosen_molecules(const std::string& file, const ChainSource& source,
+                                           std::vector<std::int32_t> molecules) {
+  if (source.molecules.empty()) return molecules;
+  std::vector<bool> found(source.molecules.size(), false);
+  for (std::int32_t& molecule : molecules) {
+    bool chosen = false;
+    for (std::size_t k = 0; k < source.molecules.size(); ++k) {
+      const auto& [first, last] = source.molecules[k];
+      if (molecule < first || molecule > last) continue;
+      chosen = found[k] = true;
+    }
+    if (!chosen) molecule = 0;
+  }
+  const auto missing = std::find(found.begin(), found.end(), false);
+  if (missing != found.end()) {
+    const auto& [first, last] = source.molecules[static_cast<std::size_t>(missing - found.begin())];
+    throw UsageError(
+        fmt::format("--molecules: the first frame of {} has no molecule {}; name those it has", file,
+                    first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last)));
+  }
+  return molecules;
+}
+
+Topology chains_of_length(const std::string& file, std::int64_t length, const trajectory::Frame& frame) {
+  const auto atoms = static_cast<std::int64_t>(frame.ids.size());
+  if (atoms % length != 0) {
+    throw UsageError(fmt::format(
+        "--chain-length {}: {} has {}, which do not make whole chains of that length; give the chains with "
+        "--topology",
+        length, file, counted(atoms, "atom")));
+  }
+  Topology topology;
+  topology.source = fmt::format("chains of {} atoms in order of id of {}", length, file);
+  for (std::int64_t first = 0; first < atoms; first += length) {
+    trajectory::AtomChain chain;
+    chain.line = 1 + first / length;
+    for (std::int64_t k = 0; k < length; ++k) chain.atoms.push_back(static_cast<std::int32_t>(first + k));
+    topology.chains.push_back(std::move(chain));
+  }
+  return topology;
+}
+
+Topology read(const std::string& file, const ChainSource& source, const trajectory::Frame& frame) {
+  if (!source.topology.empty()) return trajectory::read_topology(source.topology, frame.ids);
+  if (source.length > 0) return chains_of_length(file, source.length, frame);
   if (frame.molecules.empty()) {
     throw UsageError(
-        fmt::format("contacts need chains, but {} has no molecule column; give them with --topology", file));
+        fmt::format("contacts need chains, but {} has no molecule column; give them with --topology, or with "
+                    "--chain-length if all chains have one length and their atoms follow each other",
+                    file));
   }
-  return trajectory::topology_from_molecules(frame, file);
+  trajectory::Frame chosen;
+  chosen.molecules = chosen_molecules(file, source, frame.molecules);
+  return trajectory::topology_from_molecules(chosen, file);
+}
+
+std::pair<std::int32_t, std::int32_t> parse_molecules(const std::string& part) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  const char* const meaning = "numbers of molecules, for example 1,4-7";
+  const std::size_t dash = part.find('-', 1);
+  const auto number = [&](const std::string& text) {
+    return static_cast<std::int32_t>(parse_whole_number("--molecules", text, 1, kMost, meaning));
+  };
+  const std::int32_t first = number(part.substr(0, dash));
+  const std::int32_t last = dash == std::string::npos ? first : number(part.substr(dash + 1));
+  if (first > last)
+    throw UsageError(fmt::format("--molecules {}: {} is above {}; give {}", part, first, last, meaning));
+  return {first, last};
 }
 
 }  // namespace
 
-BeadChains read_bead_chains(const std::string& file, const std::string& topology,
+ChainSource::ChainSource(const std::string& file, const std::string& molecules_text,
+                         const std::string& length_text)
+    : topology(file) {
+  const int given = !file.empty() + !molecules_text.empty() + !length_text.empty();
+  if (given > 1) {
+    throw UsageError(
+        "--topology, --molecules and --chain-length each say where the chains are; give one of them");
+  }
+  std::istringstream parts(molecules_text);
+  for (std::string part; std::getline(parts, part, ',');) molecules.push_back(parse_molecules(part));
+  if (length_text.empty()) return;
+  length = parse_whole_number("--chain-length", length_text, 2, std::numeric_limits<std::int32_t>::max(),
+                              "the number of beads of each chain");
+}
+
+BeadChains read_bead_chains(const std::string& file, const ChainSource& source,
                             const trajectory::Frame& frame) {
-  const Topology found = read(file, topology, frame);
+  const Topology found = read(file, source, frame);
   if (found.chains.empty() && found.bonds.empty()) {
     throw FileError(
         fmt::format("{}: no bonds and no chains, so there is nothing to find contacts of; give a "

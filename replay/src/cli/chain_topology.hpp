@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <dch/necklace/chains.hpp>
@@ -18,14 +19,30 @@ struct BeadChains {
   std::string source;               ///< of the chains, for messages
 };
 
+/// Where the chains of a trajectory are.
+struct ChainSource {
+  ChainSource() = default;
+  ChainSource(std::string file) : topology(std::move(file)) {}
+
+  std::string topology;  ///< a file; empty: the molecule column, unless a length is given
+  std::vector<std::pair<std::int32_t, std::int32_t>>
+      molecules;  ///< first and last of those that are chains; empty: all
+  std::int64_t length =
+      0;  ///< above 0: atoms in order of id make chains of that many, and no column is needed
+
+  /// How the command line gave it. @throws UsageError for numbers that are none, and two sources.
+  ChainSource(const std::string& topology, const std::string& molecules, const std::string& length);
+};
+
 /// Reads chains from a topology file, or from the molecule column of the frame if none is named. Chains of a
 /// .chains file keep its order; others are made of bonds (Chains::from_bonds), so atoms without a bond are in
 /// none.
 /// @param file the trajectory's name, for messages
 /// @throws trajectory::FileError for a file that cannot be read or is broken, an id that the frame does not
 ///   have, an atom in two chains or twice in one, three bonds of an atom, a bond given twice, and no chain at
-///   all; UsageError if no file is named and the frame has no molecules.
-BeadChains read_bead_chains(const std::string& file, const std::string& topology,
+///   all; UsageError if no file is named and the frame has no molecules or not those asked for, or if its
+///   atoms do not make chains of the length.
+BeadChains read_bead_chains(const std::string& file, const ChainSource& source,
                             const trajectory::Frame& frame);
 
 /// Finds the beads in frame after frame by their ids. Other atoms may come and go.

@@ -14,5 +14,6 @@ void add_contacts_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_convert_command(CLI::App& app, int& exit_code);
 void add_generate_command(CLI::App& app, int& exit_code);
+void add_help_command(CLI::App& app);
 
 }  // namespace dch::cli

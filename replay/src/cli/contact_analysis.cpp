@@ -15,6 +15,7 @@
 #include "contact_file.hpp"
 #include "exit_code.hpp"
 #include "frame_stream.hpp"
+#include "interrupt.hpp"
 #include "stopwatch.hpp"
 
 namespace dch::cli {
@@ -67,7 +68,7 @@ ContactReport ContactAnalysis::run() {
 
 void ContactAnalysis::scan() {
   const Stopwatch watch;
-  const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
+  const Scan scan = scan_trajectory(options_.input, options_.frames, progress_);
   report_.scan_ms = watch.milliseconds();
   static_cast<TrajectorySummary&>(report_) = scan;
   report_.has_times = scan.has_times;
@@ -77,9 +78,9 @@ void ContactAnalysis::scan() {
 }
 
 void ContactAnalysis::take_chains(const Scan& scan) {
-  beads_ = read_bead_chains(options_.file, options_.topology, scan.first_frame);
-  finder_.emplace(options_.file, beads_);
-  const std::vector<double> radii = options_.radii.of(beads_, options_.file);
+  beads_ = read_bead_chains(options_.input.name(), options_.chains, scan.first_frame);
+  finder_.emplace(options_.input.name(), beads_);
+  const std::vector<double> radii = options_.radii.of(beads_, options_.input.name());
   report_.topology = beads_.source;
   report_.chains = static_cast<std::int64_t>(beads_.chains.size());
   report_.beads = static_cast<std::int64_t>(beads_.ids.size());
@@ -93,7 +94,7 @@ void ContactAnalysis::take_chains(const Scan& scan) {
     report_.rings += beads_.chains.closed(chain) ? 1 : 0;
   }
   require_gap_fits(scan);
-  threads_ = make_thread_pool(options_.threads);
+  threads_ = make_threads(options_.threads);
   hierarchy_.emplace(necklace::Necklace(beads_.chains, radii));
   const necklace::Necklace& necklace = hierarchy_->necklace();
   report_.map = necklace::ContactMap(necklace, options_.query, options_.bins);
@@ -119,7 +120,7 @@ void ContactAnalysis::require_gap_fits(const Scan& scan) const {
 void ContactAnalysis::open_data_file() {
   if (options_.data.empty()) return;
   ContactFileHeader header;
-  header.source = options_.file;
+  header.source = options_.input.name();
   header.topology = beads_.source;
   header.unit = report_.unit;
   header.time = report_.has_times ? "time" : "step";
@@ -128,12 +129,12 @@ void ContactAnalysis::open_data_file() {
 }
 
 void ContactAnalysis::follow_frames() {
-  FrameStream stream(options_.file, options_.frames);
+  FrameStream stream(options_.input, options_.frames);
   progress_.start("following contacts", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {
     const Stopwatch watch;
-    if (!stream.next(frame)) fail_changed(options_.file);
+    if (!stream.next(frame)) fail_changed(options_.input.name());
     follow_frame(frame, stream.index(), watch.milliseconds());
     progress_.advance(done + 1);
   }
@@ -169,18 +170,18 @@ void ContactAnalysis::follow_frame(const trajectory::Frame& frame, std::int64_t 
 
 /// The time of events: the frame's, or its time step where some frame has no time.
 double ContactAnalysis::time_of(const trajectory::Frame& frame, std::int64_t index) {
-  if (report_.has_times && !frame.time) fail_changed(options_.file);
+  if (report_.has_times && !frame.time) fail_changed(options_.input.name());
   const double time = report_.has_times ? *frame.time : static_cast<double>(frame.step);
   const char* const what = report_.has_times ? "time" : "time step";
   if (!std::isfinite(time)) {
-    throw trajectory::FileError(
-        fmt::format("{}: frame {}: its time is {}; contacts need finite times", options_.file, index, time));
+    throw trajectory::FileError(fmt::format("{}: frame {}: its time is {}; contacts need finite times",
+                                            options_.input.name(), index, time));
   }
   if (!report_.frames.empty() && time < last_time_) {
     throw UsageError(
         fmt::format("{}: frame {}: its {}, {}, is before that of the frame before, {}; contacts are followed "
                     "forwards, so select frames in order of time with --frames",
-                    options_.file, index, what, time, last_time_));
+                    options_.input.name(), index, what, time, last_time_));
   }
   last_time_ = time;
   return time;
@@ -190,7 +191,7 @@ std::vector<necklace::Contact> ContactAnalysis::contacts_of(const trajectory::Fr
                                                             std::int64_t index, ContactFrame& record) {
   const std::vector<Vec3>& positions = finder_->positions(frame, index);
   const auto place = [&](const std::string& what) {
-    return fmt::format("{}: frame {}: {}", options_.file, index, what);
+    return fmt::format("{}: frame {}: {}", options_.input.name(), index, what);
   };
   try {
     const Stopwatch update;
@@ -225,7 +226,9 @@ std::string ContactAnalysis::bond_text(const necklace::Undetermined& error, cons
   }
   return fmt::format(
       "the bond of the atoms with the ids {} and {} is {} long, not below half the smallest box "
-      "height, {}, so that which image it leads to cannot be told; check the chains of {}",
+      "height, {}, so that which image it leads to cannot be told; check the chains of {}, or name those "
+      "that "
+      "are chains with --molecules and other bonds with --topology",
       beads_.ids[first], beads_.ids[second], length, box.max_cutoff(), beads_.source);
 }
 

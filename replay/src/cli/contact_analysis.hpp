@@ -10,13 +10,14 @@
 #include "contact_report.hpp"
 #include "option_values.hpp"
 #include "progress_bar.hpp"
+#include "trajectory_input.hpp"
 
 namespace dch::cli {
 
 /// `dch contacts` as asked for on the command line, its numbers checked.
 struct ContactOptions {
-  std::string file;
-  std::string topology;  ///< empty: chains come from the molecule column
+  TrajectoryInput input;
+  ChainSource chains;
   necklace::ContactQuery query;
   BeadRadii radii{"0"};
   std::int32_t bins = 512;  ///< at most, of the contact map
@@ -30,7 +31,7 @@ struct ContactOptions {
 /// @throws UsageError for options that do not fit the file (a gap beyond what half the smallest box height
 ///   allows, frames in an order that time does not have, no chains named); trajectory::FileError for files
 ///   that cannot be read or written, chains that do not fit the trajectory and bonds of half the box and
-///   more; Interrupted.
+///   more.
 ContactReport analyze_contacts(const ContactOptions& options, ProgressBar& progress);
 
 }  // namespace dch::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -13,20 +12,21 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "standard_streams.hpp"
 
 namespace dch::cli {
 namespace {
 
 /// The command line's words, not yet looked into.
 struct ContactWords {
-  std::string file, topology, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames,
-                                   threads = "1";
+  InputWords input;
+  std::string topology, molecules, length, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames,
+                                                threads = "1";
   std::string data, report, plot;
   bool quiet = false;
 };
 
 constexpr std::int64_t kMostBins = 4096;
-constexpr std::int64_t kMostThreads = 1024;
 
 void declare_contact_options(CLI::App& command, ContactWords& words) {
   command
@@ -47,6 +47,18 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
                   "(.chains). Default: the dump's mol column, each molecule a chain in order of atom id")
       ->type_name("FILE");
   command
+      .add_option(
+          "--molecules", words.molecules,
+          "Those molecules of the mol column that are chains, as in 1,4-7; the others, solvent, say, are "
+          "left out. Default: all")
+      ->type_name("LIST");
+  command
+      .add_option(
+          "--chain-length", words.length,
+          "All atoms, in order of id, make chains of N beads one after the other: for files without a "
+          "mol column")
+      ->type_name("N");
+  command
       .add_option("--skip-bonds", words.skip,
                   "Leave out pairs with this many bonds between them and fewer. Default 1: bonded beads")
       ->type_name("K");
@@ -57,7 +69,7 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
 }
 
 void declare_options(CLI::App& command, ContactWords& words) {
-  command.add_option("FILE", words.file, "Trajectory, see dch replay --help")->required()->type_name("");
+  add_input_options(command, words.input, "FILE", "Trajectory, see dch replay --help");
   declare_contact_options(command, words);
   command
       .add_option("--bins", words.bins,
@@ -82,8 +94,7 @@ void declare_options(CLI::App& command, ContactWords& words) {
 
 ContactOptions contact_options(const ContactWords& words) {
   ContactOptions options;
-  options.file = words.file;
-  options.topology = words.topology;
+  options.chains = ChainSource(words.topology, words.molecules, words.length);
   options.query.gap = parse_number(
       "--gap", words.gap,
       {0, kMaxCoordinate, false, "the largest distance of two surfaces, a length in the file's unit"});
@@ -98,20 +109,20 @@ ContactOptions contact_options(const ContactWords& words) {
   options.bins = static_cast<std::int32_t>(
       parse_whole_number("--bins", words.bins, 1, kMostBins, "the largest number of bins of the map"));
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
-  options.threads = static_cast<int>(
-      parse_whole_number("--threads", words.threads, 1, kMostThreads, "the number of threads"));
+  options.threads = parse_threads(words.threads);
   options.data = words.data;
-  require_distinct_files({{"FILE", words.file}, {"--topology", words.topology}},
+  require_distinct_files({words.input.named("FILE"), {"--topology", words.topology}},
                          {{"--out", words.data}, {"--report", words.report}, {"--plot", words.plot}});
+  options.input = TrajectoryInput(words.input);
   return options;
 }
 
 void print_summary(const ContactReport& report, const ContactWords& words) {
-  fmt::print("{}", render_table(report));
+  write_output(render_table(report));
   const std::pair<const char*, const std::string&> outputs[] = {
       {"data", words.data}, {"report", words.report}, {"page", words.plot}};
   for (const auto& [name, path] : outputs) {
-    if (!path.empty()) fmt::print("  {:<16}{}\n", name, path);
+    if (!path.empty()) print_output("  {:<16}{}\n", name, path);
   }
 }
 

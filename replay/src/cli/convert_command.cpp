@@ -2,30 +2,45 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include <dch/trajectory/writer.hpp>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "frame_stream.hpp"
+#include "interrupt.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
+#include "standard_streams.hpp"
 
 namespace dch::cli {
 namespace {
 
 struct ConvertWords {
-  std::string input, output, frames;
+  InputWords input;
+  std::string output, frames;
   bool quiet = false;
 };
 
+/// Creates the output and notes its unfinished file.
+std::unique_ptr<trajectory::TrajectoryWriter> create_output(const std::string& path, const std::string& unit,
+                                                            std::optional<UnfinishedFile>& unfinished) {
+  const HoldInterrupts hold;
+  auto writer = trajectory::create_trajectory(path, unit);
+  unfinished.emplace(writer->temporary_path());
+  return writer;
+}
+
 int run(const ConvertWords& words) {
   const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
-  require_distinct_files({{"IN", words.input}}, {{"OUT", words.output}});
+  require_distinct_files({words.input.named("IN")}, {{"OUT", words.output}});
+  const TrajectoryInput input(words.input);
   ProgressBar progress(words.quiet);
-  const Scan scan = scan_trajectory(words.input, range, progress);
-  FrameStream stream(words.input, range);
-  const auto writer = trajectory::create_trajectory(words.output, scan.unit);
+  const Scan scan = scan_trajectory(input, range, progress);
+  FrameStream stream(input, range);
+  std::optional<UnfinishedFile> unfinished;
+  const auto writer = create_output(words.output, scan.unit, unfinished);
   progress.start("converting", scan.frames);
   trajectory::Frame frame;
   std::int64_t done = 0;
@@ -36,8 +51,8 @@ int run(const ConvertWords& words) {
   writer->close();
   progress.clear();
   if (!words.quiet) {
-    fmt::print("{}: {} of {} atoms, lengths in {}\n", words.output, counted(done, "frame"),
-               count_text(scan.fewest_atoms, scan.most_atoms), scan.unit);
+    print_output("{}: {} of {} atoms, lengths in {}\n", words.output, counted(done, "frame"),
+                 count_text(scan.fewest_atoms, scan.most_atoms), scan.unit);
   }
   return kOk;
 }
@@ -48,7 +63,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("convert", "Write a trajectory in another format; lengths stay in their unit");
   const auto words = std::make_shared<ConvertWords>();
-  command->add_option("IN", words->input, "Trajectory, see dch replay --help")->required()->type_name("");
+  add_input_options(*command, words->input, "IN", "Trajectory, see dch replay --help");
   command
       ->add_option("OUT", words->output,
                    "File to write: H5MD (.h5, .h5md) or LAMMPS dump (.lammpstrj, .dump)")

@@ -7,6 +7,7 @@
 #include <dch/all_pairs.hpp>
 #include <dch/error.hpp>
 
+#include "interrupt.hpp"
 #include "stopwatch.hpp"
 
 namespace dch::cli {
@@ -120,10 +121,12 @@ Engine make_engine(const EngineOptions& options, double radius) {
   } else if (options.kind == EngineKind::allpairs) {
     engine.search = std::make_unique<AllPairsSearch>();
   } else {
+    if (options.threads > 1) engine.threads = make_threads(options.threads);
     HierarchyParams params;
     params.radius = radius;
     params.c = options.c;
     params.policy = options.policy;
+    params.executor = engine.threads.get();
     engine.search = make_dch_search(params);
     engine.hierarchy = hierarchy_of(*engine.search);
   }

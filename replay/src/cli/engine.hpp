@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <dch/executor.hpp>
 #include <dch/hierarchy.hpp>
 #include <dch/pair_search.hpp>
 
@@ -17,6 +18,7 @@ struct EngineOptions {
   EngineKind kind = EngineKind::dch;
   double c = 1.05;                                          ///< parameter of the hierarchy (dch only)
   MaintenancePolicy policy = MaintenancePolicy::automatic;  ///< repair or rebuild (dch only)
+  int threads = 1;                                          ///< lists do not depend on it (dch only)
 };
 
 std::string to_string(EngineKind kind);           ///< as on the command line: "dch", "cell", "allpairs"
@@ -24,6 +26,7 @@ std::string to_string(MaintenancePolicy policy);  ///< "auto", "repair", "rebuil
 
 /// An engine, with a view of its hierarchy where it keeps one.
 struct Engine {
+  std::unique_ptr<Executor> threads;     ///< that search works with; null for one
   std::unique_ptr<PairSearch> search;    ///< its times cover update() and list() of every kind alike
   const Hierarchy* hierarchy = nullptr;  ///< owned by search; null for cell and allpairs
 };

@@ -8,10 +8,11 @@ namespace dch::cli {
 /// Exit statuses of the dch command.
 enum ExitCode : int {
   kOk = 0,
-  kMismatch = 1,      ///< --verify found a list or a structure that differs from the oracle
-  kUsage = 2,         ///< an option, or a combination of options and input, that cannot work
-  kBadFile = 3,       ///< a file that cannot be read or written, or is broken
-  kInterrupted = 130  ///< SIGINT or SIGTERM, as shells report it
+  kMismatch = 1,     ///< --verify found a list or a structure that differs from the oracle
+  kUsage = 2,        ///< an option, or a combination of options and input, that cannot work
+  kBadFile = 3,      ///< a file that cannot be read or written, or is broken; standard output too
+  kSignal = 128,     ///< plus the number of the signal that ended the run, as shells report it
+  kBrokenPipe = 141  ///< the reader of standard output has gone: 128 and SIGPIPE
 };
 
 /// An option outside its range, or one that does not fit the input. The message names value, limit and
@@ -19,12 +20,6 @@ enum ExitCode : int {
 class UsageError : public Error {
  public:
   using Error::Error;
-};
-
-/// The user stopped the program (SIGINT, SIGTERM).
-class Interrupted : public Error {
- public:
-  Interrupted() : Error("interrupted; no output file was written") {}
 };
 
 }  // namespace dch::cli

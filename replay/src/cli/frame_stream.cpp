@@ -8,7 +8,6 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "exit_code.hpp"
-#include "interrupt.hpp"
 
 namespace dch::cli {
 namespace {
@@ -53,12 +52,11 @@ void require_frames(const Scan& scan, const FrameRange& range) {
 
 }  // namespace
 
-FrameStream::FrameStream(const std::string& path, const FrameRange& range)
-    : range_(range), reader_(trajectory::open_trajectory(path)) {}
+FrameStream::FrameStream(const TrajectoryInput& input, const FrameRange& range)
+    : range_(range), reader_(input.open()) {}
 
 bool FrameStream::next(trajectory::Frame& frame) {
   while (passed_ < range_.end) {
-    throw_if_interrupted();
     if (!reader_->read(frame)) return false;
     ++passed_;
     if (range_.contains(passed_ - 1)) return true;
@@ -66,13 +64,13 @@ bool FrameStream::next(trajectory::Frame& frame) {
   return false;
 }
 
-Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress) {
-  FrameStream stream(path, range);
+Scan scan_trajectory(const TrajectoryInput& input, const FrameRange& range, ProgressBar& progress) {
+  FrameStream stream(input, range);
   Scan scan;
-  scan.file = path;
+  scan.file = input.name();
   scan.format = stream.reader().format();
   scan.smallest_height = std::numeric_limits<double>::infinity();
-  progress.start("checking " + path);
+  progress.start("checking " + input.name());
   trajectory::Frame frame;
   std::vector<std::int64_t> ids;
   while (stream.next(frame)) {

@@ -11,6 +11,7 @@
 
 #include "option_values.hpp"
 #include "progress_bar.hpp"
+#include "trajectory_input.hpp"
 #include "trajectory_summary.hpp"
 
 namespace dch::cli {
@@ -19,10 +20,10 @@ namespace dch::cli {
 class FrameStream {
  public:
   /// @throws trajectory::FileError as open_trajectory.
-  FrameStream(const std::string& path, const FrameRange& range);
+  FrameStream(const TrajectoryInput& input, const FrameRange& range);
 
   /// Reads on to the next selected frame; false when there is none.
-  /// @throws trajectory::FileError as TrajectoryReader::read; Interrupted.
+  /// @throws trajectory::FileError as TrajectoryReader::read.
   bool next(trajectory::Frame& frame);
 
   std::int64_t index() const { return passed_ - 1; }  ///< of the frame last read, from 0
@@ -48,7 +49,7 @@ struct Scan : TrajectorySummary {
 /// Reads all selected frames once: every broken frame is found here, before any work has been done.
 /// @throws trajectory::FileError if the file is broken or holds no frame; UsageError if the range selects
 /// none.
-Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress);
+Scan scan_trajectory(const TrajectoryInput& input, const FrameRange& range, ProgressBar& progress);
 
 /// The file is not the one that was scanned. @throws trajectory::FileError.
 [[noreturn]] void fail_changed(const std::string& path);

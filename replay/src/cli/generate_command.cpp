@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
 #include <memory>
 
 #include <dch/necklace/melt.hpp>
+#include <dch/trajectory/file_error.hpp>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
+#include "output_file.hpp"
+#include "standard_streams.hpp"
 
 namespace dch::cli {
 namespace {
@@ -18,6 +24,18 @@ struct MeltWords {
   std::string chains, beads, density = "0.8442", seed = "1", output;
   bool quiet = false;
 };
+
+void write_melt(OutputFile& file, const necklace::Melt& melt) {
+  std::ofstream out(file.temporary_path(), std::ios::binary);
+  errno = 0;  // then that of the first write that fails
+  necklace::write_lammps_data(out, melt);
+  out.close();
+  if (!out) {
+    throw trajectory::FileError(
+        fmt::format("{}: cannot be written: {}; check the free space", file.path(), std::strerror(errno)));
+  }
+  file.commit();
+}
 
 int run(const MeltWords& words) {
   constexpr std::int64_t kMostBeads = std::numeric_limits<std::int32_t>::max();
@@ -30,13 +48,14 @@ int run(const MeltWords& words) {
                                 {0, 10, true, "the number of beads per volume of one bead diameter cubed"});
   params.seed = static_cast<std::uint64_t>(parse_whole_number(
       "--seed", words.seed, 0, std::numeric_limits<std::int64_t>::max(), "the seed of the random numbers"));
+  OutputFile file(words.output);
   const necklace::Melt melt = necklace::make_melt(params);
-  necklace::write_lammps_data(words.output, melt);
+  write_melt(file, melt);
   if (!words.quiet) {
-    fmt::print("{}: {} of {}, density {}, seed {}, cubic box of {} bead diameters\n", words.output,
-               counted(params.chains, "chain"), counted(params.beads_per_chain, "bead"), params.density,
-               params.seed, readable(melt.box.vector(0).x));
-    fmt::print("Beads overlap: push them apart with a soft potential before dynamics.\n");
+    print_output("{}: {} of {}, density {}, seed {}, cubic box of {} bead diameters\n", words.output,
+                 counted(params.chains, "chain"), counted(params.beads_per_chain, "bead"), params.density,
+                 params.seed, readable(melt.box.vector(0).x));
+    print_output("Beads overlap: push them apart with a soft potential before dynamics.\n");
   }
   return kOk;
 }

@@ -14,13 +14,15 @@
 #include "number_text.hpp"
 #include "option_values.hpp"
 #include "report_rows.hpp"
+#include "standard_streams.hpp"
 #include "summary_json.hpp"
 
 namespace dch::cli {
 namespace {
 
 struct InfoWords {
-  std::string file, frames;
+  InputWords input;
+  std::string frames;
   bool json = false, quiet = false;
 };
 
@@ -55,7 +57,7 @@ std::string types_text(const trajectory::Frame& frame) {
 
 void print_text(const Scan& scan) {
   const auto row = [](const char* name, const std::string& value) {
-    fmt::print("  {:<22}{}\n", name, value);
+    print_output("  {:<22}{}\n", name, value);
   };
   const std::string unit = unit_suffix(scan.unit);
   row("file", scan.file);
@@ -98,13 +100,13 @@ void print_json(const Scan& scan) {
   for (const auto& [type, count] : type_counts(scan.first_frame))
     json["types"][fmt::format("{}", type)] = count;
   json["molecules"] = molecule_count(scan.first_frame);
-  fmt::print("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  print_output("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int run(const InfoWords& words) {
   const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
   ProgressBar progress(words.quiet);
-  const Scan scan = scan_trajectory(words.file, range, progress);
+  const Scan scan = scan_trajectory(TrajectoryInput(words.input), range, progress);
   if (words.json) {
     print_json(scan);
   } else {
@@ -119,7 +121,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "info", "Say what a trajectory holds: format, unit, frames, atoms, boxes, cutoff limit");
   const auto words = std::make_shared<InfoWords>();
-  command->add_option("FILE", words->file, "Trajectory, see dch replay --help")->required()->type_name("");
+  add_input_options(*command, words->input, "FILE", "Trajectory, see dch replay --help");
   command->add_option("--frames", words->frames, "Frames to look at, first:end:step. Default: all")
       ->type_name("A:B:S");
   command->add_flag("--json", words->json, "Print JSON, for scripts");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The dch command: sorts out which subcommand is meant and turns exceptions into exit statuses.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <new>
+#include <sstream>
+#include <string_view>
 
 #include <dch/necklace/melt.hpp>
 #include <dch/trajectory/file_error.hpp>
@@ -14,14 +15,28 @@
 #include "exit_code.hpp"
 #include "help_format.hpp"
 #include "interrupt.hpp"
+#include "standard_streams.hpp"
+#include "usage_message.hpp"
 #include "version.hpp"
 
 namespace dch::cli {
 namespace {
 
-int fail(int exit_code, const char* message) {
-  fmt::print(stderr, "dch: {}\n", message);
+int fail(int exit_code, std::string_view message) {
+  print_message("dch: {}\n", message);
   return exit_code;
+}
+
+void declare(CLI::App& app, int& exit_code) {
+  app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
+  app.formatter(help_format());  // subcommands inherit it
+  app.require_subcommand(1);
+  add_info_command(app, exit_code);
+  add_replay_command(app, exit_code);
+  add_contacts_command(app, exit_code);
+  add_convert_command(app, exit_code);
+  add_generate_command(app, exit_code);
+  add_help_command(app);
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -33,26 +48,45 @@ int parse_and_run(int argc, char** argv) {
       "  dch replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
       "  dch replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
       "  dch contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
+      "  dch help replay                                    all options of a subcommand\n"
       "\n"
       "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
-      "cannot be read or written.",
+      "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).",
       "dch");
-  app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
-  app.formatter(help_format());  // subcommands inherit it
-  app.require_subcommand(1);
   int exit_code = kOk;
-  add_replay_command(app, exit_code);
-  add_contacts_command(app, exit_code);
-  add_info_command(app, exit_code);
-  add_convert_command(app, exit_code);
-  add_generate_command(app, exit_code);
+  declare(app, exit_code);
+  if (argc < 2) {
+    print_message("dch: no subcommand given\n\n{}", app.help());
+    return kUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
-    return fail(kUsage, fmt::format("{}; see dch --help or dch SUBCOMMAND --help", error.what()).c_str());
+    if (error.get_exit_code() != 0) return fail(kUsage, usage_message(app, error));
+    std::ostringstream text;  // help or version
+    app.exit(error, text, text);
+    write_output(text.str());
   }
   return exit_code;
+}
+
+int run(int argc, char** argv) {
+  try {
+    catch_interrupts();
+    return parse_and_run(argc, argv);
+  } catch (const UsageError& error) {
+    return fail(kUsage, error.what());
+  } catch (const trajectory::FileError& error) {
+    return fail(kBadFile, error.what());
+  } catch (const necklace::WriteError& error) {
+    return fail(kBadFile, error.what());
+  } catch (const Error& error) {  // the library refuses a parameter
+    return fail(kUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kUsage, "not enough memory; choose a smaller cutoff or a smaller input");
+  } catch (const std::exception& error) {
+    return fail(kBadFile, error.what());
+  }
 }
 
 }  // namespace
@@ -61,22 +95,6 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace dch;
   H5dont_atexit();  // a file on a full disk cannot be closed, and HDF5's exit handler would crash on it
-  try {
-    cli::catch_interrupts();
-    return cli::parse_and_run(argc, argv);
-  } catch (const cli::UsageError& error) {
-    return cli::fail(cli::kUsage, error.what());
-  } catch (const cli::Interrupted& error) {
-    return cli::fail(cli::kInterrupted, error.what());
-  } catch (const trajectory::FileError& error) {
-    return cli::fail(cli::kBadFile, error.what());
-  } catch (const necklace::WriteError& error) {
-    return cli::fail(cli::kBadFile, error.what());
-  } catch (const Error& error) {  // the library refuses a parameter
-    return cli::fail(cli::kUsage, error.what());
-  } catch (const std::bad_alloc&) {
-    return cli::fail(cli::kUsage, "not enough memory; choose a smaller cutoff or a smaller input");
-  } catch (const std::exception& error) {
-    return cli::fail(cli::kBadFile, error.what());
-  }
+  cli::prepare_standard_streams();
+  return cli::finish_output(cli::run(argc, argv));
 }

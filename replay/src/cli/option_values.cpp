@@ -115,6 +115,11 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
   return *value;
 }
 
+int parse_threads(const std::string& text) {
+  constexpr std::int64_t kMostThreads = 1024;
+  return static_cast<int>(parse_whole_number("--threads", text, 1, kMostThreads, "the number of threads"));
+}
+
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     for (const NamedPath& input : inputs) require_distinct(input, outputs[k]);

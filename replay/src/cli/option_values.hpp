@@ -43,6 +43,9 @@ double parse_number(const std::string& option, const std::string& text, const Nu
 std::int64_t parse_whole_number(const std::string& option, const std::string& text, std::int64_t lowest,
                                 std::int64_t highest, const std::string& meaning);
 
+/// The number of threads that --threads gives, from 1 to 1,024. @throws UsageError as parse_number.
+int parse_threads(const std::string& text);
+
 /// The value of a word that is one of a few.
 /// @throws UsageError naming the option, the word and those known.
 template <class Value>

@@ -42,10 +42,12 @@ OutputFile::OutputFile(const std::string& path) : path_(follow_link(path)) {
                     path, fs::is_directory(status) ? "a folder" : "a device, pipe or socket"));
   }
   const std::string name = fmt::format("{}.partial-{}", path_, ::getpid());
+  const HoldInterrupts hold;
   const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path, "create it", errno);
   ::close(descriptor);
   temporary_ = name;
+  unfinished_.emplace(temporary_);
 }
 
 OutputFile::~OutputFile() {

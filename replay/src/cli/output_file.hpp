@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "interrupt.hpp"
 
 namespace dch::cli {
 
@@ -31,6 +34,7 @@ class OutputFile {
  private:
   std::string path_;
   std::string temporary_;
+  std::optional<UnfinishedFile> unfinished_;
 };
 
 /// Nothing if no name was given. @throws trajectory::FileError.

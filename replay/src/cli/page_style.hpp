@@ -49,7 +49,10 @@ svg .zero, svg .tick { stroke: var(--soft); }
 svg .blue { fill: var(--blue); }
 svg .green { fill: var(--green); }
 svg .amber { fill: var(--amber); }
-svg .line-blue { fill: none; stroke: var(--blue); stroke-width: 1.8; stroke-linejoin: round; }
+svg polyline { fill: none; stroke-width: 1.8; stroke-linejoin: round; }
+svg .line-blue { stroke: var(--blue); }
+svg .line-green { stroke: var(--green); }
+svg .line-amber { stroke: var(--amber); }
 svg .heat { fill: var(--blue); shape-rendering: crispEdges; }
 svg .frame { fill: none; stroke: var(--soft); }
 svg .mark { fill: var(--red); }

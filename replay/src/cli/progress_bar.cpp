@@ -2,11 +2,11 @@
 #include "progress_bar.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "number_text.hpp"
+#include "standard_streams.hpp"
 
 namespace dch::cli {
 
@@ -42,15 +42,13 @@ void ProgressBar::advance(std::int64_t done) {
   if (!enabled_ || now - last_drawn_ < kSecondsBetweenDrawings) return;
   last_drawn_ = now;
   drawn_ = true;
-  fmt::print(stderr, "\r\x1b[K{}", progress_text(action_, done, total_, now));
-  std::fflush(stderr);
+  print_message("\r\x1b[K{}", progress_text(action_, done, total_, now));
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
   drawn_ = false;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  write_message("\r\x1b[K");
 }
 
 }  // namespace dch::cli

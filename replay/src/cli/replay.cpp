@@ -96,7 +96,7 @@ ReplayReport Replay::run() {
 
 void Replay::scan() {
   const Stopwatch watch;
-  const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
+  const Scan scan = scan_trajectory(options_.input, options_.frames, progress_);
   report_.scan_ms = watch.milliseconds();
   static_cast<TrajectorySummary&>(report_) = scan;
   frames_expected_ = scan.frames;
@@ -121,11 +121,11 @@ void Replay::read_exclusions(const trajectory::Frame& frame) {
   if (options_.topology.empty() && frame.molecules.empty()) {
     throw UsageError(
         fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
-                    exclusion_rule(options_.exclude_depth), options_.file));
+                    exclusion_rule(options_.exclude_depth), options_.input.name()));
   }
-  const trajectory::Topology topology = options_.topology.empty()
-                                            ? trajectory::topology_from_molecules(frame, options_.file)
-                                            : trajectory::read_topology(options_.topology, frame.ids);
+  const trajectory::Topology topology =
+      options_.topology.empty() ? trajectory::topology_from_molecules(frame, options_.input.name())
+                                : trajectory::read_topology(options_.topology, frame.ids);
   ExclusionRecord record;
   record.source = topology.source;
   record.bonds = static_cast<std::int64_t>(topology.bonds.size());
@@ -141,7 +141,7 @@ void Replay::read_exclusions(const trajectory::Frame& frame) {
 void Replay::open_list_file(std::int64_t most_atoms) {
   if (options_.lists.empty()) return;
   ListFileHeader header;
-  header.source = options_.file;
+  header.source = options_.input.name();
   header.unit = report_.unit;
   header.engine = to_string(options_.engine.kind);
   header.exclusions = options_.exclude_depth == 0 ? "none" : exclusion_rule(options_.exclude_depth);
@@ -153,16 +153,16 @@ void Replay::open_list_file(std::int64_t most_atoms) {
 }
 
 void Replay::replay_frames() {
-  FrameStream stream(options_.file, options_.frames);
+  FrameStream stream(options_.input, options_.frames);
   progress_.start("replaying", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {
     const Stopwatch watch;
-    if (!stream.next(frame)) fail_changed(options_.file);
+    if (!stream.next(frame)) fail_changed(options_.input.name());
     const double read_ms = watch.milliseconds();
-    if (static_cast<std::int64_t>(frame.ids.size()) > report_.most_atoms) fail_changed(options_.file);
+    if (static_cast<std::int64_t>(frame.ids.size()) > report_.most_atoms) fail_changed(options_.input.name());
     if (frame.ids != ids_) {
-      if (!atoms_change_) fail_changed(options_.file);
+      if (!atoms_change_) fail_changed(options_.input.name());
       take_atoms(frame);
     }
     replay_frame(frame, stream.index(), read_ms);
@@ -199,7 +199,7 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
 
 bool Replay::update_list(const trajectory::Frame& frame, std::int64_t index) {
   const auto place = [&](const Error& error) {
-    return fmt::format("{}: frame {}: {}", options_.file, index, error.what());
+    return fmt::format("{}: frame {}: {}", options_.input.name(), index, error.what());
   };
   try {
     return list_->update(frame.positions, frame.box);

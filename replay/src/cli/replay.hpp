@@ -9,13 +9,14 @@
 #include "option_values.hpp"
 #include "progress_bar.hpp"
 #include "replay_report.hpp"
+#include "trajectory_input.hpp"
 #include "verifier.hpp"
 
 namespace dch::cli {
 
 /// A replay as asked for on the command line, its numbers checked.
 struct ReplayOptions {
-  std::string file;
+  TrajectoryInput input;
   std::string topology;  ///< empty: bonds come from the molecule column where needed
   double cutoff = 0;     ///< > 0 [length]
   double skin = 0;       ///< >= 0 [length]
@@ -31,7 +32,7 @@ struct ReplayOptions {
 /// lists. lists.h5 is in place when this returns.
 /// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height,
 /// exclusions
-///   without bonds); trajectory::FileError for files that cannot be read or written; Interrupted.
+///   without bonds); trajectory::FileError for files that cannot be read or written.
 ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress);
 
 }  // namespace dch::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 
@@ -13,13 +12,16 @@
 #include "progress_bar.hpp"
 #include "replay.hpp"
 #include "replay_report.hpp"
+#include "standard_streams.hpp"
 
 namespace dch::cli {
 namespace {
 
 /// The command line's words, not yet looked into.
 struct ReplayWords {
-  std::string file, topology, cutoff, skin = "0", engine = "dch", c, policy, frames, verify = "none", exclude;
+  InputWords input;
+  std::string topology, cutoff, skin = "0", engine = "dch", c, policy, threads, frames, verify = "none",
+                                exclude;
   std::string lists, report, plot;
   bool half = false, full = false, quiet = false;
 };
@@ -69,16 +71,17 @@ void declare_engine_options(CLI::App& command, ReplayWords& words) {
           "Whether to repair the hierarchy or to build it anew: auto (default: whichever measures faster), "
           "repair or rebuild; engine dch only")
       ->type_name("NAME");
+  command
+      .add_option("--threads", words.threads,
+                  "Threads to keep the hierarchy and make the lists with. Default 1; engine dch only")
+      ->type_name("N");
 }
 
 void declare_options(CLI::App& command, ReplayWords& words) {
-  command
-      .add_option(
-          "FILE", words.file,
-          "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS (.xtc, .trr, .gro), DCD (.dcd), "
-          "H5MD (.h5, .h5md)")
-      ->required()
-      ->type_name("");
+  add_input_options(
+      command, words.input, "FILE",
+      "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS (.xtc, .trr, .gro), DCD (.dcd), "
+      "H5MD (.h5, .h5md)");
   declare_list_options(command, words);
   declare_engine_options(command, words);
   command
@@ -106,11 +109,14 @@ EngineOptions engine_options(const ReplayWords& words) {
   engine.kind = choose<EngineKind>(
       "--engine", words.engine,
       {{"dch", EngineKind::dch}, {"cell", EngineKind::cell}, {"allpairs", EngineKind::allpairs}});
-  if (engine.kind != EngineKind::dch && !(words.c.empty() && words.policy.empty())) {
+  const std::pair<const char*, const std::string&> of_hierarchy[] = {
+      {"--c", words.c}, {"--policy", words.policy}, {"--threads", words.threads}};
+  for (const auto& [option, value] : of_hierarchy) {
+    if (engine.kind == EngineKind::dch || value.empty()) continue;
     throw UsageError(
         fmt::format("{} has no meaning for engine {}, which keeps no hierarchy; leave it out or use "
                     "--engine dch",
-                    words.c.empty() ? "--policy" : "--c", words.engine));
+                    option, words.engine));
   }
   if (!words.c.empty()) {
     engine.c = parse_number("--c", words.c, {kSmallestC, kLargestC, false, "the hierarchy's parameter c"});
@@ -121,12 +127,12 @@ EngineOptions engine_options(const ReplayWords& words) {
                                                {"repair", MaintenancePolicy::always_repair},
                                                {"rebuild", MaintenancePolicy::always_rebuild}});
   }
+  if (!words.threads.empty()) engine.threads = parse_threads(words.threads);
   return engine;
 }
 
 ReplayOptions replay_options(const ReplayWords& words) {
   ReplayOptions options;
-  options.file = words.file;
   options.topology = words.topology;
   options.cutoff = parse_number("--cutoff", words.cutoff,
                                 {0, kMaxCoordinate, true, "the cutoff, a length in the file's unit"});
@@ -143,28 +149,28 @@ ReplayOptions replay_options(const ReplayWords& words) {
         choose<int>("--exclude", words.exclude, {{"bonded", 1}, {"1-2", 1}, {"1-3", 2}, {"1-4", 3}});
   }
   options.lists = words.lists;
-  require_distinct_files({{"FILE", words.file}, {"--topology", words.topology}},
+  require_distinct_files({words.input.named("FILE"), {"--topology", words.topology}},
                          {{"--out", words.lists}, {"--report", words.report}, {"--plot", words.plot}});
+  options.input = TrajectoryInput(words.input);
   return options;
 }
 
 void print_summary(const ReplayReport& report, const ReplayWords& words) {
-  fmt::print("{}", render_table(report));
+  write_output(render_table(report));
   const std::pair<const char*, const std::string&> outputs[] = {
       {"lists", words.lists}, {"report", words.report}, {"page", words.plot}};
   for (const auto& [name, path] : outputs) {
-    if (!path.empty()) fmt::print("  {:<16}{}\n", name, path);
+    if (!path.empty()) print_output("  {:<16}{}\n", name, path);
   }
 }
 
 void print_mismatches(const ReplayReport& report) {
   const VerifyResult& verify = report.verify;
   for (const Mismatch& mismatch : verify.first) {
-    fmt::print(stderr, "dch: mismatch: {}: {}\n", report.file, mismatch.message(report.unit));
+    print_message("dch: mismatch: {}: {}\n", report.file, mismatch.message(report.unit));
   }
   const auto shown = static_cast<std::int64_t>(verify.first.size());
-  if (verify.mismatches > shown)
-    fmt::print(stderr, "dch: and {} more mismatches\n", verify.mismatches - shown);
+  if (verify.mismatches > shown) print_message("dch: and {} more mismatches\n", verify.mismatches - shown);
 }
 
 int run(const ReplayWords& words) {
@@ -178,7 +184,6 @@ int run(const ReplayWords& words) {
   if (json) json->commit();
   if (page) page->commit();
   if (!words.quiet) print_summary(report, words);
-  std::fflush(stdout);
   print_mismatches(report);
   return report.verify.mismatches > 0 ? kMismatch : kOk;
 }

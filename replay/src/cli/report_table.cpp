@@ -62,7 +62,8 @@ std::string engine_text(const EngineOptions& engine) {
     case EngineKind::dch:
       break;
   }
-  return fmt::format("dch, c = {}, policy {}", engine.c, to_string(engine.policy));
+  const std::string threads = engine.threads > 1 ? fmt::format(", {} threads", engine.threads) : "";
+  return fmt::format("dch, c = {}, policy {}{}", engine.c, to_string(engine.policy), threads);
 }
 
 std::string list_text(const ReplayReport& report) {

@@ -19,7 +19,8 @@ struct Scale {
 class SvgCanvas {
  public:
   static constexpr double kWidth = 640;
-  static constexpr double kLeft = 78, kRight = 626;  ///< of the plot area
+  static constexpr double kLeft = 78,
+                          kRight = 612;  ///< of the plot area; a tick at its end has room for its label
   static constexpr double kTop = 34;
 
   explicit SvgCanvas(double height = 300) : height_(height) {}

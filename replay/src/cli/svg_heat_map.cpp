@@ -14,7 +14,7 @@ namespace dch::cli {
 namespace {
 
 constexpr int kShades = 8;
-constexpr double kSide = 460;  ///< of the matrix as drawn
+constexpr double kSide = 424;  ///< of the matrix as drawn; leaves room for the key
 constexpr int kTicks = 6;
 
 /// From values to shades, in equal steps of their logarithm.

@@ -20,6 +20,7 @@ class H5mdWriter final : public TrajectoryWriter {
 
   void write(const Frame& frame) override;
   void close() override;
+  const std::string& temporary_path() const override { return target_.path(); }
 
  private:
   void start(const std::string& length_unit);

@@ -24,6 +24,7 @@ class LammpsDumpWriter final : public TrajectoryWriter {
 
   void write(const Frame& frame) override;
   void close() override;
+  const std::string& temporary_path() const override { return file_.path(); }
 
  private:
   void append_header(const Frame& frame);

@@ -48,11 +48,21 @@ std::string known_endings() {
 }  // namespace
 
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
-  const std::string name = lower_case_name(path);
-  for (const Format& format : kFormats) {
-    if (has_ending(name, format.ending)) return format.make_reader(path);
+  return open_trajectory(path, "");
+}
+
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format) {
+  const std::string name = format.empty() ? lower_case_name(path) : "x." + format;
+  for (const Format& known : kFormats) {
+    if (has_ending(name, known.ending)) return known.make_reader(path);
   }
   fail(path, "unknown kind of trajectory; the endings known are " + known_endings());
+}
+
+std::vector<std::string> trajectory_formats() {
+  std::vector<std::string> formats;
+  for (const Format& format : kFormats) formats.emplace_back(format.ending.substr(1));
+  return formats;
 }
 
 }  // namespace dch::trajectory

@@ -18,6 +18,7 @@ import numpy
 
 from contact_oracle import Contacts, chains_by_molecule, lay_chains, read_dump
 from dch_command import Checks, check_keys, expect_failure, run
+from drawings import drawing_faults
 
 CARDS = ["Contact map", "P(s)", "Contacts of a frame", "Duration of contacts"]
 
@@ -111,7 +112,27 @@ def check_polymer(checks, command, data, docs, folder):
                           "--skip-bonds", "3", "--frames", "8:32:8", "--bins", "9", "--topology", topology)
     compare(checks, "polymer, between", selected, file, report)
     expect_failure(checks, command, ["contacts", path, "--gap", "1", "--out", "contacts.h5"], 3,
-                   [path, "frame 0", "the ids 41 and 42", "half the smallest box height", "molecules of"])
+                   [path, "frame 0", "the ids 41 and 42", "half the smallest box height", "molecules of", "--molecules"])
+
+
+def check_plain_commands(checks, command, data, folder):
+    """Without a topology: the one molecule of the dump that is a chain, and all atoms of a file without molecules."""
+    path = os.path.join(data, "polymer.lammpstrj")
+    expected = Contacts(read_dump(path), [(list(range(1, 41)), False)], lambda atom: 0, 5.0123456789)
+    file, report = follow(checks, command, folder, path, "--gap", "5.0123456789", "--molecules", "1")
+    compare(checks, "polymer, molecule 1", expected, file, report)
+    checks.that(report["chains"]["number"] == 1 and report["chains"]["beads"] == 40, f"chains {report['chains']}")
+    for name, length, gap in (("nopbc.dcd", 401, 4.3210987654), ("withpbc.dcd", 4, 0.5123456789)):
+        path = os.path.join(data, name)
+        frames = converted(command, folder, path)[:8]
+        atoms = len(frames[0]["id"])
+        chains = [(list(range(first, first + length)), False) for first in range(1, atoms + 1, length)]
+        expected = Contacts(frames, chains, lambda atom: 0, gap)
+        file, report = follow(checks, command, folder, path, "--gap", str(gap), "--chain-length", str(length), "--frames", ":8")
+        compare(checks, f"{name}, chains of {length}", expected, file, report)
+    for name in ("water.trr", "nacl.lammpstrj", "triclinic-namd.dcd"):
+        expect_failure(checks, command, ["contacts", os.path.join(data, name), "--gap", "0.1"], 2,
+                       [name, "no molecule column", "--topology", "--chain-length"])
 
 
 def check_long_chain(checks, command, data, folder):
@@ -194,6 +215,8 @@ def check_page(checks, command, path, folder):
         root = ElementTree.fromstring(text.split("\n", 1)[1])  # raises unless all elements are closed
         checks.that([h2.text for h2 in root.iter("h2")] == cards, f"{options}: cards of the page")
         checks.that([len(list(svg)) > 5 for svg in root.iter("svg")] == [True] * len(cards), f"{options}: drawings")
+        faults = drawing_faults(root)
+        checks.that(not faults, f"{options}: {faults}")
         checks.that(not re.findall(r"http|src=|href=|@import|url\(|<script", text), f"{options}: the page needs others")
         checks.that(not re.search(r"\bnan\b|\binf\b", text), f"{options}: numbers that are none")
         checks.that("melt.lammpstrj" in root.find(".//h1").text, f"{options}: the page's title")
@@ -220,6 +243,7 @@ def main(command, data, docs):
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_polymer(checks, command, data, docs, folder)
+        check_plain_commands(checks, command, data, folder)
         check_long_chain(checks, command, data, folder)
         check_water(checks, command, data, folder)
         melt, path = make_melt(command, folder)

@@ -13,6 +13,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 from dch_command import Checks, check_keys, info, replay, run
+from drawings import drawing_faults
 
 SVG_CARDS = ["Pairs", "Cost of a frame", "Repairs", "Neighbors of an atom", "Levels"]
 
@@ -59,6 +60,8 @@ def check_page(checks, command, data, folder):
             root = ElementTree.fromstring(text.split("\n", 1)[1])  # raises unless all elements are closed
             checks.that([h2.text for h2 in root.iter("h2")] == cards, f"{name}, {engine}: cards of the page")
             checks.that(len(list(root.iter("svg"))) == len(cards), f"{name}, {engine}: drawings of the page")
+            faults = drawing_faults(root)
+            checks.that(not faults, f"{name}, {engine}: {faults}")
             for svg in root.iter("svg"):
                 checks.that(len(list(svg)) > 5, f"{name}, {engine}: an empty drawing")
             outside = re.findall(r"http|src=|href=|@import|url\(", text)

@@ -66,11 +66,36 @@ TEST_F(ChainTopology, MakesChainsOfBonds) {
 
 TEST_F(ChainTopology, MakesChainsOfMolecules) {
   frame_.molecules = {4, 0, 4, 2, 9, 2, 4};
-  const BeadChains beads = read_bead_chains("run.dump", "", frame_);
+  const BeadChains beads = read_bead_chains("run.dump", {}, frame_);
   ASSERT_EQ(beads.chains.size(), 2U) << "one atom alone is none";
   EXPECT_THAT(ids(beads, 0), ElementsAre(2, 5, 17));
   EXPECT_THAT(ids(beads, 1), ElementsAre(7, 13));
   EXPECT_THAT(beads.source, testing::HasSubstr("run.dump"));
+}
+
+TEST_F(ChainTopology, TakesTheMoleculesAskedFor) {
+  frame_.molecules = {4, 0, 4, 2, 9, 2, 4};
+  EXPECT_THAT(read_bead_chains("run.dump", ChainSource("", "2", ""), frame_).ids, ElementsAre(7, 13));
+  EXPECT_THAT(read_bead_chains("run.dump", ChainSource("", "1-3,9", ""), frame_).ids, ElementsAre(7, 13));
+  EXPECT_EQ(read_bead_chains("run.dump", ChainSource("", "2,3-4", ""), frame_).chains.size(), 2U);
+  expect_error<UsageError>([&] { read_bead_chains("run.dump", ChainSource("", "2,5-8", ""), frame_); },
+                           {"run.dump has no molecule 5-8"});
+  for (const char* wrong : {"x", "2-", "-2", "0", "3-2", "2,,4", "1.5", "2147483648"}) {
+    expect_error<UsageError>([&] { ChainSource("", wrong, ""); }, {"--molecules", "1,4-7"});
+  }
+}
+
+TEST_F(ChainTopology, CutsAtomsIntoChainsOfOneLength) {
+  const BeadChains beads = read_bead_chains("run.dump", ChainSource("", "", "7"), frame_);
+  EXPECT_EQ(beads.chains.size(), 1U);
+  EXPECT_EQ(beads.ids, frame_.ids);
+  expect_error<UsageError>([&] { read_bead_chains("run.dump", ChainSource("", "", "2"), frame_); },
+                           {"--chain-length 2", "7 atoms", "--topology"});
+  for (const char* wrong : {"1", "0", "-3", "x", "2.5"}) {
+    expect_error<UsageError>([&] { ChainSource("", "", wrong); }, {"--chain-length", "from 2"});
+  }
+  expect_error<UsageError>([] { ChainSource("a.chains", "1", ""); }, {"--topology", "one of them"});
+  expect_error<UsageError>([] { ChainSource("", "1", "3"); }, {"--molecules", "one of them"});
 }
 
 TEST_F(ChainTopology, RefusesChainsThatAreNone) {
@@ -89,10 +114,10 @@ TEST_F(ChainTopology, RefusesChainsThatAreNone) {
   refused("data.a", "title\n0 bonds\n", {"no bonds and no chains"});
   expect_error<FileError>([&] { read_bead_chains("run.dump", path("missing.chains"), frame_); },
                           {"missing.chains", "No such file"});
-  expect_error<UsageError>([&] { read_bead_chains("run.dump", "", frame_); },
+  expect_error<UsageError>([&] { read_bead_chains("run.dump", {}, frame_); },
                            {"run.dump has no molecule column", "--topology"});
   frame_.molecules = {1, 2, 3, 4, 5, 6, 0};
-  expect_error<FileError>([&] { read_bead_chains("run.dump", "", frame_); }, {"run.dump", "no bonds"});
+  expect_error<FileError>([&] { read_bead_chains("run.dump", {}, frame_); }, {"run.dump", "no bonds"});
 }
 
 TEST_F(ChainTopology, FindsBeadsAmongOtherAtoms) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <dch/trajectory/frame.hpp>
 
@@ -34,5 +35,13 @@ class TrajectoryReader {
 /// message lists
 ///   those known).
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+
+/// Opens a trajectory whose name does not tell its format.
+/// @param format one of trajectory_formats(); empty: by the file name
+/// @throws FileError as above.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format);
+
+/// The formats that can be read: the endings of names above, without the dot.
+std::vector<std::string> trajectory_formats();
 
 }  // namespace dch::trajectory

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+
+namespace dch::cli {
+
+/// To be called before anything is opened. A standard stream that is closed becomes one that cannot be used,
+/// so that no file of ours gets its number and messages in it; and a write that fails becomes an error, where
+/// a signal would end the process (a pipe that nobody reads, a file beyond the limit of its size).
+void prepare_standard_streams();
+
+/// Prints results. A failure is kept for finish_output(), so that what has been asked for gets done first.
+void write_output(std::string_view text);
+
+/// Prints a message on standard error. One that cannot be shown is lost: it changes nothing else.
+void write_message(std::string_view text);
+
+template <class... Values>
+void print_output(fmt::format_string<Values...> format, Values&&... values) {
+  write_output(fmt::format(format, std::forward<Values>(values)...));
+}
+
+template <class... Values>
+void print_message(fmt::format_string<Values...> format, Values&&... values) {
+  write_message(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// Brings all results out and returns the exit status: `exit_code`, but if that is kOk and results could not
+/// be printed, kBadFile with a message, or kBrokenPipe without one where the reader has gone, as for `dch ...
+/// | head`.
+int finish_output(int exit_code);
+
+}  // namespace dch::cli
