@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <dch/all_pairs.hpp>
 #include <dch/error.hpp>
@@ -332,6 +333,28 @@ TEST(HierarchyTest, InsertionAndRemovalDoThePendingRepairFirst) {
   EXPECT_EQ(h.insert({1, 1, 1}), 3);
   EXPECT_FALSE(h.repair_pending());
   EXPECT_EQ(h.validate(), "");
+}
+
+// Counted by hand: with one level all nodes are roots, and a descent tests each of them.
+TEST(HierarchyStats, CountsDistancesOfBuildInsertionRepairAndRemoval) {
+  Hierarchy h(with_radius(1));
+  auto counted = [&, before = std::int64_t{0}]() mutable {
+    return h.stats().distances - std::exchange(before, h.stats().distances);
+  };
+  std::vector<Vec3> points{{0, 0, 0}};
+  h.build(points, Box::none());
+  EXPECT_EQ(counted(), 2);  // to its own center, for the nearest one and whether it covers
+  points.push_back({20, 0, 0});
+  h.insert(points.back());
+  EXPECT_EQ(counted(), 2);  // the only root, for a parent and then for an edge
+  points.push_back({0.1, 0, 0});
+  h.insert(points.back());
+  EXPECT_EQ(counted(), 2);  // both roots, and no new one
+  points[0].x = 0.01;
+  h.update(points, Box::none());
+  EXPECT_EQ(counted(), 3);  // each from its center
+  h.remove(2);
+  EXPECT_EQ(counted(), 4);  // the repair that was put off: both roots with both
 }
 
 /// The automatic policy on given costs, since the measured ones depend on what else the machine does.
