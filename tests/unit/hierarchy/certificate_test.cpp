@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The certificate under which repair is put off: each of its clauses in a scene in which it alone stands between the
-// list and a missing pair, and the limit itself to the last digit.
+// The certificate under which repair is put off: each of its clauses in a scene in which it alone stands
+// between the list and a missing pair, and the limit itself to the last digit.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -122,23 +122,6 @@ TEST(HierarchyTest, EmptyAndTinySetsWork) {
   }
 }
 
-// Lemma 5.3.4 with the thresholds in use: nodes of level i are more than R_{i-1} apart and neighbors within
-// rho_i.
-TEST(HierarchyTest, DegreesStayWithinThePackingBound) {
-  for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    HierarchyParams params = with_radius(1);
-    params.edge_rule = rule;
-    params.c = 1.5;
-    if (rule == EdgeRule::additive) params.base_radius = 0.5;
-    Hierarchy h(params);
-    h.build(scenes::uniform(4000, {8, 8, 8}, 5), Box::orthorhombic({8, 8, 8}));
-    for (int i = 1; i < h.levels(); ++i) {
-      const double separation = h.level(i - 1).covering_radius;
-      EXPECT_LE(h.level(i).max_degree, std::pow(2 * h.level(i).edge_threshold / separation + 1, 3) - 1) << i;
-    }
-  }
-}
-
 TEST(HierarchyTest, ThresholdsFollowTheRule) {
   HierarchyParams params = with_radius(3);
   params.c = 1.5;
