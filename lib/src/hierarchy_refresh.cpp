@@ -25,8 +25,8 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   try {
     largest_reach = check_positions_of_points(positions, b);
     detail::check_radius(params.radius, b);
-    const bool fresh = stats.builds == 0;
-    if (fresh || (params.policy == MaintenancePolicy::always_rebuild && free_ids.empty())) {
+    // A build would bring removed points back.
+    if (free_ids.empty() && (stats.builds == 0 || params.policy == MaintenancePolicy::always_rebuild)) {
       build(positions, b);
     } else {
       const bool same_box = box == b;

@@ -2,9 +2,9 @@
 //
 // How many edges and children a node may have: the packing lemma and what follows from it for the separation
 // and the thresholds in use. Nodes of level i >= 1 are more than R_{i-1} apart and edges at most as long as
-// the reach of the level, so in d dimensions a node has at most (2 reach_i / R_{i-1} + 1)^d - 1 of them. Nodes of
-// level i >= 2 cover nodes more than R_{i-2} apart within R_{i-1}: at most 5^d, in fact 3, 19 and 87 for d = 1, 2
-// and 3 (Sullivan 1994). Points have no separation, so level 1 may have any number of children.
+// the reach of the level, so in d dimensions a node has at most (2 reach_i / R_{i-1} + 1)^d - 1 of them.
+// Nodes of level i >= 2 cover nodes more than R_{i-2} apart within R_{i-1}: at most 5^d, in fact 3, 19 and 87
+// for d = 1, 2 and 3 (Sullivan 1994). Points have no separation, so level 1 may have any number of children.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ int most_children(const Hierarchy& h, int level) {
 /// The first level that has a node with more edges or children than there is room for; 0 if none has.
 int overfull_level(const Hierarchy& h, int dimensions) {
   for (int i = 1; i < h.levels(); ++i) {
-    if (static_cast<double>(h.level(i).max_degree) > largest_degree(dimensions, reach(h, i), separation(h, i)))
+    if (static_cast<double>(h.level(i).max_degree) >
+        largest_degree(dimensions, reach(h, i), separation(h, i)))
       return i;
     if (i > 1 && most_children(h, i) > kMostChildren[dimensions]) return i;
   }
@@ -106,7 +107,8 @@ TEST_P(Packing, TheCheckSeesTooManyEdges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, Packing,
-                         ::testing::Values(DenseScene{1, 4000, {400, 0, 0}, 6}, DenseScene{2, 10000, {40, 40, 0}, 3},
+                         ::testing::Values(DenseScene{1, 4000, {400, 0, 0}, 6},
+                                           DenseScene{2, 10000, {40, 40, 0}, 3},
                                            DenseScene{3, 8000, {9, 9, 9}, 1}),
                          [](const auto& p) { return "D" + std::to_string(p.param.dimensions); });
 
@@ -135,8 +137,8 @@ TEST(PackingOfLines, TheBoundIsReached) {
     }
 }
 
-// The thesis's form, (8 c + 1)^d - 1, is that of rho_i = 4 c R_{i-1}. Thresholds with room for motion are wider
-// than that in the lowest levels, so it does not hold there.
+// The thesis's form, (8 c + 1)^d - 1, is that of rho_i = 4 c R_{i-1}. Thresholds with room for motion are
+// wider than that in the lowest levels, so it does not hold there.
 TEST(PackingOfLines, TheThesisFormHoldsForTheThesisRule) {
   for (int level = 1; level <= 6; ++level) {
     const HierarchyParams params = params_of(EdgeRule::thesis);

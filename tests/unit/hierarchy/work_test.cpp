@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // How many distances the structure computes: what the theorems say of its cost, with constants a tenth to a
-// quarter above what was counted. The counts are exact and the same everywhere, so a descent that keeps a node too many, or an update
-// that looks at what cannot have changed, shows here although the lists stay right.
+// quarter above what was counted. The counts are exact and the same everywhere, so a descent that keeps a
+// node too many, or an update that looks at what cannot have changed, shows here although the lists stay
+// right.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -41,7 +42,8 @@ double distances_of_build(Hierarchy& h, const std::vector<Vec3>& points) {
   return distances_of(h, [&] { h.build(points, Box::none()); }) / static_cast<double>(points.size());
 }
 
-// Theorem 5.4.1: O(lg alpha) for a point. Eight times as many points at the same density are three levels more.
+// Theorem 5.4.1: O(lg alpha) for a point. Eight times as many points at the same density are three levels
+// more.
 TEST(Work, BuildGrowsWithTheLevelsAlone) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
     Hierarchy few(params_of(rule)), many(params_of(rule));
@@ -99,7 +101,8 @@ TEST(Work, UpdateWithoutMotionLooksOnceAtEachPoint) {
     const std::vector<Vec3> points = uniform_of(n);
     Hierarchy certified(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
     certified.build(points, Box::none());
-    EXPECT_EQ(distances_of(certified, [&] { certified.update(points, Box::none()); }), static_cast<double>(n));
+    EXPECT_EQ(distances_of(certified, [&] { certified.update(points, Box::none()); }),
+              static_cast<double>(n));
     Hierarchy repaired(params_of(EdgeRule::additive));
     repaired.build(points, Box::none());
     const double work = distances_of(repaired, [&] { repaired.update(points, Box::none()); });
@@ -118,7 +121,8 @@ TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
     scenes::Random random(4);
     for (std::size_t k = 0; k < lost; ++k) moved[8 * k] = points[8 * k] + random.in_ball(3);
     const double work = distances_of(h, [&] { h.update(moved, Box::none()); });
-    const double edges = lost > 0 ? 80 * n : 0;  // of the upper levels, found anew once one of their nodes flew off
+    const double edges =
+        lost > 0 ? 80 * n : 0;  // of the upper levels, found anew once one of their nodes flew off
     EXPECT_LE(work, 190 * n + edges + 45.0 * static_cast<double>(h.stats().reparented) * h.levels()) << lost;
     EXPECT_GE(h.stats().reparented, static_cast<std::int64_t>(lost)) << lost;
   }
