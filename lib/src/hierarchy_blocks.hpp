@@ -44,6 +44,7 @@ void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& member
     std::int32_t node;
   };
   const Level& centers = levels[1];
+  std::int64_t tested = 2 * static_cast<std::int64_t>(members.index.size()) + centers.edges.entries();
   std::vector<Center> others;
   for (std::int32_t k = 0; k < centers.size(); ++k) {
     others.clear();
@@ -61,6 +62,7 @@ void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& member
       std::int32_t nearest = k;
       for (const Center& other : others) {
         if (other.distance2 >= 4 * least) break;
+        ++tested;
         const double distance2 = norm2(at - other.at);
         if (distance2 >= least) continue;
         least = distance2;
@@ -70,6 +72,7 @@ void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& member
         cluster_of[members.index[m]] = nearest;
     }
   }
+  stats.distances += tested;
 }
 
 template <class IdOf, class PositionOf>

@@ -112,6 +112,7 @@ void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
   for (const std::int32_t* id = batch.ids; id != batch.ids + batch.size; ++id) {
     const Vec3 at = metric.wrap(raw[*id]);
     if (!batch_nodes.empty()) {
+      stats.distances += static_cast<std::int64_t>(batch_centers.size()) + 1;
       const Nearest nearest = nearest_of(batch_centers, at - batch.center);
       const std::int32_t node = batch_nodes[nearest.index];
       hint = {1, node};

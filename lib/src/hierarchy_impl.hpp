@@ -275,7 +275,7 @@ struct Hierarchy::Impl {
   template <class Metric>
   void refresh_centers(const Metric& metric);
   template <class Metric>
-  std::int64_t count_orphans(const Metric& metric) const;
+  std::int64_t count_orphans(const Metric& metric);
   template <class Metric>
   void measure(const Metric& metric);
   template <class Metric>

@@ -25,8 +25,8 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   try {
     largest_reach = check_positions_of_points(positions, b);
     detail::check_radius(params.radius, b);
-    const bool fresh = stats.builds == 0;
-    if (fresh || (params.policy == MaintenancePolicy::always_rebuild && free_ids.empty())) {
+    // A build would bring removed points back.
+    if (free_ids.empty() && (stats.builds == 0 || params.policy == MaintenancePolicy::always_rebuild)) {
       build(positions, b);
     } else {
       const bool same_box = box == b;
@@ -86,6 +86,7 @@ template <class Metric>
 void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
   refresh_level(metric, 1);
   cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  stats.distances += points.alive;
   measured = true;
 }
 
@@ -95,10 +96,11 @@ void Hierarchy::Impl::refresh_centers(const Metric& metric) {
 }
 
 template <class Metric>
-std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) const {
+std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) {
   std::int64_t count = 0;
   for (const auto& cluster : cluster_points.clusters) count += cluster.uncovered;
   for (int i = 2; i <= top(); ++i) {
+    stats.distances += levels[i - 1].alive();
     const double limit2 = levels[i - 1].radius2;
     for (std::int32_t k = 0; k < levels[i].size(); ++k) {
       if (!levels[i].is_alive(k)) continue;

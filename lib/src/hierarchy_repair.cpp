@@ -77,6 +77,7 @@ void Hierarchy::Impl::cover_points(const Metric& metric) {
     if (!levels[1].is_alive(k) || is_known_to_cover(k)) continue;
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
+      ++stats.distances;
       if (metric.distance2(points.position[slot], center) > levels[0].radius2)
         strays.push_back(points.id[slot]);
     });
@@ -99,6 +100,7 @@ void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
     const Level& level = levels[i];
     if (!level.is_alive(k) || level.up[k] != kNone) continue;
     const std::int32_t parent = level.parent[k];
+    stats.distances += parent != kNone;
     if (parent != kNone &&
         metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2)
       continue;
@@ -126,6 +128,7 @@ void Hierarchy::Impl::find_too_close(const Metric& metric, int i) {
     for (const std::int32_t other : level.edges.row(k))
       if (k < other && metric.distance2(level.position[k], level.position[other]) <= separation2)
         too_close.push_back({k, other});
+  stats.distances += level.edges.entries() / 2;
 }
 
 template <class Metric>
@@ -139,6 +142,7 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   const double separation2 = levels[i - 1].radius2;
   const auto connect_node = [&](std::int32_t k) {
     const std::size_t hits = candidates.select(metric, level.position[k], 0, level.reach * level.reach);
+    stats.distances += static_cast<std::int64_t>(candidates.size());
     row.clear();
     for (std::size_t h = 0; h < hits; ++h) {
       const std::size_t c = candidates.hit(h);
@@ -169,11 +173,13 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
     const auto gather = [&](std::int32_t cluster) {
       const std::int32_t begin = siblings.first[cluster];
       const auto count = static_cast<std::size_t>(siblings.first[cluster + 1] - begin);
+      stats.distances += static_cast<std::int64_t>(count);
       candidates.append_within(
           siblings.position.data() + begin, siblings.node.data() + begin, count, Vec3{},
           [&](Vec3 at) { return metric.distance2(center, at); }, reach * reach);
     };
     gather(parent);
+    stats.distances += static_cast<std::int64_t>(above.edges.row(parent).size());
     for (const std::int32_t neighbor : above.edges.row(parent))
       if (metric.distance2(center, above.position[neighbor]) <= parent_reach * parent_reach) gather(neighbor);
     for (std::int32_t k = siblings.first[parent]; k < siblings.first[parent + 1]; ++k)

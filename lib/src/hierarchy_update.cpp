@@ -27,7 +27,8 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
   const double less = levels[target].radius;
   // Climb until the hint's surroundings are wide enough.
   Hint start = hint.node == kNone ? Hint{top(), kNone} : hint;
-  for (; start.level < top(); ++start.level) {
+  std::int64_t tested = 0;
+  for (; start.level < top(); ++start.level, ++tested) {
     const double room =
         levels[start.level].threshold - (reach + levels[start.level].radius - less) * kInflate;
     const double d2 = metric.distance2(at, levels[start.level].position[start.node]);
@@ -41,12 +42,13 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
     for (const Near& kept : near[level]) {
       if (is_lone(level, kept.node) && kept.distance2 <= within * within) unfold(level, kept.node);
       for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
-           child = levels[level - 1].next_sibling[child]) {
+           child = levels[level - 1].next_sibling[child], ++tested) {
         const double d2 = metric.distance2(at, levels[level - 1].position[child]);
         if (d2 <= within * within) near[level - 1].push_back({child, d2});
       }
     }
   }
+  stats.distances += tested;
   return start;
 }
 
@@ -64,10 +66,12 @@ void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, do
   if (middle.level == top()) {
     for (std::int32_t root = 0; root < level.size(); ++root)
       if (level.is_alive(root)) keep(root);
+    stats.distances += level.alive();
     return;
   }
   keep(middle.node);
   for (const std::int32_t neighbor : level.edges.row(middle.node)) keep(neighbor);
+  stats.distances += 1 + static_cast<std::int64_t>(level.edges.row(middle.node).size());
 }
 
 // A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l -
@@ -95,8 +99,11 @@ template <class Metric>
 void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
   Level& at = levels[level];
   const Vec3 position = at.position[node];
+  std::int64_t tested = 0;
   const auto join = [&](std::int32_t other) {
-    if (other == node || metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
+    if (other == node) return;
+    ++tested;
+    if (metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
     at.edges.push(node, other);
     at.edges.push(other, node);
     if (is_lone(level, other)) unfold(level, other);
@@ -104,11 +111,13 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
   if (level == top()) {
     for (std::int32_t root = 0; root < at.size(); ++root)
       if (at.is_alive(root)) join(root);
+    stats.distances += tested;
     return;
   }
   const Level& above = levels[level + 1];
   const double reach = (at.reach + at.radius) * kInflate;
   const auto join_children = [&](std::int32_t parent) {
+    ++tested;
     if (metric.distance2(position, above.position[parent]) > reach * reach) return;
     for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
       join(child);
@@ -116,6 +125,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
   const std::int32_t parent = at.parent[node];
   join_children(parent);
   for (const std::int32_t neighbor : above.edges.row(parent)) join_children(neighbor);
+  stats.distances += tested;
 }
 
 template <class Metric>

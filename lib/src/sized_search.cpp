@@ -35,6 +35,7 @@ void add(const SearchStats& more, SearchStats& sum) {
   sum.promotions += more.promotions;
   sum.demotions += more.demotions;
   sum.reparented += more.reparented;
+  sum.distances += more.distances;
   sum.inserted += more.inserted;
   sum.removed += more.removed;
 }

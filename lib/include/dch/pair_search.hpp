@@ -22,6 +22,10 @@ struct SearchStats {
   std::int64_t demotions = 0;   ///< nodes removed from one level (DCH)
   std::int64_t reparented =
       0;  ///< nodes that lost their parent under motion and were given a place again (DCH)
+  /// Distances between two points that were computed to build, repair or change the structure: in descents,
+  /// for edges, and whether parents still cover (DCH). The same on any number of threads and any instruction
+  /// set. Left out is what depends on no position: the sampling of the density, and how far each point moved.
+  std::int64_t distances = 0;
   std::int64_t inserted = 0;     ///< particles added to a standing structure
   std::int64_t removed = 0;      ///< particles removed from a standing structure
   int levels = 0;                ///< height of the hierarchy now (DCH)

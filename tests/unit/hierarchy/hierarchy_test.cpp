@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <dch/all_pairs.hpp>
 #include <dch/error.hpp>
@@ -118,23 +119,6 @@ TEST(HierarchyTest, EmptyAndTinySetsWork) {
     NeighborList list;
     h.list(list_of(1), list);
     EXPECT_EQ(list.size(), n);
-  }
-}
-
-// Lemma 5.3.4 with the thresholds in use: nodes of level i are more than R_{i-1} apart and neighbors within
-// rho_i.
-TEST(HierarchyTest, DegreesStayWithinThePackingBound) {
-  for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    HierarchyParams params = with_radius(1);
-    params.edge_rule = rule;
-    params.c = 1.5;
-    if (rule == EdgeRule::additive) params.base_radius = 0.5;
-    Hierarchy h(params);
-    h.build(scenes::uniform(4000, {8, 8, 8}, 5), Box::orthorhombic({8, 8, 8}));
-    for (int i = 1; i < h.levels(); ++i) {
-      const double separation = h.level(i - 1).covering_radius;
-      EXPECT_LE(h.level(i).max_degree, std::pow(2 * h.level(i).edge_threshold / separation + 1, 3) - 1) << i;
-    }
   }
 }
 
@@ -332,6 +316,28 @@ TEST(HierarchyTest, InsertionAndRemovalDoThePendingRepairFirst) {
   EXPECT_EQ(h.insert({1, 1, 1}), 3);
   EXPECT_FALSE(h.repair_pending());
   EXPECT_EQ(h.validate(), "");
+}
+
+// Counted by hand: with one level all nodes are roots, and a descent tests each of them.
+TEST(HierarchyStats, CountsDistancesOfBuildInsertionRepairAndRemoval) {
+  Hierarchy h(with_radius(1));
+  auto counted = [&, before = std::int64_t{0}]() mutable {
+    return h.stats().distances - std::exchange(before, h.stats().distances);
+  };
+  std::vector<Vec3> points{{0, 0, 0}};
+  h.build(points, Box::none());
+  EXPECT_EQ(counted(), 2);  // to its own center, for the nearest one and whether it covers
+  points.push_back({20, 0, 0});
+  h.insert(points.back());
+  EXPECT_EQ(counted(), 2);  // the only root, for a parent and then for an edge
+  points.push_back({0.1, 0, 0});
+  h.insert(points.back());
+  EXPECT_EQ(counted(), 2);  // both roots, and no new one
+  points[0].x = 0.01;
+  h.update(points, Box::none());
+  EXPECT_EQ(counted(), 3);  // each from its center
+  h.remove(2);
+  EXPECT_EQ(counted(), 4);  // the repair that was put off: both roots with both
 }
 
 /// The automatic policy on given costs, since the measured ones depend on what else the machine does.
