@@ -94,6 +94,7 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
 template <class Metric>
 void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
   Level& at = levels[level];
+  at.longest = std::max(at.longest, at.reach);
   const Vec3 position = at.position[node];
   const auto join = [&](std::int32_t other) {
     if (other == node || metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
