@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/index_count.hpp>
 #include <dch/span.hpp>
 
 namespace dch::detail {
@@ -68,7 +69,8 @@ class AdjacencyRows {
  private:
   void relocate(std::int32_t k) {
     if (data_.size() > 1024 && static_cast<std::int64_t>(data_.size()) > 3 * live_) compact();
-    const std::int32_t grown = capacity_[k] + capacity_[k] / 2 + 4;
+    const auto grown = static_cast<std::int32_t>(
+        std::min(std::int64_t{capacity_[k]} + capacity_[k] / 2 + 4, kMaxIndexCount));
     const std::size_t at = data_.size();
     data_.resize(at + static_cast<std::size_t>(grown));
     std::copy_n(data_.begin() + offset_[k], count_[k], data_.begin() + static_cast<std::int64_t>(at));

@@ -76,14 +76,15 @@ class Oracle {
   /// The vector g with g . a_axis = 1 that is normal to the other periodic vectors, and has no component
   /// outside the span of the periodic vectors: g . x is the fractional coordinate and 1/|g| the height.
   static Vec3 plane_normal(int axis, const Box& box) {
-    const Vec3 a = box.vector(axis);
     const int second = (axis + 1) % 3, third = (axis + 2) % 3;
-    const Vec3 b = box.vector(second), c = box.vector(third);
+    // Of unit length, whose products double precision holds whatever the unit of length.
+    const auto direction = [&](int k) { return (1 / std::sqrt(norm2(box.vector(k)))) * box.vector(k); };
+    const Vec3 a = direction(axis), b = direction(second), c = direction(third);
     Vec3 g = a;
     if (box.periodic(second) && box.periodic(third)) g = cross(b, c);
     if (box.periodic(second) && !box.periodic(third)) g = cross(b, cross(a, b));
     if (!box.periodic(second) && box.periodic(third)) g = cross(c, cross(a, c));
-    return (1 / dot(g, a)) * g;
+    return (1 / dot(g, box.vector(axis))) * g;
   }
 
   double limit2_of(std::int32_t i, std::int32_t j) const {
@@ -91,7 +92,7 @@ class Oracle {
       const double reach = params_.radii[i] + params_.radii[j] + params_.skin;
       return reach * reach;
     }
-    return types_ == 1 ? limit2_[0] : limit2_[params_.types[i] * types_ + params_.types[j]];
+    return types_ == 1 ? limit2_[0] : limit2_[std::size_t{1} * params_.types[i] * types_ + params_.types[j]];
   }
 
   bool is_near(std::int32_t i, std::int32_t j) const {

@@ -68,7 +68,7 @@ void halve(LocalPoint* points, std::int32_t count, std::int32_t blocks) {
 
 }  // namespace
 
-std::int32_t blocks_for(std::int32_t count) { return (count + kBlock - 1) / kBlock; }
+std::int32_t blocks_for(std::int32_t count) { return count / kBlock + (count % kBlock != 0); }
 
 std::int32_t share_of_blocks(std::int32_t count, std::int32_t blocks, std::int32_t block) {
   return static_cast<std::int32_t>(static_cast<std::int64_t>(count) * block / blocks);
@@ -78,7 +78,7 @@ void order_by_halving(LocalPoint* points, std::int32_t count) { halve(points, co
 
 void order_by_fours(LocalPoint* points, std::int32_t count) {
   if (count <= 4) return;
-  const std::int32_t middle = (count + 3) / 4 / 2 * 4;
+  const std::int32_t middle = (count / 4 + (count % 4 != 0)) / 2 * 4;
   split_at(points, count, middle, longest_side(points, count));
   order_by_fours(points, middle);
   order_by_fours(points + middle, count - middle);

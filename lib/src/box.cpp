@@ -8,19 +8,27 @@
 
 #include "describe.hpp"
 #include "dual_basis.hpp"
+#include "lattice_reduction.hpp"
+#include "nearest_integer.hpp"
 
 namespace dch {
 namespace {
 
 using detail::describe;
 using detail::dual_basis;
+using detail::nearest_integer;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinLength = 1e-100;  ///< shorter cell vectors would underflow when squared and multiplied
 constexpr double kOrthorhombicTilt =
-    1e-12;  ///< off-axis components below this share of the cell's size are noise
+    1e-12;  ///< off-axis components below this share of the shortest cell vector are noise
 constexpr double kMinVolumeRatio =
     1e-12;  ///< volume / (|a||b||c|) below this: linearly dependent up to rounding
+/// Longest periodic vector over smallest height: with more, the rounding of a place along the one is as large
+/// as the other.
+constexpr double kMaxAspect = 1e12;
+/// Images of the cell as given within half its smallest height, which all pairs look through for each pair.
+constexpr double kMaxImages = 1e7;
 constexpr const char* kVectorNames = "abc";
 
 double norm(Vec3 v) { return std::sqrt(norm2(v)); }
@@ -28,13 +36,6 @@ Vec3 axis_vector(int axis, double length) {
   Vec3 v;
   v[axis] = length;
   return v;
-}
-
-/// Nearest integer, an odd function (ties go to the even one). Needs no call to the mathematics library as
-/// long as |x| < 2^51.
-double nearest_integer(double x) {
-  constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: doubles of this size are integers
-  return std::abs(x) < 2251799813685248.0 ? (x + kShift) - kShift : std::nearbyint(x);
 }
 
 bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -53,104 +54,24 @@ void check_length(double length, const std::string& what) {
   }
 }
 
-/// A lattice vector together with its integer coordinates in the vectors it was made from, so that its value
-/// can be computed anew from those without the rounding of the steps between.
-struct LatticeVector {
-  Vec3 value;
-  std::array<double, 3> coefficients{};
-
-  void add(double factor, const LatticeVector& other) {
-    value = value + factor * other.value;
-    for (std::size_t k = 0; k < 3; ++k) coefficients[k] += factor * other.coefficients[k];
-  }
-};
-
-/// Lagrange-Gauss steps on all pairs: every step shortens a vector, so this ends, after a number of steps
-/// that is logarithmic in the skew (the steps of Selling's algorithm alone would be linear in it).
-void shorten_pairwise(std::vector<LatticeVector>& basis) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (auto& u : basis) {
-      for (const auto& v : basis) {
-        if (&u == &v) continue;
-        const double k = nearest_integer(dot(u.value, v.value) / norm2(v.value));
-        if (k == 0) continue;
-        LatticeVector shorter = u;
-        shorter.add(-k, v);
-        if (norm2(shorter.value) < norm2(u.value)) {
-          u = shorter;
-          changed = true;
-        }
-      }
-    }
-  }
+/// Before the reduction, whose integers would be beyond exact doubles, with the shortest vector for a height,
+/// and after it.
+void check_aspect(double longest, double height) {
+  if (longest <= kMaxAspect * height) return;
+  throw InvalidBox("the periodic cell is " + describe(longest) + " long and only " + describe(height) +
+                   " high; double precision tells places apart up to a ratio of " + describe(kMaxAspect) +
+                   "; take a less extreme cell, or open boundaries along its long vectors");
 }
 
-/// One step of Selling's algorithm on a pair with v_i . v_j > 0: the superbase v_0 + ... + v_rank = 0 stays
-/// one, and its sum of squares falls by 4 v_i . v_j in three dimensions, 2 v_i . v_j in the plane.
-void selling_step(std::vector<LatticeVector>& superbase, std::size_t i, std::size_t j) {
-  const LatticeVector v = superbase[i];
-  const double factor = superbase.size() == 4 ? 1 : 2;
-  for (std::size_t k = 0; k < superbase.size(); ++k) {
-    if (k != i && k != j) superbase[k].add(factor, v);
-  }
-  superbase[i].add(-2, v);
-}
-
-/// Makes a superbase of short vectors obtuse: all v_i . v_j <= 0, up to rounding.
-void make_obtuse(std::vector<LatticeVector>& superbase) {
-  constexpr double kRounding = 1e-14;
-  constexpr int kMaxSteps =
-      10000;  // a handful suffices for short vectors; ends a cycle that rounding might make
-  int steps = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i = 0; i < superbase.size(); ++i) {
-      for (std::size_t j = i + 1; j < superbase.size(); ++j) {
-        const Vec3 u = superbase[i].value, v = superbase[j].value;
-        if (dot(u, v) <= kRounding * norm(u) * norm(v) || steps == kMaxSteps) continue;
-        selling_step(superbase, i, j);
-        ++steps;
-        changed = true;
-      }
-    }
-  }
-}
-
-/// Obtuse superbase of the lattice spanned by the vectors: rank + 1 vectors that sum to zero.
-std::vector<Vec3> obtuse_superbase(const std::vector<Vec3>& periods) {
-  std::vector<LatticeVector> superbase;
-  for (std::size_t k = 0; k < periods.size(); ++k) {
-    superbase.push_back({periods[k], {}});
-    superbase.back().coefficients[k] = 1;
-  }
-  shorten_pairwise(superbase);
-  LatticeVector last;
-  for (const auto& v : superbase) last.add(-1, v);
-  superbase.push_back(last);
-  make_obtuse(superbase);
-
-  std::vector<Vec3> result;
-  for (const auto& v : superbase) {
-    Vec3 exact;
-    for (std::size_t k = 0; k < periods.size(); ++k) exact = exact + v.coefficients[k] * periods[k];
-    result.push_back(exact);
-  }
-  return result;
-}
-
-/// One of each pair +-v among the sums of proper, non-empty subsets of a superbase.
-std::vector<Vec3> subset_sums(const std::vector<Vec3>& superbase) {
-  const std::size_t rank = superbase.size() - 1;
-  std::vector<Vec3> sums;
-  for (unsigned subset = 1; subset < 1u << rank; ++subset) {  // never the last vector: the complement has it
-    Vec3 sum;
-    for (std::size_t k = 0; k < rank; ++k) {
-      if (subset >> k & 1u) sum = sum + superbase[k];
-    }
-    sums.push_back(sum);
-  }
-  return sums;
+/// @param dual of the periodic vectors as given
+void check_images(const std::array<Vec3, 3>& dual, int rank, double min_height) {
+  double images = 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) images *= 1 + min_height * norm(dual[k]);
+  if (images <= kMaxImages) return;
+  throw InvalidBox("the periodic cell is so skewed that about " + describe(std::floor(images)) +
+                   " of its images lie within half its smallest height (" + describe(min_height) +
+                   "); at most " + describe(kMaxImages) +
+                   " are looked through; give a reduced cell, whose vectors are short, of the same lattice");
 }
 
 /// d plus the multiple of `period` that brings it into [-period/2, period/2]; an odd function of d.
@@ -193,12 +114,12 @@ Box Box::orthorhombic(Vec3 lengths, Periodic periodic, Vec3 origin) {
 Box Box::triclinic(Vec3 a, Vec3 b, Vec3 c, Periodic periodic, Vec3 origin) {
   const std::array<Vec3, 3> cell{a, b, c};
   check_origin(origin);
-  double size = 0;
+  double shortest = kInfinity;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string name = std::string("cell vector ") + kVectorNames[k] + " = " + describe(cell[k]);
     if (!is_finite(cell[k])) throw InvalidBox(name + " is not finite; check the box of this frame");
     check_length(norm(cell[k]), name);
-    size = std::max(size, norm(cell[k]));
+    shortest = std::min(shortest, norm(cell[k]));
   }
   const Vec3 u = (1 / norm(a)) * a, v = (1 / norm(b)) * b, w = (1 / norm(c)) * c;
   if (std::abs(dot(u, cross(v, w))) < kMinVolumeRatio) {
@@ -207,13 +128,18 @@ Box Box::triclinic(Vec3 a, Vec3 b, Vec3 c, Periodic periodic, Vec3 origin) {
                      describe(kMinVolumeRatio) + "); give three independent vectors");
   }
 
+  if (const double volume = std::abs(dot(a, cross(b, c))); !(volume >= std::numeric_limits<double>::min())) {
+    throw InvalidBox("the volume of the cell is " + describe(volume) + "; double precision holds it from " +
+                     describe(std::numeric_limits<double>::min()) + " on; use another unit of length");
+  }
+
   double tilt = 0;
   for (int k = 0; k < 3; ++k) {
     for (int axis = 0; axis < 3; ++axis) {
       if (axis != k) tilt = std::max(tilt, std::abs(cell[static_cast<std::size_t>(k)][axis]));
     }
   }
-  if (tilt <= kOrthorhombicTilt * size && a.x > 0 && b.y > 0 && c.z > 0) {
+  if (tilt <= kOrthorhombicTilt * shortest && a.x > 0 && b.y > 0 && c.z > 0) {
     return orthorhombic({a.x, b.y, c.z}, periodic, origin);
   }
 
@@ -236,12 +162,16 @@ void Box::reduce() {
   axis_parallel_ = true;
   if (rank_ == 0) return;
 
-  const std::vector<Vec3> superbase = obtuse_superbase(periods);
+  const auto [shortest, longest] =
+      std::minmax_element(periods.begin(), periods.end(), [](Vec3 a, Vec3 b) { return norm2(a) < norm2(b); });
+  check_aspect(norm(*longest), norm(*shortest));
+
+  const std::vector<Vec3> superbase = detail::obtuse_superbase(periods);
   std::copy_n(superbase.begin(), rank_, reduced_.begin());
   if (kind_ == Kind::orthorhombic) std::copy_n(periods.begin(), rank_, reduced_.begin());
   dual_ = dual_basis(reduced_, rank_);
 
-  const std::vector<Vec3> sums = subset_sums(superbase);
+  const std::vector<Vec3> sums = detail::subset_sums(superbase);
   relevant_count_ = static_cast<int>(sums.size());
   double shortest2 = kInfinity;
   for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -263,6 +193,10 @@ void Box::reduce() {
     const double height = axis_parallel_ ? norm(reduced_[k]) : 1 / norm(dual_[k]);
     min_height_ = std::min(min_height_, height);
   }
+  check_aspect(norm(*longest), min_height_);
+  std::array<Vec3, 3> given{};
+  std::copy(periods.begin(), periods.end(), given.begin());
+  check_images(dual_basis(given, rank_), rank_, min_height_);
 }
 
 std::string Box::description() const {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <dch/index_count.hpp>
+
 namespace dch::detail {
 namespace {
 
@@ -35,15 +37,16 @@ std::vector<Vec3> orthogonal_complement(const std::array<Vec3, 3>& vectors, int 
   return {frame.begin() + rank, frame.end()};
 }
 
-/// A value in the midst of row . p: the median of a small sample, which outliers do not move.
-double middle_along(Vec3 row, Span<const Vec3> points) {
+/// A point in the midst of the points along a row: the median of a small sample, which outliers do not move.
+Vec3 middle_along(Vec3 row, Span<const Vec3> points) {
   constexpr std::size_t kSample = 31;
-  if (points.empty()) return 0;
-  std::vector<double> sample;
+  if (points.empty()) return {};
+  std::vector<Vec3> sample;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
-  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(dot(row, points[i]));
+  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
   const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-  std::nth_element(sample.begin(), median, sample.end());
+  std::nth_element(sample.begin(), median, sample.end(),
+                   [&](Vec3 p, Vec3 q) { return dot(row, p) < dot(row, q); });
   return *median;
 }
 
@@ -63,12 +66,16 @@ void CellNumbering::clear() {
   buckets_.clear();
 }
 
+bool CellNumbering::fits_dense_block(std::size_t points, CellCoordinates low, CellCoordinates high) {
+  double block = 1;
+  for (std::size_t k = 0; k < 3; ++k) block *= static_cast<double>(high[k]) - low[k] + 1;
+  return block <= std::min(kDenseCellsPerPoint * static_cast<double>(points), double{kMaxIndexCount});
+}
+
 void CellNumbering::reset(std::size_t points, CellCoordinates low, CellCoordinates high) {
   low_ = low;
   high_ = high;
-  double block = 1;
-  for (std::size_t k = 0; k < 3; ++k) block *= static_cast<double>(high[k]) - low[k] + 1;
-  dense_ = block <= kDenseCellsPerPoint * static_cast<double>(points);
+  dense_ = fits_dense_block(points, low, high);
   cells_.clear();
   buckets_.clear();
   if (dense_) {
@@ -127,7 +134,7 @@ void CellGrid::lay_out(Span<const Vec3> points, const Box& box, double width) {
     const double height = 1 / std::sqrt(norm2(dual));
     const auto cells = static_cast<std::int32_t>(std::clamp(height / widened, 1.0, kFarthest));
     const Vec3 row = static_cast<double>(cells) * dual;
-    directions_[k] = {row, dot(row, box.origin()), cells, box.reduced()[k]};
+    directions_[k] = {row, box.origin(), cells, box.reduced()[k]};
   }
   const auto normals = orthogonal_complement(box.reduced(), rank);
   for (std::size_t k = 0; k < normals.size(); ++k) {
@@ -137,7 +144,7 @@ void CellGrid::lay_out(Span<const Vec3> points, const Box& box, double width) {
 }
 
 std::int32_t CellGrid::Direction::coordinate(Vec3 p) const {
-  const std::int32_t c = floor_to_integer(std::clamp(dot(row, p) - origin, -kFarthest, kFarthest));
+  const std::int32_t c = floor_to_integer(std::clamp(dot(row, p - origin), -kFarthest, kFarthest));
   if (cells == 0) return c;
   return std::clamp(c, 0, cells - 1);  // rounding may leave a wrapped point a little outside
 }

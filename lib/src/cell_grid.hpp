@@ -19,6 +19,10 @@ class CellNumbering {
  public:
   static constexpr std::int32_t kNone = -1;
 
+  /// Whether the cells with coordinates within [low, high] are few enough for so many points, and for 32-bit
+  /// numbers, to have one each, occupied or not.
+  static bool fits_dense_block(std::size_t points, CellCoordinates low, CellCoordinates high);
+
   /// Forgets all cells.
   void clear();
   /// The same; those to come have coordinates within [low, high].
@@ -69,8 +73,7 @@ class CellGrid {
   struct Direction {
     std::int32_t coordinate(Vec3 p) const;
 
-    Vec3 row;
-    double origin = 0;       ///< of row . p
+    Vec3 row, origin;
     std::int32_t cells = 0;  ///< around the torus; 0 if open
     Vec3 period;             ///< reduced lattice vector
   };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <dch/index_count.hpp>
+
 #include "binary_grid.hpp"
 #include "cluster_pair_finder.hpp"
 #include "cluster_points.hpp"
@@ -32,7 +34,9 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
     std::int32_t points = 0;
     for (std::int32_t b = scene.nodes.first_child[k]; b != kNone; b = scene.points.next[b])
       points += scene.points.count[b];
-    node.clusters = (points + kSlots - 1) / kSlots;
+    node.clusters = points / kSlots + (points % kSlots != 0);
+    index_count(std::int64_t{kSlots} * clusters + std::int64_t{kSlots} * node.clusters,
+                "slots of clusters of four", "take fewer points");
     cuts_.of_node[static_cast<std::size_t>(k)] = {clusters * kSlots, points, 0};
     clusters += node.clusters;
   }

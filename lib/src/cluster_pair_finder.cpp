@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <dch/index_count.hpp>
+
 #include "cell_images.hpp"
 #include "metric.hpp"
 #include "near_images.hpp"
@@ -20,6 +22,11 @@ constexpr double kFloatRounding = 0x1p-24;
 /// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
 std::uint32_t spread(std::uint32_t slots) {
   return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
+}
+
+std::int32_t shift_count(std::size_t shifts) {
+  return index_count(static_cast<std::int64_t>(shifts), "pairs of nodes near each other",
+                     "take a smaller cutoff or fewer points");
 }
 
 }  // namespace
@@ -86,7 +93,7 @@ void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, 
   };
   part.near.clear();
   part.source.clear();
-  const auto first_shift = static_cast<std::int32_t>(part.shift.size());
+  const std::int32_t first_shift = shift_count(part.shift.size());
   collect(k, k, Vec3{}, Vec3{}, clusters, part);
   const auto add = [&](std::int32_t other, Vec3 between) {
     collect(k, other, between, images_.integers(between - (center[other] - center[k])), clusters, part);
@@ -118,7 +125,7 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
   const std::int32_t found =
       kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_, part.chosen.data());
   if (found == 0) return;
-  const auto shift = static_cast<std::int32_t>(part.shift.size());
+  const std::int32_t shift = shift_count(part.shift.size());
   part.shift.push_back({k, other, image});
   part.boxes.make_room(part.near.size() + static_cast<std::size_t>(found) + kBoxesAtOnce);
   for (std::int32_t n = 0; n < found; ++n) {
@@ -232,7 +239,8 @@ void ClusterPairFinder::append_parts(ClusterPairs& out) const {
   out.shift.reserve(shifts);
   for (const Part& part : parts_) {
     const auto first_entry = static_cast<std::int64_t>(out.entries.size());
-    const auto first_shift = static_cast<std::int32_t>(out.shift.size());
+    const std::int32_t first_shift = shift_count(out.shift.size());
+    shift_count(out.shift.size() + part.shift.size());
     for (const ClusterPairs::Row& row : part.rows)
       out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
     out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <dch/error.hpp>
+#include <dch/index_count.hpp>
 
 #include "base_radius.hpp"
 #include "describe.hpp"
@@ -20,6 +21,17 @@ using detail::with_metric;
 
 // --- levels
 // -----------------------------------------------------------------------------------------------------
+
+/// Clusters are looked at in every image near enough, whose number grows with their extent in periods. One
+/// that is chosen by the points is at most a few times the list radius, which a box bounds by its height.
+void Hierarchy::Impl::check_base_radius(const Box& b) const {
+  constexpr double kMostPeriods = 16;
+  const double limit = kMostPeriods * b.min_height();
+  if (params.base_radius <= limit || b.max_distance() <= limit) return;
+  throw InvalidParameter("hierarchy parameter base_radius is " + describe(params.base_radius) +
+                         ", more than " + describe(kMostPeriods) + " times the smallest height of the box, " +
+                         describe(b.min_height()) + "; leave it 0 for a choice by the points");
+}
 
 double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_radius, i); }
 
@@ -135,14 +147,14 @@ void Hierarchy::Impl::reset(const Box& b) {
 namespace {
 
 HierarchyParams checked(const HierarchyParams& p) {
-  if (!(std::isfinite(p.radius) && p.radius >= kMinRadius && p.radius <= kMaxRadius))
+  if (!(std::isfinite(p.radius) && p.radius >= kMinListRadius && p.radius <= kMaxListRadius))
     throw InvalidParameter("hierarchy radius (cutoff + skin) is " + describe(p.radius) +
                            "; it must be a finite length in 1e-30..1e30, use another unit of length");
   if (!(p.c >= kMinC && p.c <= kMaxC))
     throw InvalidParameter("hierarchy parameter c is " + describe(p.c) +
                            "; it must be in 1.05..1000 (at c = 1 parent and child edges change together)");
   if (!(p.base_radius == 0 ||
-        (std::isfinite(p.base_radius) && p.base_radius >= kMinRadius && p.base_radius <= kMaxRadius)))
+        (std::isfinite(p.base_radius) && p.base_radius >= kMinListRadius && p.base_radius <= kMaxListRadius)))
     throw InvalidParameter("hierarchy parameter base_radius is " + describe(p.base_radius) +
                            "; it must be a length in 1e-30..1e30, or 0 for a choice by the points");
   if (p.base_radius != 0 && p.edge_rule == EdgeRule::thesis)
@@ -178,6 +190,10 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
     throw InvalidParameter("insert(): there is no point with id " + std::to_string(near) +
                            " to look near of");
   Impl& h = *impl_;
+  // Asked before anything changes: the point may take an id and a block, and so may each lone point that it unfolds.
+  if (h.free_ids.empty())
+    index_count(static_cast<std::int64_t>(h.slot_of_id.size()) + 1, "points", "take fewer");
+  detail::block_count(static_cast<std::int64_t>(h.points.cluster.size() + h.lone.size()) + 1);
   h.repair_if_pending();
   std::int32_t id = kNone;
   h.change_or_empty([&] {

@@ -17,10 +17,10 @@ void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::PointBlocks& b
   members.sort(cluster_of, levels[1].size());
   choose_nearest(metric, members, cluster_of, position_of);
   members.sort(cluster_of, levels[1].size());
-  std::int32_t most = 0;
+  std::int64_t most = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
     most += detail::blocks_for(members.first[k + 1] - members.first[k]);
-  blocks.reserve(most);
+  blocks.reserve(detail::block_count(most));
   std::vector<detail::LocalPoint> local;
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     local.clear();

@@ -56,6 +56,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   reset(b);
   largest_reach = detail::check_positions(positions, b);
   detail::check_radius(params.radius, b);
+  check_base_radius(b);
   const auto n = positions.size();
   set_base_radius(positions);
   set_wrap_slack();

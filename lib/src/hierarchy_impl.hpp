@@ -38,8 +38,6 @@ inline constexpr double kEdgeSlack = 0.1;
 inline constexpr double kStrayed = 0.1;
 
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
-/// Coordinates relative to clusters, and their inverse units, stay within single precision.
-inline constexpr double kMinRadius = 1e-30, kMaxRadius = 1e30;
 
 struct Hierarchy::Impl {
   using Level = detail::Level;
@@ -91,6 +89,7 @@ struct Hierarchy::Impl {
   }
 
   int top() const { return static_cast<int>(levels.size()) - 1; }
+  void check_base_radius(const Box& b) const;
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
   void set_base_radius(Span<const Vec3> positions);

@@ -20,6 +20,7 @@ struct Level {
   double reach = 0;     ///< from level 2 on edges join some farther ones, up to this when made
   double complete = 0;  ///< all within this were joined when edges were last enumerated
   double moved = 0;     ///< how far a node has moved since, at most
+  double longest = 0;   ///< no edge was longer when it was made, since then
 
   std::vector<Vec3> position;              ///< wrapped into the cell
   std::vector<std::int32_t> id;            ///< the caller's name of the point

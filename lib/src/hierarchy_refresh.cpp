@@ -25,6 +25,7 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   try {
     largest_reach = check_positions_of_points(positions, b);
     detail::check_radius(params.radius, b);
+    check_base_radius(b);
     // A build would bring removed points back.
     if (free_ids.empty() && (stats.builds == 0 || params.policy == MaintenancePolicy::always_rebuild)) {
       build(positions, b);

@@ -45,6 +45,7 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
     fresh.reach = old.reach;
     fresh.complete = old.complete;
     fresh.moved = old.moved;
+    fresh.longest = old.longest;
     fresh.resize(old.alive());
     fresh.edges.reserve(old.edges.entries());
     std::vector<std::int32_t> old_of_new(static_cast<std::size_t>(old.alive()));

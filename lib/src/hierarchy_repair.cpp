@@ -134,7 +134,7 @@ void Hierarchy::Impl::find_too_close(const Metric& metric, int i) {
 template <class Metric>
 void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   Level& level = levels[i];
-  level.complete = level.reach;
+  level.complete = level.longest = level.reach;
   level.moved = 0;
   level.edges.clear();
   level.edges.resize(level.position.size());

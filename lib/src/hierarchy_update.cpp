@@ -98,6 +98,7 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
 template <class Metric>
 void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
   Level& at = levels[level];
+  at.longest = std::max(at.longest, at.reach);
   const Vec3 position = at.position[node];
   std::int64_t tested = 0;
   const auto join = [&](std::int32_t other) {

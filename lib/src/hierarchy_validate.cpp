@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "hierarchy_impl.hpp"
+#include "position_check.hpp"
 
 namespace dch {
 
@@ -198,7 +199,9 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
     verdict.require(h.is_alive(i, k) || h.levels[i].edges.row(k).empty(), i, "a dead node has edges");
   Marks joined(h.size(i));
   std::vector<std::int32_t> row;
-  const double longest = h.levels[i].threshold + 2 * (h.levels[i].reach - h.levels[i].threshold);
+  // Reaches follow how far out the points are, which may have been farther when an edge was made.
+  const double rounding = detail::WrapError(h.box).bound(h.largest_reach);
+  const double longest = (h.levels[i].longest + 2 * h.levels[i].moved) * kInflate + rounding;
   const double longest2 = longest * longest;
   const std::vector<Member> members = members_of(h, i);
   for (std::size_t m = 0; m < members.size() && !verdict.failed(); ++m) {

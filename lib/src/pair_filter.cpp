@@ -74,13 +74,15 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
 }
 
 PairFilter::Band PairFilter::band_within(double reach) const {
-  const double inside = std::max(0.0, reach - error_), outside = reach + error_;
-  return {inside * inside * (1 - kRounding), outside * outside * (1 + kRounding), reach * reach};
+  const double inside = reach - error_, outside = reach + error_;
+  // With an error beyond the reach no distance says that a pair is within it, not even 0.
+  const double in_below = inside < 0 ? -1 : inside * inside * (1 - kRounding);
+  return {in_below, outside * outside * (1 + kRounding), reach * reach};
 }
 
 PairFilter::Band PairFilter::band_of(std::int32_t i, std::int32_t j) const {
   if (by_ == By::radii) return band_within(params_.radii[i] + params_.radii[j] + params_.skin);
-  return bands_[params_.types[i] * params_.cutoffs.types() + params_.types[j]];
+  return bands_[std::size_t{1} * params_.types[i] * params_.cutoffs.types() + params_.types[j]];
 }
 
 bool PairFilter::accept(std::int32_t i, std::int32_t j) const {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include <dch/error.hpp>
+#include <dch/index_count.hpp>
 #include <dch/pair_list.hpp>
 
 #include "cell_images.hpp"
+#include "describe.hpp"
 
 namespace dch {
 
@@ -19,6 +22,18 @@ Vec3 PairList::shift(const Group& group, const Box& now) const {
 }
 
 namespace detail {
+namespace {
+
+std::int32_t image_number(double n) {
+  if (!(std::abs(n) <= static_cast<double>(kMaxIndexCount)))
+    throw InvalidPosition("two positions are " + describe(n) +
+                          " periods of the box away from each other's nearest images; images have 32-bit "
+                          "numbers, so at most " +
+                          std::to_string(kMaxIndexCount) + " are possible: wrap the coordinates first");
+  return static_cast<std::int32_t>(n);
+}
+
+}  // namespace
 
 PairListMaker::PairListMaker(const NeighborList& list, double list_radius, Span<const Vec3> positions,
                              const Box& box, Span<const std::int32_t> types, PairList& out)
@@ -34,6 +49,7 @@ PairListMaker::PairListMaker(const NeighborList& list, double list_radius, Span<
   out.types = 1;
   for (const std::int32_t type : types) {
     if (type < 0) throw InvalidParameter("type " + std::to_string(type) + " of a particle is negative");
+    index_count(std::int64_t{type} + 1, "types", "number them from 0");
     out.types = std::max(out.types, type + 1);
   }
   out.type.assign(types.begin(), types.end());
@@ -64,8 +80,7 @@ void PairListMaker::finish() {
     const Vec3 d =
         positions_[static_cast<std::size_t>(far_[k][1])] - positions_[static_cast<std::size_t>(far_[k][0])];
     const Vec3 n = images.integers(out_.box.nearest_image(d) - d);
-    group[k] = group_of(
-        {static_cast<std::int32_t>(n.x), static_cast<std::int32_t>(n.y), static_cast<std::int32_t>(n.z)});
+    group[k] = group_of({image_number(n.x), image_number(n.y), image_number(n.z)});
     ++out_.groups[group[k]].first;  // counts, for now
   }
   auto& groups = out_.groups;

@@ -4,12 +4,24 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/index_count.hpp>
 #include <dch/vec3.hpp>
 
 #include "hierarchy_level.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::detail {
+
+/// Blocks whose slots 32-bit indices name: room for 2^31 - 8 points in full blocks, for 2^28 - 1 wherever
+/// they are.
+inline constexpr std::int64_t kMostBlocks = kMaxIndexCount / kBlock;
+
+/// The same number.
+/// @throws InvalidParameter for more blocks than kMostBlocks.
+inline std::int32_t block_count(std::int64_t blocks) {
+  return index_count(blocks, "blocks of eight points (one or more for each cluster)",
+                     "take fewer points, or a larger base_radius for fewer clusters", kMostBlocks);
+}
 
 /// Level S_0: the points, in blocks of kBlock slots. The points of one cluster (a node of level 1, their
 /// parent) fill a chain of blocks of their own, each from its first slot on, so that lists can be made of
@@ -35,10 +47,11 @@ struct PointBlocks {
   }
 
   /// A block with no points yet, for a cluster whose chain has continued with `rest`.
+  /// @throws InvalidParameter for more blocks than kMostBlocks.
   std::int32_t add_block(std::int32_t owner, std::int32_t rest) {
     std::int32_t block;
     if (free.empty()) {
-      block = static_cast<std::int32_t>(cluster.size());
+      block = block_count(static_cast<std::int64_t>(cluster.size()) + 1) - 1;
       cluster.push_back(kNone);
       next.push_back(kNone);
       count.push_back(0);

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 
 #include <dch/error.hpp>
+#include <dch/index_count.hpp>
 
 #include "describe.hpp"
 #include "dual_basis.hpp"
@@ -82,6 +82,12 @@ WrapError::WrapError(const Box& box) : origin_(box.origin()) {
   constexpr double kRoundings =
       8;  // a bound on their number, given that each of the two sums above is at least 2
   amplification_ = kRoundings * std::numeric_limits<double>::epsilon() * given * reduced;
+  // Coordinates themselves are rounded once for each vector and pass, and once where a grid shifts them.
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!shifted_[k]) continue;
+    coordinate_error_ +=
+        kRoundings * std::numeric_limits<double>::epsilon() * std::abs(origin_[static_cast<int>(k)]);
+  }
 }
 
 double WrapError::reach(Vec3 p) const {
@@ -94,7 +100,8 @@ double WrapError::reach(Vec3 p) const {
 }
 
 double WrapError::reach_within(double error) const {
-  return amplification_ > 0 ? error / amplification_ - cell_size_ : std::numeric_limits<double>::infinity();
+  return amplification_ > 0 ? (error - coordinate_error_) / amplification_ - cell_size_
+                            : std::numeric_limits<double>::infinity();
 }
 
 double WrapError::reach_between(Vec3 low, Vec3 high) const {
@@ -139,8 +146,9 @@ double check_one_by_one(Span<const Vec3> positions, const WrapError& error, doub
       throw InvalidPosition(
           position_text(i, p) +
           " is so far outside the periodic box that rounding leaves its place there uncertain by " +
-          describe(error.bound(reach)) + "; at most " + describe(tolerance) +
-          " is allowed, wrap the coordinates first");
+          describe(error.bound(reach)) + "; at most " + describe(tolerance) + " is allowed, " +
+          (error.bound(0) > tolerance ? "shift the box and the coordinates to the origin"
+                                      : "wrap the coordinates first"));
     }
     largest = std::max(largest, reach);
   }
@@ -150,11 +158,7 @@ double check_one_by_one(Span<const Vec3> positions, const WrapError& error, doub
 }  // namespace
 
 double check_positions(Span<const Vec3> positions, const Box& box) {
-  if (positions.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw InvalidParameter(std::to_string(positions.size()) +
-                           " particles; particle indices are 32-bit, so at most " +
-                           std::to_string(std::numeric_limits<std::int32_t>::max()) + " are possible");
-  }
+  index_count(static_cast<std::int64_t>(positions.size()), "particles", "divide the system");
   const WrapError error(box);
   const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
   const double farthest = error.reach_within(tolerance);

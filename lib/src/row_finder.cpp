@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <dch/index_count.hpp>
+
 #include "metric.hpp"
 
 namespace dch::detail {
@@ -114,8 +116,11 @@ std::int32_t RowFinder::collect(const Scene<Metric>& scene, const Part& part) {
 std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<BlockRange>& ranges,
                                      const BlockSpan& box, bool owned, std::int32_t already) {
   const ClusterPoints& points = *near.source->points;
-  std::int32_t most = 0;
-  for (const BlockRange& range : ranges) most += range.count;
+  std::int64_t lanes_near = already;
+  for (const BlockRange& range : ranges) lanes_near += std::int64_t{kBlock} * range.count;
+  index_count(lanes_near, "points and images of points near one cluster", "take a smaller cutoff",
+              kMaxIndexCount - 2 * kChunk);  // as many as that are rounded up to whole chunks
+  const auto most = static_cast<std::int32_t>((lanes_near - already) / kBlock);
   const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk)) + kChunk;
   if (block_room_ < blocks) {
     block_.resize(blocks);
@@ -319,7 +324,7 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
   const std::int32_t rows = points.count[block];
   const std::array<std::int32_t, kBlock>& ids = points.ids[block];
   auto written = static_cast<std::size_t>(out.first.back());
-  const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * test.chunks + kChunk);
+  const std::size_t most = written + std::size_t{kBlock * kChunk} * static_cast<std::size_t>(test.chunks) + kChunk;
   if (out.j.size() < most) out.j.resize(most + most / 4);
   const std::size_t rows_before = out.particle.size();
   out.particle.insert(out.particle.end(), ids.begin(), ids.begin() + rows);

@@ -169,8 +169,9 @@ void SizedSearch::bring_up_to_date() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const double reach = own_reach(classes_, g);
-    const double wanted =
-        reach > 0 ? reach + host_error_ : params_.radius;  // any will do where there are no pairs
+    const double wanted = reach > 0
+                              ? std::max(reach + host_error_, kMinListRadius)  // a larger one serves as well
+                              : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
     // It may have lost its points in a list that was not finished.

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <dch/index_count.hpp>
 #include <dch/necklace/chains.hpp>
 
 namespace dch::necklace {
@@ -130,7 +131,13 @@ class Unwrapper {
 
 }  // namespace
 
+Chains::Chains(std::size_t particles) {
+  index_count(static_cast<std::int64_t>(particles), "particles", "divide the system");
+  chain_of_.assign(particles, kNone);
+}
+
 Chains Chains::from_bonds(std::size_t particles, Span<const IndexPair> bonds) {
+  index_count(static_cast<std::int64_t>(particles), "particles", "divide the system");
   const BondGraph graph(particles, bonds);
   // Open chains are walked from their ends first, so an inner bead that no walk has met lies on a ring.
   std::vector<bool> met(particles, false);

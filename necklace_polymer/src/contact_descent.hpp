@@ -125,7 +125,9 @@ class ContactDescent {
   CagedBeads caged(std::int32_t place) const { return {place, 1, beads_[place]}; }
 
   /// Whether two cages are farther apart than the gap. If two beads in them can be in contact in one image
-  /// alone, because that takes less than half a period, notes which one; that holds for all nodes below.
+  /// alone, because that takes less than half a period, notes which one; that holds for all nodes below. Of
+  /// their cages it does not, which may reach each other in another image: who wants to know of separated
+  /// ones is told of those that are so in every image.
   bool apart(ContactTask& pair) {
     ++stats_.cage_pairs;
     const Ball &a = cages_[pair.a], &b = cages_[pair.b];
@@ -137,7 +139,7 @@ class ContactDescent {
     const Vec3 nearest = hierarchy_.box().nearest_image(given);
     if (norm2(nearest) > reach * reach) return true;
     // Beads reach out from the centers of their cages by no more than the radii.
-    if (reach < hierarchy_.box().max_cutoff()) {
+    if (!Visitor::kWantsSeparated && reach < hierarchy_.box().max_cutoff()) {
       pair.one_image = true;
       pair.shift = nearest - given;
     }

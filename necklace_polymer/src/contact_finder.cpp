@@ -106,30 +106,43 @@ void ContactFinder::measured(const ContactStats& stats) {
   }
 }
 
-/// Lists pairs of places that are near enough for a contact. False if only beads at one place can be.
+/// Lists pairs of places that are near enough for a contact. False for what the DCH does not take although
+/// the wrapped hierarchy does.
 bool ContactFinder::list_near(const ContactQuery& query) {
+  const bool are_points = necklace().largest_radius() == 0;
+  const double gap = std::max(query.gap, 0.0);
   ListParams params;
-  params.radii = radii_;
   params.order = RowOrder::by_structure;
-  params.skin = std::max(query.gap, 0.0);
+  if (!are_points) {
+    params.radii = radii_;
+    params.skin = gap;
+  } else if (gap > 0) {
+    params.cutoffs = TypeCutoffs(gap);
+  } else {
+    return false;  // contacts at one and the same place alone
+  }
   // A little more, so that rounding loses nothing, where the box has room for it.
   ListParams wider = params;
-  wider.skin += 1e-12 * (2 * necklace().largest_radius() + params.skin);
+  wider.skin += 1e-12 * params.list_radius();
   if (wider.list_radius() <= box_.max_cutoff()) params = wider;
   const double radius = params.list_radius();
-  if (!(radius > 0)) return false;
+  if (radius < kMinListRadius || radius > kMaxListRadius) return false;
   const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff());
   if (search_ == nullptr || !fits) {
     HierarchyParams structure;
     structure.radius = radius;
     structure.executor = params_.executor;
     structure.size_classes =
-        necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
+        !are_points && necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
     search_ = make_dch_search(structure);
     search_radius_ = radius;
     search_is_new_ = false;
   }
-  if (!search_is_new_) search_->update(by_place_, box_);
+  try {
+    if (!search_is_new_) search_->update(by_place_, box_);
+  } catch (const InvalidPosition&) {  // so far outside that their places in the box are uncertain
+    return false;
+  }
   search_is_new_ = true;
   search_->list(params, list_);
   return true;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include <dch/index_count.hpp>
 #include <dch/necklace/shapes.hpp>
 
 #include "parameter_check.hpp"
@@ -84,7 +85,8 @@ Shape torus_knot(std::int32_t p, std::int32_t q, std::int32_t beads) {
                         ") is no knot; both have to be 1 or more and have no common divisor");
   require_parameter(beads >= 3, "a knot of " + std::to_string(beads) + " beads; it needs 3 or more");
   // Beads stand at equal lengths along a polygon fine enough to follow the curve.
-  const std::int32_t corners = 32 * std::max(beads, p + q);
+  const std::int32_t corners = index_count(32 * std::max<std::int64_t>(beads, std::int64_t{p} + q),
+                                           "corners of the knot", "take fewer beads");
   std::vector<double> length{0};
   for (std::int32_t k = 1; k <= corners; ++k) {
     const Vec3 step = knot_point(p, q, double(k) / corners) - knot_point(p, q, double(k - 1) / corners);
@@ -104,7 +106,7 @@ Shape torus_knot(std::int32_t p, std::int32_t q, std::int32_t beads) {
 }
 
 Shape facing_bumps(std::int32_t n, std::int32_t c, double gap, double progress) {
-  require_parameter(c >= 1 && n % c == 0 && n >= 4 * c + 2 && n <= 100'000'000,
+  require_parameter(c >= 1 && n <= 100'000'000 && c <= n / 4 && n % c == 0 && n >= 4 * c + 2,
                     std::to_string(n) + " beads in bumps of height " + std::to_string(c) +
                         "; the height has to be 1 or more and divide n, and n be in 4 c + 2 .. 10^8");
   require_parameter(gap > 0 && gap <= 1, "the gap is " + std::to_string(gap) + "; it has to be in (0, 1]");

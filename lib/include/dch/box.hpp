@@ -32,13 +32,22 @@ class Box {
   Box() = default;
   static Box none() { return Box(); }
 
+  // Whatever of a box that is accepted is computed, volume, heights and their inverses, double precision
+  // holds, and no search through its images is longer than 1e7 steps a pair.
+
   /// Axis-parallel cell [origin, origin + lengths).
-  /// @throws InvalidBox unless every length is finite and > 0 (along non-periodic axes too: use none()).
+  /// @throws InvalidBox unless every length is in 1e-100..1e100 (along non-periodic axes too: use none()),
+  /// and
+  ///   that of the longest periodic edge at most 1e12 times that of the shortest.
   static Box orthorhombic(Vec3 lengths, Periodic periodic = {true, true, true}, Vec3 origin = {});
 
-  /// Cell spanned by a, b, c (any orientation, any skew). Becomes orthorhombic if the off-axis components are
-  /// below 1e-12 of the cell's size (file formats leave tilts of 1e-17 behind).
-  /// @throws InvalidBox if a vector is not finite or the three are linearly dependent.
+  /// Cell spanned by a, b, c (any orientation). Becomes orthorhombic if the off-axis components are below
+  /// 1e-12 of the shortest vector (file formats leave tilts of 1e-17 behind).
+  /// @throws InvalidBox if a vector is not finite or its length not in 1e-100..1e100, if the three are
+  /// linearly
+  ///   dependent (a volume below 1e-12 of the product of their lengths, or below 2.2e-308), if a periodic
+  ///   vector is longer than 1e12 times the smallest height, and for cells so skewed that more than 1e7 of
+  ///   their images may lie within half that height.
   static Box triclinic(Vec3 a, Vec3 b, Vec3 c, Periodic periodic = {true, true, true}, Vec3 origin = {});
 
   Kind kind() const { return kind_; }

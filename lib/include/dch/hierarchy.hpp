@@ -35,13 +35,17 @@ enum class MaintenancePolicy {
   always_rebuild  ///< build at every update
 };
 
+/// List radii that a hierarchy can have [length]: coordinates relative to clusters, and their inverse units,
+/// stay within single precision.
+inline constexpr double kMinListRadius = 1e-30, kMaxListRadius = 1e30;
+
 struct HierarchyParams {
-  /// rho_0, the edge threshold of level 0, 1e-30..1e30 [length]: cutoff + skin of the list that the level-0
-  /// edges are.
+  /// rho_0, the edge threshold of level 0, kMinListRadius..kMaxListRadius [length]: cutoff + skin of the list
+  /// that the level-0 edges are.
   double radius = 0;
   /// R_0, the radius within which level 1 covers the points [length]. 0: with EdgeRule::additive 2^k r0 for
   /// the k that gives a node of level 1 about 150 children, which suits lists (measured at each build); with
-  /// EdgeRule::thesis r0.
+  /// EdgeRule::thesis r0. At most 16 times the smallest height of a periodic box, if that is wider anywhere.
   double base_radius = 0;
   /// c >= 1.05, ties the scale of the levels to the list: 2 c r0 = radius. EdgeRule::thesis: larger c means
   /// smaller balls, more levels and edges, more slack.
@@ -106,7 +110,11 @@ class Hierarchy {
   Hierarchy& operator=(const Hierarchy&) = delete;
 
   /// Builds from scratch by insertion in space-filling order, ids 0..n-1. O(n lg alpha) (Theorem 5.4.1).
-  /// @throws InvalidPosition, CutoffTooLarge. The hierarchy is empty after a throw.
+  /// @throws InvalidPosition, CutoffTooLarge; InvalidParameter for a base_radius too large for the box, and
+  /// for
+  ///   more points than 32-bit numbers can name the places of. They stand in blocks of eight, at most 2^28 -
+  ///   1 of them, and points far apart take a block each: so 268 million points always fit, more if they are
+  ///   dense. The hierarchy is empty after a throw.
   void build(Span<const Vec3> positions, const Box& box);
 
   /// Takes new positions, indexed by id, in a possibly changed box. With MaintenancePolicy::automatic repair
@@ -127,7 +135,8 @@ class Hierarchy {
 
   /// Adds a point, with its edges in every level: O(lg alpha), or O(1) levels if `near` (optional) is the id
   /// of a point close by. Returns the new id: the smallest free one.
-  /// @throws InvalidPosition; InvalidParameter if near is given and not in the hierarchy.
+  /// @throws InvalidPosition; InvalidParameter if near is given and not in the hierarchy, and where there may
+  ///   be no place left, as build() says.
   std::int32_t insert(Vec3 position, std::int32_t near = -1);
 
   /// Removes a point; its children find new parents or are promoted: O(lg alpha).

@@ -61,7 +61,9 @@ struct PairList {
 /// @param accept called as accept(i, j) for every pair; those that it refuses are left out
 /// @param list_radius cutoff + skin of the list [length]
 /// @param types by particle, or none if there is one type
-/// @throws InvalidParameter for a full list, another number of positions or types than rows, and a negative
+/// @throws InvalidPosition for positions more periods away from each other's nearest images than 32-bit
+/// numbers count; InvalidParameter for a full list, another number of positions or types than rows, and a
+/// negative
 ///   type.
 template <class Accept>
 void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,

@@ -45,6 +45,8 @@ BAD_SECOND_FRAMES = {
     "not-a-number": (GOOD + dump(["1 1 1 1", "2 2 x 2"]), ["frame 1", "x"]),
     "zero-box": (GOOD + dump(["1 1 1 1", "2 2 2 2"], "0 10\n5 5\n0 10\n"), ["frame 1"]),
     "negative-box": (GOOD + dump(["1 1 1 1", "2 2 2 2"], "0 10\n0 10\n10 0\n"), ["frame 1"]),
+    "flat-box": (GOOD + dump(["1 1 1 1", "2 2 2 2"], "0 1e-100\n0 1\n0 1e100\n"), ["frame 1", "1e+100 long", "1e+12"]),
+    "tiny-edge": (dump(["1 0 0 0", "2 0 0 0"], "0 10\n0 10\n0 1e-90\n"), ["frame 0", "10 long", "1e-90 high"]),
     "other-number-without-ids": (dump(["1 1 1", "2 2 2"], columns="x y z") + dump(["1 1 1"], columns="x y z"),
                                  ["frame 1", "1", "2"]),
     "no-coordinates": (dump(["1 5"], columns="id type"), ["frame 0"]),

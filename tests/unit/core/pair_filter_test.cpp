@@ -70,6 +70,26 @@ TEST(PairFilter, DistancesAtTheCutoffInSpiteOfWrapping) {
   }
 }
 
+TEST(PairFilter, ErrorsLargerThanTheCutoffInventNoPairs) {
+  // Wrapped images may coincide although the pair distance is farther than the cutoff.
+  const Box box = Box::triclinic({10, 0, 0}, {3, 10, 0}, {-2, 1, 10});
+  for (const double periods : {1e10, 1e11, 1e12}) {
+    scenes::Random random(4);
+    std::vector<Vec3> points;
+    for (int k = 0; k < 60; ++k) {
+      Vec3 p = random.in_ball(1e-4);
+      for (int axis = 0; axis < 3; ++axis)
+        p = p + std::nearbyint(random.uniform(-periods, periods)) * box.vector(axis);
+      points.push_back(p);
+    }
+    for (const double cutoff : {1e-4, 1e-2}) {
+      ListParams params;
+      params.cutoffs = TypeCutoffs(cutoff);
+      expect_agreement(points, box, params, std::to_string(periods) + " periods away");
+    }
+  }
+}
+
 TEST(PairFilter, ImagesOnBothSidesAtHalfTheBox) {
   // Each pair is half a period apart along one or more axes, give or take rounding.
   const Box box = Box::triclinic({1.4, 0, 0}, {0, 1.4, 0}, {0.7, 0.7, 1.1});

@@ -118,5 +118,17 @@ TEST(WrapError, IsZeroWhereNothingIsWrapped) {
   EXPECT_LT(slab.bound(7), 1e-11);
 }
 
+TEST(WrapError, GrowsWithTheCoordinatesOfTheBox) {
+  const auto bound_at = [](Vec3 corner) {
+    return WrapError(Box::orthorhombic({10, 10, 10}, {true, true, false}, corner)).bound(0);
+  };
+  EXPECT_LT(bound_at({0, 0, 0}), 1e-11);
+  EXPECT_EQ(bound_at({0, 0, 1e15}), bound_at({0, 0, 0})) << "no shift changes z";
+  for (const double far : {1e12, 1e15}) {
+    EXPECT_GT(bound_at({far, 0, 0}), 2 * far * std::numeric_limits<double>::epsilon());
+    EXPECT_LT(bound_at({0, -far, 0}), 1e-13 * far);
+  }
+}
+
 }  // namespace
 }  // namespace dch::detail

@@ -66,6 +66,14 @@ TEST_F(ValidateTest, ReportsAnEdgeBeyondTheThreshold) {
   expect_report("should not exist");
 }
 
+TEST_F(ValidateTest, ReportsAnEdgeLongerThanAnyWasMade) {
+  auto& level = inside().levels[2];
+  ASSERT_GT(level.size(), 1);
+  EXPECT_GT(level.longest, level.threshold);
+  level.longest *= 0.5;  // claims that edges were made shorter
+  expect_report("is longer than any should be");
+}
+
 TEST_F(ValidateTest, ReportsCentersThatAreTooClose) {
   auto& levels = inside().levels;
   levels[0].radius2 *= 4;  // claims twice the separation that there is

@@ -105,6 +105,39 @@ TEST(ContactFinder, PointsFewBeadsAndNone) {
   expect_same(Necklace::chain({0.5, 0.5}), {{1, 2, 3}, {1, 2, 3}}, Box::none(), {0, 0, true, true}, "two");
 }
 
+/// What the wrapped hierarchy answers and the DCH does not take.
+TEST(ContactFinder, AnswersWhateverTheWrappedHierarchyAnswers) {
+  Random random(7);
+  std::vector<Vec3> positions(40);
+  for (Vec3& p : positions) p = random.in_ball(2);
+  positions[7] = positions[30];
+  const auto scaled = [&](double by) {
+    std::vector<Vec3> result = positions;
+    for (Vec3& p : result) p = by * p;
+    return result;
+  };
+  const std::vector<double> points(40, 0.0), tiny(40, 1e-300);
+  std::vector<double> mixed(40, 1e-300);
+  for (std::size_t k = 0; k < 40; k += 3) mixed[k] = 0.5;
+  for (const Box& box : {Box::none(), Box::orthorhombic({8, 8, 8})})
+    for (const double gap : {0.0, 1e-300, 1e-40, 0.4}) {
+      const ContactQuery query{gap, 0, true, true};
+      const std::string where = box.description() + ", gap " + std::to_string(gap);
+      expect_same(Necklace::chain(points), positions, box, query, "points, " + where);
+      expect_same(Necklace::chain(tiny), positions, box, query, "tiny beads, " + where);
+      expect_same(Necklace::chain(mixed), positions, box, query, "mixed beads, " + where);
+    }
+  expect_same(Necklace::chain(std::vector<double>(40, 0.3e40)), scaled(1e40), Box::none(), {}, "huge");
+  expect_same(Necklace::chain(std::vector<double>(40, 0.3e-60)), scaled(1e-60), Box::none(), {}, "minute");
+  expect_same(Necklace::chain({}), {}, Box::none(), {1, 0, true, true}, "none, with a gap");
+  // A bead that rounding leaves anywhere in the box; bonds would be longer than half of it.
+  Chains single(2);
+  single.add(std::vector<std::int32_t>{0});
+  single.add(std::vector<std::int32_t>{1});
+  expect_same(Necklace(single, 0.5), {{1e17, 0, 0}, {1e17, 0, 0}}, Box::orthorhombic({10, 10, 10}), {},
+              "far");
+}
+
 TEST(ContactFinder, PackedChainsGoToTheDchAndStretchedOnesComeBack) {
   ContactFinderParams params;
   params.to_dch = 3, params.to_wrapped = 2;

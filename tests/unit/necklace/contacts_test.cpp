@@ -12,6 +12,7 @@
 
 #include "contact_oracle.hpp"
 #include "error_message.hpp"
+#include "random.hpp"
 
 namespace {
 
@@ -185,6 +186,49 @@ TEST(Contacts, RefuseBadQueries) {
                 any_contact(boxed, {1.01, 1, true, true});
               }),
               HasSubstr("is 3.010000, which exceeds half the smallest box height, 3.000000"));
+}
+
+// Beads of two cages may be able to touch in one image alone while parts of the cages, which stick out of
+// them, reach each other in another one.
+TEST(Certificate, CagesAreApartInEveryImage) {
+  const Box box = Box::orthorhombic({6, 6, 6});
+  int pairs_of_cages = 0;
+  for (std::uint64_t seed = 1; seed <= 12000; ++seed) {
+    dch::scenes::Random random(seed);
+    std::vector<Vec3> positions;
+    Vec3 at{};
+    for (int k = 0; k < 8; ++k) {
+      positions.push_back(at);
+      Vec3 step;
+      do step = random.in_ball(2.9);
+      while (norm2(step) < 1);
+      at = at + step;
+      if (k == 3) at = at + random.in_ball(3);
+    }
+    Chains chains(8);
+    chains.add(std::vector<std::int32_t>{0, 1, 2, 3});
+    chains.add(std::vector<std::int32_t>{4, 5, 6, 7});
+    WrappedHierarchy hierarchy(Necklace(chains, 0.02), {1, Verification::cascade});
+    hierarchy.build(positions, box);
+    const ContactQuery query = every_pair();
+    const Separation separation = separate(hierarchy, query);
+    ASSERT_EQ(check_certificate(hierarchy, query, separation), "") << "seed " << seed;
+    EXPECT_EQ(dch::test::pairs_of(separation.contacts), dch::test::pairs_of(find_contacts(hierarchy, query)));
+    for (const auto& pair : separation.pairs) pairs_of_cages += pair.a.count > 1 || pair.b.count > 1;
+  }
+  EXPECT_GT(pairs_of_cages, 12000);
+}
+
+TEST(Certificate, CagesThatReachEachOtherInAnotherImageAreFound) {
+  WrappedHierarchy hierarchy(Necklace::chain({0.1, 0.1, 0.1, 0.1}), {1, Verification::cascade});
+  hierarchy.build(std::vector<Vec3>{{0.5, 5, 5}, {2, 5, 5}, {5, 5, 5}, {9.5, 5, 5}},
+                  Box::orthorhombic({10, 10, 10}));
+  const ContactQuery query = every_pair();
+  Separation separation = separate(hierarchy, query);
+  ASSERT_EQ(check_certificate(hierarchy, query, separation), "");
+  // Far apart where they are: centers at 1.25 and 9.5, radii 0.85 and 0.1; near each other across the face.
+  separation.pairs = {{{0, 2, {{1.25, 5, 5}, 0.9}}, {3, 1, {{9.5, 5, 5}, 1.2}}}};
+  EXPECT_THAT(check_certificate(hierarchy, query, separation), HasSubstr("is not apart"));
 }
 
 TEST(Certificate, FaultsAreFound) {

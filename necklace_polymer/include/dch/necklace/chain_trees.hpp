@@ -27,7 +27,8 @@ class ChainTrees {
 
   ChainTrees() = default;
   /// @param leaf_beads nodes of this many beads and fewer are leaves; 1 gives the tree of the thesis
-  /// @throws InvalidParameter unless 1 <= leaf_beads <= 64.
+  /// @throws InvalidParameter unless 1 <= leaf_beads <= 64, and for trees that might have more nodes than
+  ///   kMaxIndexCount (from 2^30 beads on where leaf_beads is 1).
   ChainTrees(const Necklace& necklace, int leaf_beads);
 
   Span<const Node> nodes() const { return nodes_; }

@@ -53,7 +53,8 @@ class Chains {
   void add(Span<const std::int32_t> beads, bool closed = false);
 
   /// Chains over `particles` particles, none yet; see add().
-  explicit Chains(std::size_t particles) : chain_of_(particles, -1) {}
+  /// @throws InvalidParameter for more particles than kMaxIndexCount.
+  explicit Chains(std::size_t particles);
 
   std::size_t size() const { return closed_.size(); }         ///< number of chains
   std::size_t particles() const { return chain_of_.size(); }  ///< number of particles, in chains or not

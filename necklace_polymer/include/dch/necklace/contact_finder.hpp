@@ -43,7 +43,9 @@ struct ContactFinderParams {
 };
 
 /// Contacts by the structure that suits the scene: a figure for how packed the chains are, visited pairs for
-/// each bead, decides between the wrapped hierarchy and the DCH. Both give the same contacts.
+/// each bead, decides between the wrapped hierarchy and the DCH. Both give the same contacts. What the DCH
+/// does not take (beads and gaps that reach less than kMinListRadius or more than kMaxListRadius, positions
+/// that rounding makes uncertain in a periodic box) the wrapped hierarchy answers in its turn too.
 ///
 /// A search that ends at its first contact does not measure, as it costs little. Periodic boxes as for
 /// either structure. Not thread-safe; distinct objects are independent.

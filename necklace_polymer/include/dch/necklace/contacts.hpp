@@ -79,13 +79,14 @@ std::vector<Contact> find_contacts(const CageHierarchy& hierarchy, const Contact
                                    ContactStats* stats = nullptr, Executor* executor = nullptr);
 
 /// All contacts, with the separating family that shows that there are no others. As any_contact(), but all
-/// pairs of roots are looked at, on one thread.
+/// pairs of roots are looked at, on one thread, and in a periodic box cages in all images: of cages whose
+/// beads can be in contact in one image alone, parts may reach each other in another image.
 Separation separate(const CageHierarchy& hierarchy, const ContactQuery& query, ContactStats* stats = nullptr);
 
 /// Checks a certificate against nothing but the beads of the hierarchy: each cage encloses its beads (within
-/// 1e-11 of its radius), the cages of a pair are farther apart than the gap, and each pair of beads that the
-/// query asks for is covered exactly once. Returns an empty string, or what is wrong first. O(n^2) time and
-/// n^2/8 bytes; for tests.
+/// 1e-11 of its radius), the cages of a pair are farther apart than the gap in every image, and each pair of
+/// beads that the query asks for is covered exactly once. Returns an empty string, or what is wrong first.
+/// O(n^2) time and n^2/8 bytes; for tests.
 std::string check_certificate(const CageHierarchy& hierarchy, const ContactQuery& query,
                               const Separation& separation);
 
