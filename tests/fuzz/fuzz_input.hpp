@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace dch::fuzz {
 
-/// A property does not hold: the message goes to stderr and the process aborts, which a fuzzer takes for a finding.
+/// A property does not hold: the message goes to stderr and the process aborts, which a fuzzer takes for a
+/// finding.
 [[noreturn]] inline void fail(const std::string& what) {
   std::fprintf(stderr, "fuzz target: %s\n", what.c_str());
   std::abort();
@@ -25,8 +26,8 @@ inline void require_none(const std::string& fault, const std::string& where) {
   if (!fault.empty()) fail(where + ": " + fault);
 }
 
-/// Turns the bytes of an input into decisions, one after the other; zeros once they are used up. Few bytes make a
-/// decision, so that changing a byte changes one decision.
+/// Turns the bytes of an input into decisions, one after the other; zeros once they are used up. Few bytes
+/// make a decision, so that changing a byte changes one decision.
 class FuzzInput {
  public:
   FuzzInput(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) {}

@@ -37,7 +37,8 @@ inline Vec3 choose_point(FuzzInput& input, const Box& box, const std::vector<Vec
       if (!before.empty()) return before.back() + input.in_cube(0.5);
       break;
     case 2:
-      return scenes::from_fractional(box, {std::floor(input.uniform(-3, 4)), input.uniform(), input.uniform(-40, 40)});
+      return scenes::from_fractional(
+          box, {std::floor(input.uniform(-3, 4)), input.uniform(), input.uniform(-40, 40)});
     default:
       break;
   }
@@ -104,7 +105,8 @@ inline void choose_scene(FuzzInput& input, std::size_t most, Scene& scene) {
   const double widest = std::min(3.0, 0.98 * scene.box.max_cutoff());
   scene.reach = widest * std::pow(10, -input.uniform());
   const std::size_t count = input.below(most + 1);
-  for (std::size_t k = 0; k < count; ++k) scene.points.push_back(choose_point(input, scene.box, scene.points));
+  for (std::size_t k = 0; k < count; ++k)
+    scene.points.push_back(choose_point(input, scene.box, scene.points));
   choose_sizes(input, scene);
   choose_rest_of_request(input, scene);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The hierarchy under any sequence of its operations: every invariant holds after each of them, and lists are those of
-// all pairs.
+// The hierarchy under any sequence of its operations: every invariant holds after each of them, and lists are
+// those of all pairs.
 #include <dch/all_pairs.hpp>
 #include <dch/error.hpp>
 #include <dch/hierarchy.hpp>
@@ -21,7 +21,8 @@ HierarchyParams choose_params(FuzzInput& input, double radius) {
   if (input.coin()) params.base_radius = radius * input.uniform(0.2, 2);
   if (input.below(4) == 1) params.edge_rule = EdgeRule::thesis, params.base_radius = 0;
   constexpr MaintenancePolicy kPolicies[] = {MaintenancePolicy::automatic, MaintenancePolicy::automatic,
-                                             MaintenancePolicy::always_repair, MaintenancePolicy::always_rebuild};
+                                             MaintenancePolicy::always_repair,
+                                             MaintenancePolicy::always_rebuild};
   params.policy = kPolicies[input.below(4)];
   params.max_roots = input.coin() ? 1 : 16;
   return params;
@@ -46,7 +47,8 @@ class Run {
  private:
   void build() {
     points_.clear();
-    for (std::size_t k = input_.below(kMostPoints); k > 0; --k) points_.push_back(choose_point(input_, box_, points_));
+    for (std::size_t k = input_.below(kMostPoints); k > 0; --k)
+      points_.push_back(choose_point(input_, box_, points_));
     hierarchy_.build(points_, box_);
     ids_.resize(points_.size());
     for (std::size_t k = 0; k < ids_.size(); ++k) ids_[k] = static_cast<std::int32_t>(k);

@@ -11,8 +11,9 @@
 
 namespace dch::fuzz {
 
-/// A file of a given name whose content changes from input to input, in a folder of its own that goes with the process.
-/// It stays open: some file systems write a file to the disk when one that was truncated is closed.
+/// A file of a given name whose content changes from input to input, in a folder of its own that goes with
+/// the process. It stays open: some file systems write a file to the disk when one that was truncated is
+/// closed.
 class InputOnDisk {
  public:
   explicit InputOnDisk(const std::string& name) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Lists under motion: those of the hierarchy, of its classes of sizes and of the cell list equal all pairs at every
-// step, on every instruction set and on threads, and a list that is kept between rebuilds lacks no pair within the
-// cutoff.
+// Lists under motion: those of the hierarchy, of its classes of sizes and of the cell list equal all pairs at
+// every step, on every instruction set and on threads, and a list that is kept between rebuilds lacks no pair
+// within the cutoff.
 #include <memory>
 
 #include <dch/all_pairs.hpp>
-#include <dch/pair_search.hpp>
 #include <dch/error.hpp>
 #include <dch/hierarchy.hpp>
+#include <dch/pair_search.hpp>
 #include <dch/verlet_list.hpp>
 
 #include "cluster_pair_check.hpp"
@@ -65,7 +65,8 @@ void compare(PairSearch& search, const Scene& scene, const NeighborList& expecte
       if (list.margin + scene.reach < scene.box.max_cutoff()) require_superset(list, scene, expected, where);
     }
     if (list.margin != first_superset.margin) fail(where + ": another margin than the portable set has");
-    require_none(first_difference(list, first_superset), where + ", superset beside that of the portable set");
+    require_none(first_difference(list, first_superset),
+                 where + ", superset beside that of the portable set");
   }
 }
 
@@ -104,7 +105,8 @@ void run(FuzzInput& input) {
       require_none(cluster_pair_fault(pairs, scene.points, scene.box, scene.request), "cluster pairs");
     }
     by_cells->update(scene.points, scene.box);
-    require_none(first_difference(by_cells->list(scene.request), expected), "cells, step " + std::to_string(step));
+    require_none(first_difference(by_cells->list(scene.request), expected),
+                 "cells, step " + std::to_string(step));
     if (input.empty()) break;
   }
 }

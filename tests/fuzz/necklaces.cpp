@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Contacts of chains: the same from every structure and by brute force, under motion, with a certificate that holds.
+// Contacts of chains: the same from every structure and by brute force, under motion, with a certificate that
+// holds.
 #include <dch/error.hpp>
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contacts.hpp>
@@ -41,8 +42,9 @@ std::vector<Vec3> choose_positions(FuzzInput& input, const Box& box, std::size_t
   std::vector<Vec3> positions;
   for (std::size_t k = 0; k < count; ++k) {
     const bool jumps = positions.empty() || input.below(16) == 15;
-    positions.push_back(jumps ? scenes::from_fractional(box, {input.uniform(), input.uniform(), input.uniform()})
-                              : positions.back() + input.in_cube(0.8));
+    positions.push_back(
+        jumps ? scenes::from_fractional(box, {input.uniform(), input.uniform(), input.uniform()})
+              : positions.back() + input.in_cube(0.8));
   }
   return positions;
 }
@@ -57,8 +59,8 @@ ContactQuery choose_query(FuzzInput& input) {
   return query;
 }
 
-void compare(WrappedHierarchy& wrapped, ContactFinder& finder, const std::vector<Vec3>& positions, const Box& box,
-             const ContactQuery& query) {
+void compare(WrappedHierarchy& wrapped, ContactFinder& finder, const std::vector<Vec3>& positions,
+             const Box& box, const ContactQuery& query) {
   const auto expected = test::contact_oracle(wrapped.necklace(), positions, box, query);
   wrapped.update(positions, box);
   if (test::pairs_of(find_contacts(wrapped, query)) != expected) fail("find_contacts() beside all pairs");
@@ -67,7 +69,8 @@ void compare(WrappedHierarchy& wrapped, ContactFinder& finder, const std::vector
   if (test::pairs_of(finder.find_contacts(query)) != expected) fail("ContactFinder beside all pairs");
   necklace::LayeredHierarchy layered(wrapped.necklace());
   layered.update(positions, box);
-  if (test::pairs_of(find_contacts(layered, query)) != expected) fail("the layered hierarchy beside all pairs");
+  if (test::pairs_of(find_contacts(layered, query)) != expected)
+    fail("the layered hierarchy beside all pairs");
   const auto separation = separate(wrapped, query);
   if (test::pairs_of(separation.contacts) != expected) fail("separate() beside all pairs");
   require_none(check_certificate(wrapped, query, separation), "certificate");
@@ -84,7 +87,7 @@ void run(FuzzInput& input) {
   query.gap = std::min(query.gap, 0.9 * (box.max_cutoff() - 2 * largest));
   auto positions = choose_positions(input, box, count);
   WrappedHierarchy wrapped(necklace, {input.coin() ? 1 : 8, input.coin() ? necklace::Verification::watched
-                                                                        : necklace::Verification::cascade});
+                                                                         : necklace::Verification::cascade});
   necklace::ContactFinderParams params;
   params.to_dch = 4 * input.uniform();
   params.to_wrapped = params.to_dch / 2;

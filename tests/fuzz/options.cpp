@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Values of options: any words give values within their limits, or a UsageError.
-#include "option_values.hpp"
-
 #include <cmath>
 
 #include "fuzz_input.hpp"
+#include "option_values.hpp"
 
 namespace dch::fuzz {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs a fuzz target without libFuzzer: every file of a corpus, then mutations of these files. Mutations depend on
-// their number alone, so that any run can be repeated.
+// Runs a fuzz target without libFuzzer: every file of a corpus, then mutations of these files. Mutations
+// depend on their number alone, so that any run can be repeated.
 //
 //   PROGRAM [--mutations COUNT] FOLDER
 //
-// Status 0 if no input failed, 2 for wrong arguments or an empty corpus. An input that fails ends the process by a
-// signal and is left in the file fuzz-failure in the working folder, for PROGRAM's libFuzzer twin or a debugger.
+// Status 0 if no input failed, 2 for wrong arguments or an empty corpus. An input that fails ends the process
+// by a signal and is left in the file fuzz-failure in the working folder, for PROGRAM's libFuzzer twin or a
+// debugger.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>

@@ -25,7 +25,8 @@ void check(const trajectory::Topology& topology) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using dch::fuzz::InputOnDisk;
-  static InputOnDisk files[] = {InputOnDisk("input.bonds"), InputOnDisk("input.chains"), InputOnDisk("input.data")};
+  static InputOnDisk files[] = {InputOnDisk("input.bonds"), InputOnDisk("input.chains"),
+                                InputOnDisk("input.data")};
   dch::fuzz::FuzzInput input(data, size);
   InputOnDisk& file = files[input.below(3)];
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A reader of trajectories (DCH_FUZZ_ENDING says of which files): any bytes give frames within their limits or a
-// FileError.
+// A reader of trajectories (DCH_FUZZ_ENDING says of which files): any bytes give frames within their limits
+// or a FileError.
 #include <cmath>
 
 #include <dch/trajectory/file_error.hpp>
