@@ -110,6 +110,31 @@ TEST(Work, UpdateWithoutMotionLooksOnceAtEachPoint) {
   }
 }
 
+// The edges of all levels are found anew in another box, and stand again after that.
+TEST(Work, AChangedBoxCostsOneRepair) {
+  const auto box_of = [](double side) { return Box::orthorhombic({side, side, side}); };
+  const std::vector<Vec3> points = scenes::uniform(2000, {10, 10, 10}, 1);
+  Hierarchy h(params_of(EdgeRule::additive));
+  h.build(points, box_of(10));
+  const double before = distances_of(h, [&] { h.update(points, box_of(10)); });
+  const double changed = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
+  const double after = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
+  EXPECT_GT(changed, 1.2 * before);
+  EXPECT_LT(after, 1.05 * before);
+}
+
+TEST(Work, LargeMotionCostsOneRepair) {
+  std::vector<Vec3> points = uniform_of(2000);
+  Hierarchy h(params_of(EdgeRule::additive));
+  h.build(points, Box::none());
+  const double before = distances_of(h, [&] { h.update(points, Box::none()); });
+  for (Vec3& p : points) p.x += 3;
+  const double moved = distances_of(h, [&] { h.update(points, Box::none()); });
+  const double after = distances_of(h, [&] { h.update(points, Box::none()); });
+  EXPECT_GT(moved, 1.2 * before);
+  EXPECT_LT(after, 1.05 * before);
+}
+
 // Theorem of 5.5.3: O(n + k lg alpha) for k points that lost their parents.
 TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
   const std::vector<Vec3> points = uniform_of(8000);
