@@ -13,7 +13,7 @@ namespace dch {
 
 /// R_0 = 1, rho_0 = 1.
 inline HierarchyParams params_of(EdgeRule rule, int max_roots,
-                          MaintenancePolicy policy = MaintenancePolicy::always_repair) {
+                                 MaintenancePolicy policy = MaintenancePolicy::always_repair) {
   HierarchyParams params;
   params.radius = rule == EdgeRule::thesis ? 2.1 : 1;
   if (rule == EdgeRule::additive) params.base_radius = 1;

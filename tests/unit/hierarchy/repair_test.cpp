@@ -23,6 +23,7 @@ TEST(Repair, APointAtTheCoveringRadiusKeepsItsParentAndOneBeyondLosesIt) {
     points[static_cast<std::size_t>(1 - center)].x = x;
     h.update(points, Box::none());
     EXPECT_EQ(h.stats().reparented, x > 1) << x;
+    EXPECT_EQ(h.stats().promotions, x > 1) << x;
     EXPECT_EQ(h.level(1).nodes, x > 1 ? 2 : 1) << x;
     expect_right(h, points, Box::none());
   }
@@ -41,6 +42,19 @@ TEST(Repair, CentersAtTheSeparationAreMergedAndThoseBeyondStay) {
     EXPECT_EQ(h.top_level(0), 1) << "of two alike the one with the smaller id stays";
     EXPECT_EQ(h.top_level(1), x > 1) << x;
     expect_right(h, points, Box::none());
+  }
+}
+
+TEST(Repair, OfTwoCentersAlikeTheOneWithTheSmallerIdStaysWhereverItStands) {
+  for (const bool swap : {false, true}) {
+    Hierarchy h(params_of(EdgeRule::additive, 16));
+    std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}};
+    h.build(points, Box::none());
+    if (swap) h.renumber(std::vector<std::int32_t>{1, 0});
+    points = {{0, 0, 0}, {0.5, 0, 0}};
+    h.update(points, Box::none());
+    EXPECT_EQ(h.top_level(0), 1);
+    EXPECT_EQ(h.top_level(1), 0);
   }
 }
 
@@ -148,6 +162,7 @@ TEST(Repair, ALonePointMayFlyToAnyPlaceAmongClusters) {
     h.build(points, Box::none());
     points.push_back({0, 0, 300});
     h.insert(points.back());
+    ASSERT_EQ(h.validate(), "") << "a new root";
     points.back() = {x, 0.25, 0};
     h.update(points, Box::none());
     ASSERT_NO_FATAL_FAILURE(expect_right(h, points, Box::none())) << x;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What update() does with removed and inserted points, points on their own and blocks, and many small scenes in which
-// every level changes at every step. Small, so that each is checked after each step.
+// What update() does with removed and inserted points, points on their own and blocks, and many small scenes
+// in which every level changes at every step. Small, so that each is checked after each step.
 #include <gtest/gtest.h>
 
 #include <dch/hierarchy.hpp>
@@ -64,11 +64,15 @@ TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
     Hierarchy h(params);
     const std::vector<Vec3> points{{0, 0, 0}, {100, 0, 0}, {101.5, 0, 0}};
     h.build(points, Box::none());
-    for (int k = 0; k < 2; ++k) h.update(points, Box::none());  // the level is needed although two nodes are left below
+    for (int k = 0; k < 2; ++k)
+      h.update(points, Box::none());  // the level is needed although two nodes are left below
     ASSERT_EQ(h.levels(), 3);
     EXPECT_EQ(HierarchyTestAccess::impl(h).lone.size(), fold ? 1u : 0u);
     for (int i = 0; i < h.levels(); ++i) EXPECT_EQ(h.level(i).nodes, i < 2 ? 3 : 2) << i;
     expect_right(h, points, Box::none());
+    h.insert({0, 0, 100});
+    EXPECT_EQ(HierarchyTestAccess::impl(h).lone.size(), fold ? 2u : 0u);
+    EXPECT_EQ(h.validate(), "");
   }
 }
 
@@ -86,6 +90,14 @@ TEST(LoneNodes, HaveNoOtherChild) {
   ASSERT_EQ(inside.levels[2].first_child[static_cast<std::size_t>(parent)], own);
   h.update(points, Box::none());
   expect_right(h, points, Box::none());
+}
+
+TEST(Insertion, TakesTheNearestOfTheCentersThatCover) {
+  for (const double x : {0.6, 0.9}) {
+    Hierarchy h(params_of(EdgeRule::additive, 16));
+    h.build(std::vector<Vec3>{{0, 0, 0}, {1.5, 0, 0}}, Box::none());
+    EXPECT_EQ(h.parent(h.insert({x, 0, 0}), 0), x < 0.75 ? 0 : 1) << x;
+  }
 }
 
 TEST(Insertion, FillsABlockBeforeItTakesAnother) {
