@@ -8,7 +8,8 @@ namespace dch::hard {
 
 std::vector<Case> all_cases(const Effort& effort) {
   std::vector<Case> all;
-  for (const auto& cases : {list_cases(), structure_cases(effort), refusal_cases(), necklace_cases(effort)})
+  for (const auto& cases :
+       {list_cases(), structure_cases(effort), refusal_cases(), necklace_cases(effort), extreme_cases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -33,6 +33,7 @@ std::vector<Case> list_cases();
 std::vector<Case> structure_cases(const Effort& effort);
 std::vector<Case> refusal_cases();
 std::vector<Case> necklace_cases(const Effort& effort);
+std::vector<Case> extreme_cases();
 /// Those that need the power diagram.
 std::vector<Case> diagram_cases();
 

@@ -253,6 +253,7 @@ TEST(HierarchyTest, IdsOfRemovedPointsAreUsedAgain) {
   EXPECT_EQ(h.insert({1, 1, 2}), 7);
   EXPECT_EQ(h.insert({1, 1, 2.5}), 30);
   EXPECT_EQ(h.position(30), (Vec3{1, 1, 2.5}));
+  EXPECT_EQ(h.position(3), (Vec3{1, 1, 1}));
   EXPECT_EQ(h.validate(), "");
 }
 

@@ -1,40 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Repair, insertion and removal where they are decided by a margin: points on the very edge of a rule, edges
-// of upper levels that are kept or found anew, and many small scenes in which every level changes at every
-// step. Small, so that each is checked after each step.
+// Repair where a margin decides: points on the very edge of a rule, and edges of upper levels that are kept
+// or found anew.
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
 #include <dch/hierarchy.hpp>
 
-#include "hierarchy_test_access.hpp"
-#include "list_compare.hpp"
+#include "exact_scene.hpp"
 #include "scenes.hpp"
 
 namespace dch {
 namespace {
-
-/// R_0 = 1, rho_0 = 1.
-HierarchyParams params_of(EdgeRule rule, int max_roots,
-                          MaintenancePolicy policy = MaintenancePolicy::always_repair) {
-  HierarchyParams params;
-  params.radius = rule == EdgeRule::thesis ? 2.1 : 1;
-  if (rule == EdgeRule::additive) params.base_radius = 1;
-  params.max_roots = max_roots;
-  params.policy = policy;
-  return params;
-}
-
-void expect_right(Hierarchy& h, const std::vector<Vec3>& points, const Box& box) {
-  ASSERT_EQ(h.validate(), "");
-  ListParams params;
-  params.cutoffs = TypeCutoffs(h.params().radius);
-  NeighborList list;
-  h.list(params, list);
-  ASSERT_EQ(first_difference(list, all_pairs(points, box, params)), "");
-}
 
 TEST(Repair, APointAtTheCoveringRadiusKeepsItsParentAndOneBeyondLosesIt) {
   for (const double x : {1.0, std::nextafter(1.0, 2.0)}) {
@@ -46,6 +23,7 @@ TEST(Repair, APointAtTheCoveringRadiusKeepsItsParentAndOneBeyondLosesIt) {
     points[static_cast<std::size_t>(1 - center)].x = x;
     h.update(points, Box::none());
     EXPECT_EQ(h.stats().reparented, x > 1) << x;
+    EXPECT_EQ(h.stats().promotions, x > 1) << x;
     EXPECT_EQ(h.level(1).nodes, x > 1 ? 2 : 1) << x;
     expect_right(h, points, Box::none());
   }
@@ -67,6 +45,19 @@ TEST(Repair, CentersAtTheSeparationAreMergedAndThoseBeyondStay) {
   }
 }
 
+TEST(Repair, OfTwoCentersAlikeTheOneWithTheSmallerIdStaysWhereverItStands) {
+  for (const bool swap : {false, true}) {
+    Hierarchy h(params_of(EdgeRule::additive, 16));
+    std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}};
+    h.build(points, Box::none());
+    if (swap) h.renumber(std::vector<std::int32_t>{1, 0});
+    points = {{0, 0, 0}, {0.5, 0, 0}};
+    h.update(points, Box::none());
+    EXPECT_EQ(h.top_level(0), 1);
+    EXPECT_EQ(h.top_level(1), 0);
+  }
+}
+
 // In a cluster that is looked at because another point left it.
 TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
   Hierarchy h(params_of(EdgeRule::additive, 16));
@@ -80,6 +71,45 @@ TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
   points[2] = {0, 1.01, 0};
   h.update(points, Box::none());
   EXPECT_EQ(h.stats().reparented, 1);
+  expect_right(h, points, Box::none());
+}
+
+// A cluster that is given up has handed its points on, which are looked at there.
+TEST(Repair, OrphansOfAMergedClusterAreLookedAtOnce) {
+  Hierarchy h(params_of(EdgeRule::additive, 16));
+  std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}, {3.5, 0, 0}};
+  h.build({points.data(), 2}, Box::none());
+  h.insert(points[2]);
+  points[1].x = 0.9;
+  points[2].x = 3;
+  h.update(points, Box::none());
+  EXPECT_EQ(h.stats().demotions, 1);
+  EXPECT_EQ(h.stats().reparented, 1);
+  expect_right(h, points, Box::none());
+}
+
+// Once a tenth of them have strayed from their siblings.
+TEST(Repair, NodesAreReorderedOnceManyHaveStrayed) {
+  Hierarchy h(params_of(EdgeRule::additive, 16));
+  std::vector<Vec3> points{{0, 0, 0}, {5, 0, 0}};
+  h.build(points, Box::none());
+  for (int k = 0; k < 8; ++k) {
+    points.push_back({0.01 * k, 0.5, 0});
+    h.insert(points.back());
+  }
+  const auto strayed = [&] { return HierarchyTestAccess::impl(h).strayed; };
+  h.update(points, Box::none());
+  EXPECT_EQ(strayed(), 0);
+  points[2].x += 5;
+  h.update(points, Box::none());
+  EXPECT_EQ(h.stats().reparented, 1);
+  EXPECT_EQ(strayed(), 1) << "a tenth and no more";
+  h.update(points, Box::none());
+  EXPECT_EQ(strayed(), 1);
+  points[3].x += 5;
+  h.update(points, Box::none());
+  EXPECT_EQ(h.stats().reparented, 2);
+  EXPECT_EQ(strayed(), 0);
   expect_right(h, points, Box::none());
 }
 
@@ -117,6 +147,7 @@ TEST(Repair, NodesAtTheSeparationOfTheirLevelAreMergedAndThoseBeyondStay) {
       ASSERT_GE(scene.h.top_level(2), 2);
       scene.points[2].x = x;
       scene.update();
+      EXPECT_EQ(scene.h.stats().reparented, 0) << "the other one's children are handed over";
       EXPECT_EQ(scene.h.top_level(0) >= 2 && scene.h.top_level(2) >= 2, x > 2) << x << " from " << from;
       expect_right(scene.h, scene.points, Box::none());
     }
@@ -131,6 +162,7 @@ TEST(Repair, ALonePointMayFlyToAnyPlaceAmongClusters) {
     h.build(points, Box::none());
     points.push_back({0, 0, 300});
     h.insert(points.back());
+    ASSERT_EQ(h.validate(), "") << "a new root";
     points.back() = {x, 0.25, 0};
     h.update(points, Box::none());
     ASSERT_NO_FATAL_FAILURE(expect_right(h, points, Box::none())) << x;
@@ -171,50 +203,6 @@ TEST(Repair, EdgesAreFoundAnewInAnotherBox) {
   }
 }
 
-constexpr MaintenancePolicy kPolicies[] = {MaintenancePolicy::automatic, MaintenancePolicy::always_repair,
-                                           MaintenancePolicy::always_rebuild};
-
-// A build would give every id a point.
-TEST(Update, LeavesRemovedPointsOutWhateverItDoes) {
-  for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
-    h.build(scenes::uniform(300, {9, 9, 9}, 1), Box::none());
-    h.remove(5);
-    for (std::uint64_t k = 2; k < 8; ++k) {
-      h.update(scenes::uniform(300, {9, 9, 9}, k), Box::none());
-      ASSERT_EQ(h.size(), 299u);
-      ASSERT_FALSE(h.contains(5));
-      ASSERT_EQ(h.validate(), "");
-    }
-    EXPECT_EQ(h.stats().updates, 6);
-  }
-}
-
-TEST(Update, LeavesRemovedPointsOutWhereAllWereInserted) {
-  for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
-    std::vector<Vec3> points = scenes::uniform(40, {5, 5, 5}, 1);
-    for (const Vec3 p : points) h.insert(p);
-    h.remove(5);
-    h.update(points, Box::none());
-    EXPECT_EQ(h.size(), 39u);
-    EXPECT_FALSE(h.contains(5));
-    EXPECT_EQ(h.validate(), "");
-  }
-}
-
-// Their R_0 is that of no points at all.
-TEST(Update, BuildsWhereAllWereInserted) {
-  for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
-    const std::vector<Vec3> points = scenes::uniform(40, {5, 5, 5}, 1);
-    for (const Vec3 p : points) h.insert(p);
-    h.update(points, Box::none());
-    EXPECT_EQ(h.stats().builds, 1);
-    expect_right(h, points, Box::none());
-  }
-}
-
 TEST(Repair, KnowsHowFarNodesOfUpperLevelsMovedWithRoomForRounding) {
   Hierarchy h(params_of(EdgeRule::additive, 1));
   std::vector<Vec3> points{{0, 0, 0}, {0.5, 0, 0}, {50, 0, 0}, {50.5, 0, 0}};
@@ -229,88 +217,6 @@ TEST(Repair, KnowsHowFarNodesOfUpperLevelsMovedWithRoomForRounding) {
     EXPECT_LE(HierarchyTestAccess::impl(h).levels[2].moved, sum * (1 + 1.1e-12));
   }
 }
-
-struct SmallScene {
-  std::string name;
-  EdgeRule rule;
-  int max_roots;
-  double side;  ///< of the cube that 40 points are in
-  bool periodic;
-};
-
-/// Some points of a scene in which levels come and go: pairs, coincident points, points on their own.
-class RepairOfSmallScenes : public ::testing::TestWithParam<SmallScene> {
- protected:
-  Box box() const {
-    const double side = GetParam().side;
-    return GetParam().periodic ? Box::orthorhombic({side, 1.1 * side, 0.9 * side}) : Box::none();
-  }
-  std::vector<Vec3> points(std::uint64_t seed) const {
-    const double side = GetParam().side;
-    std::vector<Vec3> points = scenes::uniform(25, {side, side, side}, seed);
-    scenes::Random random(seed);
-    for (std::size_t k = 0; k < 10; ++k) points.push_back(points[k] + random.in_ball(1.5));
-    for (std::size_t k = 0; k < 5; ++k) points.push_back(points[0]);
-    return points;
-  }
-};
-
-TEST_P(RepairOfSmallScenes, ValidAfterMotionOfEverySize) {
-  for (const MaintenancePolicy policy : {MaintenancePolicy::always_repair, MaintenancePolicy::automatic})
-    for (const double step : {0.01, 0.1, 0.5, 2.0, 8.0}) {
-      Hierarchy h(params_of(GetParam().rule, GetParam().max_roots, policy));
-      std::vector<Vec3> at = points(1);
-      scenes::Random random(2);
-      h.build(at, box());
-      expect_right(h, at, box());
-      for (int k = 0; k < 25; ++k) {
-        for (Vec3& p : at) p = p + random.in_cube(step);
-        h.update(at, box());
-        ASSERT_NO_FATAL_FAILURE(expect_right(h, at, box())) << "step " << k << " of " << step;
-      }
-      if (policy == MaintenancePolicy::always_repair) {
-        EXPECT_EQ(h.stats().repairs, 25);
-      }
-    }
-}
-
-TEST_P(RepairOfSmallScenes, ValidWhilePointsComeAndGo) {
-  Hierarchy h(params_of(GetParam().rule, GetParam().max_roots));
-  scenes::Random random(3);
-  h.build(points(4), box());
-  const std::vector<Vec3> more = points(5);
-  for (std::size_t k = 0; k < 120; ++k) {
-    const auto id = static_cast<std::int32_t>(random.below(h.capacity()));
-    if (random.uniform() < (k < 60 ? 0.3 : 0.7)) {
-      if (h.contains(id)) h.remove(id);
-    } else {
-      h.insert(more[k % more.size()] + random.in_ball(0.5), h.contains(id) && k % 2 == 0 ? id : -1);
-    }
-    ASSERT_EQ(h.validate(), "") << k;
-    if (k % 10 != 9) continue;
-    std::vector<Vec3> at(h.capacity());
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (h.contains(static_cast<std::int32_t>(i)))
-        at[i] = h.position(static_cast<std::int32_t>(i)) + random.in_cube(0.5);
-    h.update(at, box());
-    ASSERT_EQ(h.validate(), "") << "motion after " << k;
-  }
-  for (std::int32_t id = 0; id < static_cast<std::int32_t>(h.capacity()); ++id) {
-    if (h.contains(id)) h.remove(id);
-    ASSERT_EQ(h.validate(), "") << "without " << id;
-  }
-  EXPECT_EQ(h.levels(), 2);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, RepairOfSmallScenes,
-                         ::testing::Values(SmallScene{"dense", EdgeRule::additive, 1, 4, false},
-                                           SmallScene{"wide", EdgeRule::additive, 1, 60, false},
-                                           SmallScene{"wide_thesis", EdgeRule::thesis, 1, 60, false},
-                                           SmallScene{"gas", EdgeRule::additive, 1, 1000, false},
-                                           SmallScene{"few_roots", EdgeRule::additive, 4, 30, false},
-                                           SmallScene{"periodic", EdgeRule::additive, 1, 12, true},
-                                           SmallScene{"periodic_gas", EdgeRule::thesis, 2, 300, true}),
-                         [](const auto& p) { return p.param.name; });
 
 }  // namespace
 }  // namespace dch

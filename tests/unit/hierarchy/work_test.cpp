@@ -110,6 +110,64 @@ TEST(Work, UpdateWithoutMotionLooksOnceAtEachPoint) {
   }
 }
 
+// To the last distance: bounds have room for a search that keeps a few nodes too many. Whoever changes a
+// search puts the new counts here and says why they are what they are.
+TEST(Work, IsWhatItWas) {
+  const Box box = Box::orthorhombic({200, 200, 200});
+  std::vector<Vec3> points = scenes::clustered(box, 400, 3);
+  for (const Vec3 p : scenes::uniform_in(box, 60, 4)) points.push_back(p);
+  Hierarchy h(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
+  EXPECT_EQ(distances_of(h, [&] { h.build({points.data(), 440}, box); }), 27726);
+  EXPECT_EQ(distances_of(h,
+                         [&] {
+                           for (std::size_t k = 440; k < 460; ++k) h.insert(points[k]);
+                         }),
+            4968);
+  EXPECT_EQ(distances_of(h,
+                         [&] {
+                           for (std::int32_t id = 0; id < 460; id += 23)
+                             h.insert(points[static_cast<std::size_t>(id)], id);
+                         }),
+            160);
+  EXPECT_EQ(distances_of(h,
+                         [&] {
+                           for (std::int32_t id = 460; id < 480; ++id) h.remove(id);
+                           for (std::int32_t id = 0; id < 460; id += 23) h.remove(id);
+                         }),
+            1460);
+  std::vector<Vec3> moved(h.capacity());
+  scenes::Random random(5);
+  for (std::size_t id = 0; id < 460; ++id) moved[id] = points[id] + random.in_ball(0.05);
+  h.update(moved, box);
+  ASSERT_TRUE(h.repair_pending());
+  EXPECT_EQ(distances_of(h, [&] { h.repair(); }), 13392);
+}
+
+// The edges of all levels are found anew in another box, and stand again after that.
+TEST(Work, AChangedBoxCostsOneRepair) {
+  const auto box_of = [](double side) { return Box::orthorhombic({side, side, side}); };
+  const std::vector<Vec3> points = scenes::uniform(2000, {10, 10, 10}, 1);
+  Hierarchy h(params_of(EdgeRule::additive));
+  h.build(points, box_of(10));
+  const double before = distances_of(h, [&] { h.update(points, box_of(10)); });
+  const double changed = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
+  const double after = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
+  EXPECT_GT(changed, 1.2 * before);
+  EXPECT_LT(after, 1.05 * before);
+}
+
+TEST(Work, LargeMotionCostsOneRepair) {
+  std::vector<Vec3> points = uniform_of(2000);
+  Hierarchy h(params_of(EdgeRule::additive));
+  h.build(points, Box::none());
+  const double before = distances_of(h, [&] { h.update(points, Box::none()); });
+  for (Vec3& p : points) p.x += 3;
+  const double moved = distances_of(h, [&] { h.update(points, Box::none()); });
+  const double after = distances_of(h, [&] { h.update(points, Box::none()); });
+  EXPECT_GT(moved, 1.2 * before);
+  EXPECT_LT(after, 1.05 * before);
+}
+
 // Theorem of 5.5.3: O(n + k lg alpha) for k points that lost their parents.
 TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
   const std::vector<Vec3> points = uniform_of(8000);
