@@ -48,6 +48,7 @@ int run(const MeltWords& words) {
                                 {0, 10, true, "the number of beads per volume of one bead diameter cubed"});
   params.seed = static_cast<std::uint64_t>(parse_whole_number(
       "--seed", words.seed, 0, std::numeric_limits<std::int64_t>::max(), "the seed of the random numbers"));
+  require_distinct_files({}, {{"OUT", words.output}});
   OutputFile file(words.output);
   const necklace::Melt melt = necklace::make_melt(params);
   write_melt(file, melt);

@@ -122,6 +122,12 @@ int parse_threads(const std::string& text) {
 
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {
+    if (outputs[k].path == "-") {
+      throw UsageError(
+          fmt::format("{} -: files are not written to standard output; give the name of a file, ./- "
+                      "for one of that name",
+                      outputs[k].option));
+    }
     for (const NamedPath& input : inputs) require_distinct(input, outputs[k]);
     for (std::size_t m = 0; m < k; ++m) require_distinct(outputs[m], outputs[k]);
   }

@@ -65,7 +65,7 @@ struct NamedPath {
   std::string path;    ///< empty if not given
 };
 
-/// @throws UsageError if two outputs, or an output and an input, are the same file.
+/// @throws UsageError if two outputs, or an output and an input, are the same file, and for an output "-".
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
 }  // namespace dch::cli

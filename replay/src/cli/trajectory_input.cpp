@@ -110,9 +110,9 @@ void require_format(const InputWords& words) {
                      known_formats());
   }
   throw FileError(fmt::format(
-      "{}: unknown kind of trajectory; the endings known are {}; for another name give one of them with "
-      "--format",
-      words.file, known_formats()));
+      "{}: unknown kind of trajectory; the endings known are .{}; for another name give one of them, "
+      "without the dot, with --format",
+      words.file, fmt::join(trajectory::trajectory_formats(), " .")));
 }
 
 }  // namespace
