@@ -17,9 +17,9 @@ using ReaderFactory = std::function<std::unique_ptr<TrajectoryReader>()>;
 
 /// Runs another reader in a child process and hands its frames on.
 ///
-/// libgromacs ends the process on some broken files, and a broken file may lead libraries that the project
-/// does not control (libgromacs, HDF5) out of their arrays or into an endless loop. In a child process each
-/// of these becomes a FileError. The child reads ahead while the caller works on the last frame.
+/// A broken file may lead a library that the project does not control (HDF5) out of its arrays or into an
+/// endless loop. In a child process each of these becomes a FileError. The child reads ahead while the caller
+/// works on the last frame.
 class ForkedReader final : public TrajectoryReader {
  public:
   /// @param seconds_per_frame processor time after which a frame that has not come is taken for an endless

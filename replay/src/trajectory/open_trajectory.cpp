@@ -6,6 +6,7 @@
 
 #include "dcd_reader.hpp"
 #include "file_name.hpp"
+#include "gro_reader.hpp"
 #include "gromacs_reader.hpp"
 #include "h5md_reader.hpp"
 #include "lammps_dump_reader.hpp"
@@ -34,7 +35,7 @@ constexpr Format kFormats[] = {
     {".dcd", make<DcdReader>},
     {".xtc", make_xtc_reader},
     {".trr", make_trr_reader},
-    {".gro", make_gro_reader},
+    {".gro", make<GroReader>},
     {".h5", make_h5md_reader},
     {".h5md", make_h5md_reader},
 };
