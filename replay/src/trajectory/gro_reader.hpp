@@ -16,7 +16,8 @@ namespace dch::trajectory {
 class GroReader final : public TrajectoryReader {
  public:
   /// @throws FileError as open_trajectory.
-  explicit GroReader(const std::string& path) : lines_(path, FinalNewline::required) {}
+  GroReader(const std::string& path, const ReadLimits& limits)
+      : lines_(path, FinalNewline::required, limits) {}
 
   bool read(Frame& frame) override;
   std::string format() const override { return "GROMACS GRO"; }
@@ -34,9 +35,9 @@ class GroReader final : public TrajectoryReader {
 
   LineReader lines_;
   std::int64_t frames_ = 0;
-  std::int64_t atoms_ = 0;      ///< of the first frame
+  std::int64_t atoms_ = 0;       ///< of the first frame
   std::int64_t title_line_ = 0;  ///< of the frame at hand
-  std::size_t width_ = 0;       ///< of a coordinate of the frame at hand [columns]
+  std::size_t width_ = 0;        ///< of a coordinate of the frame at hand [columns]
 };
 
 }  // namespace dch::trajectory

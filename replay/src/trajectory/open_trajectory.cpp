@@ -15,11 +15,21 @@
 namespace dch::trajectory {
 namespace {
 
-using MakeReader = std::unique_ptr<TrajectoryReader> (*)(const std::string& path);
+using MakeReader = std::unique_ptr<TrajectoryReader> (*)(const std::string& path, const ReadLimits& limits);
 
 template <class Reader>
-std::unique_ptr<TrajectoryReader> make(const std::string& path) {
-  return std::make_unique<Reader>(path);
+std::unique_ptr<TrajectoryReader> make(const std::string& path, const ReadLimits& limits) {
+  return std::make_unique<Reader>(path, limits);
+}
+
+/// Of formats whose frames take a fixed multiple of their bytes in the file.
+template <std::unique_ptr<TrajectoryReader> make_reader(const std::string&)>
+std::unique_ptr<TrajectoryReader> without_limits(const std::string& path, const ReadLimits&) {
+  return make_reader(path);
+}
+
+std::unique_ptr<TrajectoryReader> make_dcd_reader(const std::string& path) {
+  return std::make_unique<DcdReader>(path);
 }
 
 struct Format {
@@ -32,9 +42,9 @@ constexpr Format kFormats[] = {
     {".dump", make<LammpsDumpReader>},
     {".lammpstrj.gz", make<LammpsDumpReader>},
     {".dump.gz", make<LammpsDumpReader>},
-    {".dcd", make<DcdReader>},
-    {".xtc", make_xtc_reader},
-    {".trr", make_trr_reader},
+    {".dcd", without_limits<make_dcd_reader>},
+    {".xtc", without_limits<make_xtc_reader>},
+    {".trr", without_limits<make_trr_reader>},
     {".gro", make<GroReader>},
     {".h5", make_h5md_reader},
     {".h5md", make_h5md_reader},
@@ -48,10 +58,10 @@ std::string known_endings() {
 
 }  // namespace
 
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const ReadLimits& limits) {
   const std::string name = lower_case_name(path);
   for (const Format& format : kFormats) {
-    if (has_ending(name, format.ending)) return format.make_reader(path);
+    if (has_ending(name, format.ending)) return format.make_reader(path, limits);
   }
   fail(path, "unknown kind of trajectory; the endings known are " + known_endings());
 }

@@ -53,8 +53,8 @@ class BitReader {
     return value;
   }
 
-  /// The next 1 to 64 bits as a number of whole bytes, the lowest first, the last of which may have fewer than
-  /// eight bits: the order in which XTC stores numbers that are packed together.
+  /// The next 1 to 64 bits as a number of whole bytes, the lowest first, the last of which may have fewer
+  /// than eight bits: the order in which XTC stores numbers that are packed together.
   std::uint64_t read_bytes(unsigned bits) {
     const std::uint64_t bytes = byte_swapped(window());
     const unsigned whole = (bits - 1) / 8 * 8, rest = bits - whole;

@@ -21,9 +21,9 @@ struct Header {
   double time = 0;
   Cell cell;
   bool has_long_size = false;
-  XtcStream stream;           ///< if there are more atoms than kMostUncompressedAtoms
-  std::int64_t data = 0;      ///< bytes in front of the coordinates
-  std::int64_t size = 0;      ///< bytes of the coordinates
+  XtcStream stream;       ///< if there are more atoms than kMostUncompressedAtoms
+  std::int64_t data = 0;  ///< bytes in front of the coordinates
+  std::int64_t size = 0;  ///< bytes of the coordinates
 };
 
 void read_range(XdrCursor& cursor, XtcStream& stream) {
@@ -69,8 +69,8 @@ Header read_header(XdrCursor& cursor) {
   Header header;
   const std::int32_t magic = cursor.read_int("the XTC magic number");
   if (magic != kMagic && magic != kMagicOfLargeSystems) {
-    cursor.fail_here(fmt::format("expected the XTC magic number {} or {}, found {}", kMagic,
-                                 kMagicOfLargeSystems, magic));
+    cursor.fail_here(
+        fmt::format("expected the XTC magic number {} or {}, found {}", kMagic, kMagicOfLargeSystems, magic));
   }
   header.has_long_size = magic == kMagicOfLargeSystems;
   header.atoms = cursor.read_int("the number of atoms");
@@ -82,8 +82,7 @@ Header read_header(XdrCursor& cursor) {
   header.cell = cursor.read_cell();
   const std::int32_t again = cursor.read_int("the number of coordinates");
   if (again != header.atoms) {
-    cursor.fail_here(
-        fmt::format("expected {} coordinates as in the header, found {}", header.atoms, again));
+    cursor.fail_here(fmt::format("expected {} coordinates as in the header, found {}", header.atoms, again));
   }
   if (header.atoms > kMostUncompressedAtoms) {
     read_stream_header(cursor, header);

@@ -11,12 +11,12 @@ namespace {
 
 /// Sizes of small steps: three numbers below the k-th one fit into k bits.
 constexpr std::array<std::uint32_t, kLastSmall + 1> kSmallSizes{
-    0,       0,       0,       0,       0,       0,        0,        0,        0,       8,      10,
-    12,      16,      20,      25,      32,      40,       50,       64,       80,      101,    128,
-    161,     203,     256,     322,     406,     512,      645,      812,      1024,    1290,   1625,
-    2048,    2580,    3250,    4096,    5060,    6501,     8192,     10321,    13003,   16384,  20642,
-    26007,   32768,   41285,   52015,   65536,   82570,    104031,   131072,   165140,  208063, 262144,
-    330280,  416127,  524287,  660561,  832255,  1048576,  1321122,  1664510,  2097152, 2642245, 3329021,
+    0,       0,       0,       0,       0,        0,        0,        0,       0,       8,       10,
+    12,      16,      20,      25,      32,       40,       50,       64,      80,      101,     128,
+    161,     203,     256,     322,     406,      512,      645,      812,     1024,    1290,    1625,
+    2048,    2580,    3250,    4096,    5060,     6501,     8192,     10321,   13003,   16384,   20642,
+    26007,   32768,   41285,   52015,   65536,    82570,    104031,   131072,  165140,  208063,  262144,
+    330280,  416127,  524287,  660561,  832255,   1048576,  1321122,  1664510, 2097152, 2642245, 3329021,
     4194304, 5284491, 6658042, 8388607, 10568983, 13316085, 16777216, 0};
 
 template <std::size_t... K>
@@ -69,7 +69,8 @@ class StreamDecoder {
       small_ += change;
       if (small_ < kFirstSmall || small_ > kLastSmall) return kNoSuchStep;
     }
-    return out_of_range_ ? "a compressed coordinate lies outside of the range that the header gives" : nullptr;
+    return out_of_range_ ? "a compressed coordinate lies outside of the range that the header gives"
+                         : nullptr;
   }
 
  private:
@@ -116,9 +117,9 @@ class StreamDecoder {
   std::span<Vec3> positions_;
   float inverse_;
   std::int32_t small_;
-  PackedTriple large_;                    ///< of atoms stored in full, if packed_
+  PackedTriple large_;  ///< of atoms stored in full, if packed_
   bool packed_ = false;
-  std::array<unsigned, 3> widths_{};      ///< bits of their coordinates otherwise
+  std::array<unsigned, 3> widths_{};  ///< bits of their coordinates otherwise
   std::size_t large_bits_ = 0;
   std::size_t done_ = 0;
   bool out_of_range_ = false;

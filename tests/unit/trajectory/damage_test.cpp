@@ -63,8 +63,8 @@ Count damage_everywhere(const FrameDecoder& decoder, const std::string& good) {
     decode(decoder, good.substr(0, at), count);
   }
   for (std::size_t at = 0; at + 4 <= std::min(good.size(), FrameDecoder::kLongestHeader); at += 4) {
-    for (const char* extreme : {"\x7f\xff\xff\xff", "\x80\0\0\0", "\xff\xff\xff\xff", "\x7f\x80\0\0", "\0\0\0\0",
-                                "\0\0\0\1"}) {
+    for (const char* extreme :
+         {"\x7f\xff\xff\xff", "\x80\0\0\0", "\xff\xff\xff\xff", "\x7f\x80\0\0", "\0\0\0\0", "\0\0\0\1"}) {
       std::string bytes = good;
       bytes.replace(at, 4, extreme, 4);
       decode(decoder, bytes, count);

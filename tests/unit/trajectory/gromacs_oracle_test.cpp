@@ -107,7 +107,10 @@ std::vector<Case> cases() {
       {"chain", molecules(1000, 0.05f, 3), 1000},
       {"negative", gas(-7, -2), 1000},
       {"one place", gas(1, 1.0000001f), 1000},
-      {"a line", [](std::size_t k, scenes::Random&) { return Position{static_cast<float>(k) * 0.01f, 2, -3}; },
+      {"a line",
+       [](std::size_t k, scenes::Random&) {
+         return Position{static_cast<float>(k) * 0.01f, 2, -3};
+       },
        1000},
       {"coarse", molecules(3, 0.1f, 5), 10},
       {"fine", molecules(3, 0.1f, 5), 100000},
