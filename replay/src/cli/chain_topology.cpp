@@ -120,8 +120,9 @@ BeadChains from_bonds(const Topology& topology, const trajectory::Frame& frame) 
   return beads;
 }
 
-Topology read(const std::string& file, const std::string& topology, const trajectory::Frame& frame) {
-  if (!topology.empty()) return trajectory::read_topology(topology, frame.ids);
+Topology read(const std::string& file, const std::string& topology, const trajectory::Frame& frame,
+              const trajectory::ReadLimits& limits) {
+  if (!topology.empty()) return trajectory::read_topology(topology, frame.ids, limits);
   if (frame.molecules.empty()) {
     throw UsageError(
         fmt::format("contacts need chains, but {} has no molecule column; give them with --topology", file));
@@ -132,8 +133,8 @@ Topology read(const std::string& file, const std::string& topology, const trajec
 }  // namespace
 
 BeadChains read_bead_chains(const std::string& file, const std::string& topology,
-                            const trajectory::Frame& frame) {
-  const Topology found = read(file, topology, frame);
+                            const trajectory::Frame& frame, const trajectory::ReadLimits& limits) {
+  const Topology found = read(file, topology, frame, limits);
   if (found.chains.empty() && found.bonds.empty()) {
     throw FileError(
         fmt::format("{}: no bonds and no chains, so there is nothing to find contacts of; give a "

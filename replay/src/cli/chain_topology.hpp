@@ -7,6 +7,7 @@
 
 #include <dch/necklace/chains.hpp>
 #include <dch/trajectory/frame.hpp>
+#include <dch/trajectory/reader.hpp>
 
 namespace dch::cli {
 
@@ -26,7 +27,7 @@ struct BeadChains {
 ///   have, an atom in two chains or twice in one, three bonds of an atom, a bond given twice, and no chain at
 ///   all; UsageError if no file is named and the frame has no molecules.
 BeadChains read_bead_chains(const std::string& file, const std::string& topology,
-                            const trajectory::Frame& frame);
+                            const trajectory::Frame& frame, const trajectory::ReadLimits& limits = {});
 
 /// Finds the beads in frame after frame by their ids. Other atoms may come and go.
 class BeadFinder {

@@ -67,7 +67,7 @@ ContactReport ContactAnalysis::run() {
 
 void ContactAnalysis::scan() {
   const Stopwatch watch;
-  const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
+  const Scan scan = scan_trajectory(options_.file, options_.frames, options_.limits, progress_);
   report_.scan_ms = watch.milliseconds();
   static_cast<TrajectorySummary&>(report_) = scan;
   report_.has_times = scan.has_times;
@@ -77,7 +77,7 @@ void ContactAnalysis::scan() {
 }
 
 void ContactAnalysis::take_chains(const Scan& scan) {
-  beads_ = read_bead_chains(options_.file, options_.topology, scan.first_frame);
+  beads_ = read_bead_chains(options_.file, options_.topology, scan.first_frame, options_.limits);
   finder_.emplace(options_.file, beads_);
   const std::vector<double> radii = options_.radii.of(beads_, options_.file);
   report_.topology = beads_.source;
@@ -128,7 +128,7 @@ void ContactAnalysis::open_data_file() {
 }
 
 void ContactAnalysis::follow_frames() {
-  FrameStream stream(options_.file, options_.frames);
+  FrameStream stream(options_.file, options_.frames, options_.limits);
   progress_.start("following contacts", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <dch/necklace/contacts.hpp>
+#include <dch/trajectory/reader.hpp>
 
 #include "bead_radii.hpp"
 #include "contact_report.hpp"
@@ -21,6 +22,7 @@ struct ContactOptions {
   BeadRadii radii{"0"};
   std::int32_t bins = 512;  ///< at most, of the contact map
   FrameRange frames;
+  trajectory::ReadLimits limits;
   int threads = 1;   ///< to find contacts with
   std::string data;  ///< contacts.h5; empty: none
 };

@@ -13,6 +13,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "read_options.hpp"
 
 namespace dch::cli {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 /// The command line's words, not yet looked into.
 struct ContactWords {
   std::string file, topology, gap, skip = "1", radius = "0", pairs = "all", bins = "512", frames,
-                                   threads = "1";
+                                   max_expanded, threads = "1";
   std::string data, report, plot;
   bool quiet = false;
 };
@@ -70,6 +71,7 @@ void declare_options(CLI::App& command, ContactWords& words) {
                   "Frames to look at, first:end:step as in Python, counted from 0, the end not included. "
                   "Default: all")
       ->type_name("A:B:S");
+  add_max_expanded(command, words.max_expanded);
   command.add_option("--threads", words.threads, "Threads to find contacts with. Default 1")->type_name("N");
   command.add_option("--out", words.data, "Write events, contact map and P(s) to this HDF5 file")
       ->type_name("CONTACTS.h5");
@@ -98,6 +100,7 @@ ContactOptions contact_options(const ContactWords& words) {
   options.bins = static_cast<std::int32_t>(
       parse_whole_number("--bins", words.bins, 1, kMostBins, "the largest number of bins of the map"));
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
+  options.limits = parse_max_expanded(words.max_expanded);
   options.threads = static_cast<int>(
       parse_whole_number("--threads", words.threads, 1, kMostThreads, "the number of threads"));
   options.data = words.data;

@@ -10,12 +10,13 @@
 #include "frame_stream.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
+#include "read_options.hpp"
 
 namespace dch::cli {
 namespace {
 
 struct ConvertWords {
-  std::string input, output, frames;
+  std::string input, output, frames, max_expanded;
   bool quiet = false;
 };
 
@@ -23,8 +24,9 @@ int run(const ConvertWords& words) {
   const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
   require_distinct_files({{"IN", words.input}}, {{"OUT", words.output}});
   ProgressBar progress(words.quiet);
-  const Scan scan = scan_trajectory(words.input, range, progress);
-  FrameStream stream(words.input, range);
+  const trajectory::ReadLimits limits = parse_max_expanded(words.max_expanded);
+  const Scan scan = scan_trajectory(words.input, range, limits, progress);
+  FrameStream stream(words.input, range, limits);
   const auto writer = trajectory::create_trajectory(words.output, scan.unit);
   progress.start("converting", scan.frames);
   trajectory::Frame frame;
@@ -56,6 +58,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
       ->type_name("");
   command->add_option("--frames", words->frames, "Frames to convert, first:end:step. Default: all")
       ->type_name("A:B:S");
+  add_max_expanded(*command, words->max_expanded);
   command->add_flag("--quiet", words->quiet, "No progress bar and no message");
   command->callback([words, &exit_code] { exit_code = run(*words); });
 }

@@ -53,8 +53,9 @@ void require_frames(const Scan& scan, const FrameRange& range) {
 
 }  // namespace
 
-FrameStream::FrameStream(const std::string& path, const FrameRange& range)
-    : range_(range), reader_(trajectory::open_trajectory(path)) {}
+FrameStream::FrameStream(const std::string& path, const FrameRange& range,
+                         const trajectory::ReadLimits& limits)
+    : range_(range), reader_(trajectory::open_trajectory(path, limits)) {}
 
 bool FrameStream::next(trajectory::Frame& frame) {
   while (passed_ < range_.end) {
@@ -66,8 +67,9 @@ bool FrameStream::next(trajectory::Frame& frame) {
   return false;
 }
 
-Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress) {
-  FrameStream stream(path, range);
+Scan scan_trajectory(const std::string& path, const FrameRange& range, const trajectory::ReadLimits& limits,
+                     ProgressBar& progress) {
+  FrameStream stream(path, range, limits);
   Scan scan;
   scan.file = path;
   scan.format = stream.reader().format();

@@ -19,7 +19,7 @@ namespace dch::cli {
 class FrameStream {
  public:
   /// @throws trajectory::FileError as open_trajectory.
-  FrameStream(const std::string& path, const FrameRange& range);
+  FrameStream(const std::string& path, const FrameRange& range, const trajectory::ReadLimits& limits);
 
   /// Reads on to the next selected frame; false when there is none.
   /// @throws trajectory::FileError as TrajectoryReader::read; Interrupted.
@@ -48,7 +48,8 @@ struct Scan : TrajectorySummary {
 /// Reads all selected frames once: every broken frame is found here, before any work has been done.
 /// @throws trajectory::FileError if the file is broken or holds no frame; UsageError if the range selects
 /// none.
-Scan scan_trajectory(const std::string& path, const FrameRange& range, ProgressBar& progress);
+Scan scan_trajectory(const std::string& path, const FrameRange& range, const trajectory::ReadLimits& limits,
+                     ProgressBar& progress);
 
 /// The file is not the one that was scanned. @throws trajectory::FileError.
 [[noreturn]] void fail_changed(const std::string& path);

@@ -13,6 +13,7 @@
 #include "frame_stream.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
+#include "read_options.hpp"
 #include "report_rows.hpp"
 #include "summary_json.hpp"
 
@@ -20,7 +21,7 @@ namespace dch::cli {
 namespace {
 
 struct InfoWords {
-  std::string file, frames;
+  std::string file, frames, max_expanded;
   bool json = false, quiet = false;
 };
 
@@ -104,7 +105,7 @@ void print_json(const Scan& scan) {
 int run(const InfoWords& words) {
   const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
   ProgressBar progress(words.quiet);
-  const Scan scan = scan_trajectory(words.file, range, progress);
+  const Scan scan = scan_trajectory(words.file, range, parse_max_expanded(words.max_expanded), progress);
   if (words.json) {
     print_json(scan);
   } else {
@@ -122,6 +123,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_option("FILE", words->file, "Trajectory, see dch replay --help")->required()->type_name("");
   command->add_option("--frames", words->frames, "Frames to look at, first:end:step. Default: all")
       ->type_name("A:B:S");
+  add_max_expanded(*command, words->max_expanded);
   command->add_flag("--json", words->json, "Print JSON, for scripts");
   command->add_flag("--quiet", words->quiet, "No progress line");
   command->callback([words, &exit_code] { exit_code = run(*words); });

@@ -96,7 +96,7 @@ ReplayReport Replay::run() {
 
 void Replay::scan() {
   const Stopwatch watch;
-  const Scan scan = scan_trajectory(options_.file, options_.frames, progress_);
+  const Scan scan = scan_trajectory(options_.file, options_.frames, options_.limits, progress_);
   report_.scan_ms = watch.milliseconds();
   static_cast<TrajectorySummary&>(report_) = scan;
   frames_expected_ = scan.frames;
@@ -123,9 +123,9 @@ void Replay::read_exclusions(const trajectory::Frame& frame) {
         fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
                     exclusion_rule(options_.exclude_depth), options_.file));
   }
-  const trajectory::Topology topology = options_.topology.empty()
-                                            ? trajectory::topology_from_molecules(frame, options_.file)
-                                            : trajectory::read_topology(options_.topology, frame.ids);
+  const trajectory::Topology topology =
+      options_.topology.empty() ? trajectory::topology_from_molecules(frame, options_.file)
+                                : trajectory::read_topology(options_.topology, frame.ids, options_.limits);
   ExclusionRecord record;
   record.source = topology.source;
   record.bonds = static_cast<std::int64_t>(topology.bonds.size());
@@ -153,7 +153,7 @@ void Replay::open_list_file(std::int64_t most_atoms) {
 }
 
 void Replay::replay_frames() {
-  FrameStream stream(options_.file, options_.frames);
+  FrameStream stream(options_.file, options_.frames, options_.limits);
   progress_.start("replaying", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <dch/neighbor_list.hpp>
+#include <dch/trajectory/reader.hpp>
 
 #include "engine.hpp"
 #include "option_values.hpp"
@@ -21,6 +22,7 @@ struct ReplayOptions {
   double skin = 0;       ///< >= 0 [length]
   EngineOptions engine;
   FrameRange frames;
+  trajectory::ReadLimits limits;
   VerifyMode verify = VerifyMode::none;
   ListKind kind = ListKind::half;
   int exclude_depth = 0;  ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors

@@ -11,6 +11,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "read_options.hpp"
 #include "replay.hpp"
 #include "replay_report.hpp"
 
@@ -19,7 +20,8 @@ namespace {
 
 /// The command line's words, not yet looked into.
 struct ReplayWords {
-  std::string file, topology, cutoff, skin = "0", engine = "dch", c, policy, frames, verify = "none", exclude;
+  std::string file, topology, cutoff, skin = "0", engine = "dch", c, policy, frames, max_expanded,
+                                      verify = "none", exclude;
   std::string lists, report, plot;
   bool half = false, full = false, quiet = false;
 };
@@ -87,6 +89,7 @@ void declare_options(CLI::App& command, ReplayWords& words) {
           "Frames to replay, first:end:step as in Python, counted from 0, the end not included; or one "
           "frame. Default: all")
       ->type_name("A:B:S");
+  add_max_expanded(command, words.max_expanded);
   command
       .add_option(
           "--verify", words.verify,
@@ -134,6 +137,7 @@ ReplayOptions replay_options(const ReplayWords& words) {
       parse_number("--skin", words.skin, {0, kMaxCoordinate, false, "the skin, a length in the file's unit"});
   options.engine = engine_options(words);
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
+  options.limits = parse_max_expanded(words.max_expanded);
   options.verify = choose<VerifyMode>(
       "--verify", words.verify,
       {{"none", VerifyMode::none}, {"sample", VerifyMode::sample}, {"all", VerifyMode::all}});

@@ -27,12 +27,11 @@ constexpr std::uint32_t kArchitecture = 0;
 
 /// System calls that reading and sending take. Memory may be mapped, but not as code: see kMemoryCalls.
 constexpr int kAllowedCalls[] = {
-    __NR_read,          __NR_pread64,     __NR_lseek,        __NR_write,        __NR_writev,
-    __NR_sendto,        __NR_recvfrom,    __NR_ftruncate,    __NR_munmap,       __NR_mremap,
-    __NR_madvise,       __NR_brk,         __NR_futex,        __NR_sched_yield,  __NR_setitimer,
-    __NR_clock_gettime, __NR_getpid,      __NR_gettid,       __NR_gettimeofday, __NR_rt_sigreturn,
-    __NR_rt_sigaction,  __NR_rt_sigprocmask, __NR_getrandom, __NR_close,        __NR_exit,
-    __NR_exit_group};
+    __NR_read,         __NR_pread64,      __NR_lseek,        __NR_write,          __NR_writev,    __NR_sendto,
+    __NR_recvfrom,     __NR_ftruncate,    __NR_munmap,       __NR_mremap,         __NR_madvise,   __NR_brk,
+    __NR_futex,        __NR_sched_yield,  __NR_setitimer,    __NR_clock_gettime,  __NR_getpid,    __NR_gettid,
+    __NR_gettimeofday, __NR_rt_sigreturn, __NR_rt_sigaction, __NR_rt_sigprocmask, __NR_getrandom, __NR_close,
+    __NR_exit,         __NR_exit_group};
 
 constexpr int kMemoryCalls[] = {__NR_mmap, __NR_mprotect};  ///< the third argument is the protection
 

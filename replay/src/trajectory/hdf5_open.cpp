@@ -103,8 +103,10 @@ Hdf5Handle open_hdf5(const InputFile& file) {
 
 std::string hdf5_outside(hid_t dataset) {
   const Hdf5Handle properties(H5Dget_create_plist(dataset));
-  if (H5Pget_external_count(properties.get()) > 0) return "keeps its numbers in other files (external storage)";
-  if (H5Pget_layout(properties.get()) == H5D_VIRTUAL) return "is put together from other files (virtual dataset)";
+  if (H5Pget_external_count(properties.get()) > 0)
+    return "keeps its numbers in other files (external storage)";
+  if (H5Pget_layout(properties.get()) == H5D_VIRTUAL)
+    return "is put together from other files (virtual dataset)";
   return {};
 }
 

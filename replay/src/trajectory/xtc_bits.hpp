@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
-#include "byte_order.hpp"
 #include "frame_decoder.hpp"
 
 namespace dch::trajectory {
@@ -46,6 +46,19 @@ class BitReader {
 
   bool has(std::size_t bits) const { return bits <= size_ - position_; }
 
+  /// Reads a flag and, if it is set and the bits are there, five more; -1 without the flag, -2 if they are
+  /// not there.
+  int read_code() {
+    const std::uint64_t next = window();
+    if (next >> 63 == 0) {
+      position_ += 1;
+      return -1;
+    }
+    if (!has(6)) return -2;
+    position_ += 6;
+    return static_cast<int>(next >> 58 & 31);
+  }
+
   /// The next 1 to 32 bits as a number, the first bit the highest.
   std::uint32_t read(unsigned bits) {
     const auto value = static_cast<std::uint32_t>(window() >> (64 - bits));
@@ -71,8 +84,7 @@ class BitReader {
     const std::size_t byte = position_ >> 3;
     const unsigned shift = position_ & 7;
     if (byte + 9 <= bytes_.size()) {
-      return trajectory::decode<std::uint64_t>(bytes_.data() + byte, std::endian::big) << shift |
-             static_cast<std::uint64_t>(bytes_[byte + 8] >> (8 - shift));
+      return joined(bytes_.data() + byte, shift);
     }
     return window_at_end(byte, shift);
   }
@@ -80,8 +92,19 @@ class BitReader {
   std::uint64_t window_at_end(std::size_t byte, unsigned shift) const {
     std::array<unsigned char, 9> last{};
     for (std::size_t k = 0; k < last.size() && byte + k < bytes_.size(); ++k) last[k] = bytes_[byte + k];
-    return trajectory::decode<std::uint64_t>(last.data(), std::endian::big) << shift |
-           static_cast<std::uint64_t>(last[8] >> (8 - shift));
+    return joined(last.data(), shift);
+  }
+
+  /// 64 bits of nine bytes, behind the first `shift`.
+  static std::uint64_t joined(const unsigned char* bytes, unsigned shift) {
+    return big_endian(bytes) << shift | static_cast<std::uint64_t>(bytes[8] >> (8 - shift));
+  }
+
+  /// One instruction, which the general decode() of byte_order.hpp does not become.
+  static std::uint64_t big_endian(const unsigned char* bytes) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes, sizeof value);
+    return std::endian::native == std::endian::little ? byte_swapped(value) : value;
   }
 
   Bytes bytes_;
@@ -111,7 +134,8 @@ class PackedTriple {
   }
 
  private:
-  Numbers read_long(BitReader& bits) const {
+  /// Kept apart, so that read() is small enough to stand where it is called.
+  [[gnu::noinline]] Numbers read_long(BitReader& bits) const {
     const std::uint64_t low = bits.read_bytes(64);
     const Uint128 number = Uint128{bits.read_bytes(bits_ - 64)} << 64 | low;
     const Uint128 xy = number / z_.divisor();

@@ -30,8 +30,7 @@ using Numbers = PackedTriple::Numbers;
 class StreamDecoder {
  public:
   StreamDecoder(const XtcStream& stream, Bytes data, std::span<Vec3> positions)
-      : stream_(stream),
-        bits_(data),
+      : bits_(data),
         positions_(positions),
         inverse_(static_cast<float>(1 / static_cast<double>(stream.precision))),
         small_(stream.small),
@@ -39,6 +38,8 @@ class StreamDecoder {
     constexpr std::uint32_t kMostPacked = 0xffffff;
     packed_ = (stream.size[0] | stream.size[1] | stream.size[2]) <= kMostPacked;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      low_[axis] = static_cast<std::uint32_t>(stream.low[axis]);
+      size_[axis] = stream.size[axis];
       widths_[axis] = static_cast<unsigned>(std::bit_width(stream.size[axis]));
     }
     large_bits_ = packed_ ? large_.bits() : widths_[0] + widths_[1] + widths_[2];
@@ -52,12 +53,12 @@ class StreamDecoder {
     while (done_ < positions_.size()) {
       if (!bits_.has(large_bits_ + 1)) return kTooShort;
       const Numbers full = read_full();
+      const int code = bits_.read_code();
+      if (code == -2) return kTooShort;
       std::int32_t change = 0;
-      if (bits_.read(1) != 0) {
-        if (!bits_.has(5)) return kTooShort;
-        const std::uint32_t code = bits_.read(5);
-        steps = code / 3;
-        change = static_cast<std::int32_t>(code % 3) - 1;
+      if (code >= 0) {
+        steps = static_cast<std::uint32_t>(code) / 3;
+        change = code % 3 - 1;
       }
       if (steps >= positions_.size() - done_) {
         return "the compressed coordinates hold more atoms than the frame has: they are broken";
@@ -69,8 +70,8 @@ class StreamDecoder {
       small_ += change;
       if (small_ < kFirstSmall || small_ > kLastSmall) return kNoSuchStep;
     }
-    return out_of_range_ ? "a compressed coordinate lies outside of the range that the header gives"
-                         : nullptr;
+    return out_of_range_ != 0 ? "a compressed coordinate lies outside of the range that the header gives"
+                              : nullptr;
   }
 
  private:
@@ -103,18 +104,20 @@ class StreamDecoder {
 
   /// The numbers are unsigned and wrap around, so one below the range is above it too.
   void put(const Numbers& numbers) {
-    Vec3& position = positions_[done_++];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      out_of_range_ = out_of_range_ | (numbers[axis] >= stream_.size[axis]);
-      const auto number =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(stream_.low[axis]) + numbers[axis]);
-      position[static_cast<int>(axis)] = static_cast<double>(static_cast<float>(number) * inverse_);
-    }
+    positions_[done_++] = {coordinate(numbers, 0), coordinate(numbers, 1), coordinate(numbers, 2)};
+    out_of_range_ |= static_cast<unsigned>(numbers[0] >= size_[0]) |
+                     static_cast<unsigned>(numbers[1] >= size_[1]) |
+                     static_cast<unsigned>(numbers[2] >= size_[2]);
   }
 
-  const XtcStream& stream_;
+  double coordinate(const Numbers& numbers, std::size_t axis) const {
+    const auto number = static_cast<std::int32_t>(low_[axis] + numbers[axis]);
+    return static_cast<double>(static_cast<float>(number) * inverse_);
+  }
+
   BitReader bits_;
   std::span<Vec3> positions_;
+  Numbers low_{}, size_{};  ///< of the range
   float inverse_;
   std::int32_t small_;
   PackedTriple large_;  ///< of atoms stored in full, if packed_
@@ -122,7 +125,7 @@ class StreamDecoder {
   std::array<unsigned, 3> widths_{};  ///< bits of their coordinates otherwise
   std::size_t large_bits_ = 0;
   std::size_t done_ = 0;
-  bool out_of_range_ = false;
+  unsigned out_of_range_ = 0;
 };
 
 }  // namespace

@@ -20,8 +20,9 @@ namespace dch::trajectory::test {
 namespace {
 
 struct Attempts {
-  int open, create, socket, fork, exec, kill, code, unlink, other_descriptor, memory;  ///< errno; 0: it worked
-  int filter, own_descriptor, small_memory;                                           ///< 1: it worked
+  int open, create, socket, fork, exec, kill, code, unlink, other_descriptor,
+      memory;                                ///< errno; 0: it worked
+  int filter, own_descriptor, small_memory;  ///< 1: it worked
 };
 
 int error_of(long result) { return result < 0 ? errno : 0; }
@@ -43,7 +44,8 @@ Attempts attempt(const ChildRights& rights, const char* path, int other) {
   char byte = 0;
   a.other_descriptor = error_of(::pread(other, &byte, 1, 0));
   a.own_descriptor = ::pread(rights.descriptors.front(), &byte, 1, 0) == 1 && byte == 'x' ? 1 : 0;
-  void* much = ::mmap(nullptr, std::size_t{1} << 31, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* much =
+      ::mmap(nullptr, std::size_t{1} << 31, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   a.memory = much == MAP_FAILED ? errno : 0;
   void* little = ::mmap(nullptr, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   a.small_memory = little != MAP_FAILED ? 1 : 0;

@@ -40,8 +40,8 @@ class H5mdOutside : public testing::Test {
     const Hdf5Handle position = group(file, "particles/p/position");
     const hsize_t shape[] = {2, 2, 3};
     const Hdf5Handle space(H5Screate_simple(3, shape, nullptr));
-    const Hdf5Handle value(H5Dcreate2(position.get(), "value", H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, layout,
-                                      H5P_DEFAULT));
+    const Hdf5Handle value(H5Dcreate2(position.get(), "value", H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT,
+                                      layout, H5P_DEFAULT));
     const double numbers[12] = {};
     if (layout == H5P_DEFAULT) {
       H5Dwrite(value.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers);

@@ -72,8 +72,11 @@ TEST(Limits, OfCompressedTopologies) {
   ReadLimits limits;
   limits.expanded = 1'000'000;
   const std::string path = write_gzip(folder, "bomb.bonds", "1 2\n", std::string(60000, '\n'), 200);
-  EXPECT_THAT([&] { read_topology(path, {1, 2}, limits); },
-              ThrowsMessage<FileError>(AllOf(HasSubstr("bomb.bonds: line"), HasSubstr("1000000 bytes: "))));
+  EXPECT_THAT(
+      [&] {
+        read_topology(path, {1, 2}, limits);
+      },
+      ThrowsMessage<FileError>(AllOf(HasSubstr("bomb.bonds: line"), HasSubstr("1000000 bytes: "))));
   EXPECT_EQ(read_topology(path, {1, 2}).bonds.size(), 1u);
 }
 
