@@ -29,11 +29,13 @@ trajectory::ReadLimits parse_max_expanded(const std::string& word) {
   const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + digits, number);
-  const bool good = error == std::errc() && end == word.data() + digits && number >= 0 && number <= kMost >> shift;
+  const bool good =
+      error == std::errc() && end == word.data() + digits && number >= 0 && number <= kMost >> shift;
   if (!good || number << shift < kLeast) {
-    throw UsageError(fmt::format("--max-expanded '{}': not a size from 1M to 1024T; give the bytes that a frame "
-                                 "of a compressed file may expand to, such as 8G",
-                                 word));
+    throw UsageError(
+        fmt::format("--max-expanded '{}': not a size from 1M to 1024T; give the bytes that a frame "
+                    "of a compressed file may expand to, such as 8G",
+                    word));
   }
   limits.expanded = number << shift;
   return limits;

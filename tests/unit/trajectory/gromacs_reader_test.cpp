@@ -137,6 +137,8 @@ TEST_F(GromacsReader, RefusesBrokenXtc) {
   EXPECT_THAT(with(0x54, string("\0\0\0\x4a", 4)),
               HasSubstr("index of the step size from 9 to 73, found 74"));
   EXPECT_THAT(with(0x58, string("\0\0\0\x01", 4)), HasSubstr("1 bytes cannot hold"));
+  EXPECT_THAT(with(0x58, string("\0\0\0\x08", 4)),
+              AllOf(HasSubstr("frame 0, byte 92"), HasSubstr("coordinates end early")));
   EXPECT_THAT(with(0x9b, "\xff"), AllOf(HasSubstr("frame 1, byte 152"), HasSubstr("magic number")));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // H5MD files that lead out of themselves: nothing of another file is read, and nothing hangs.
+#include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,6 +63,26 @@ class H5mdOutside : public testing::Test {
 };
 
 TEST_F(H5mdOutside, TheOtherFileIsGood) { EXPECT_EQ(try_to_read(other_).frames, 2u); }
+
+/// The only child of this process, or 0.
+int child() {
+  int id = 0;
+  std::ifstream("/proc/thread-self/children") >> id;
+  return id;
+}
+
+TEST_F(H5mdOutside, TheChildHasGivenUpItsRights) {
+  const auto reader = open_trajectory(other_);
+  const int id = child();
+  ASSERT_GT(id, 0);
+  const std::string status = read_file("/proc/" + std::to_string(id) + "/status");
+  EXPECT_THAT(status, AllOf(HasSubstr("Seccomp:\t2"), HasSubstr("NoNewPrivs:\t1")));
+  const std::string limits = read_file("/proc/" + std::to_string(id) + "/limits");
+  EXPECT_THAT(limits, testing::ContainsRegex("Max open files +0 +0 "));
+  EXPECT_THAT(limits, testing::Not(testing::ContainsRegex("Max address space +unlimited")));
+  Frame frame;
+  EXPECT_TRUE(reader->read(frame));
+}
 
 TEST_F(H5mdOutside, ExternalStorage) {
   const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE));

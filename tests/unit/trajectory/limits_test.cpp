@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Small files that would grow without end, and files that are none.
+#include <ctime>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -65,6 +66,18 @@ TEST(Limits, OfALine) {
   const ScratchFolder folder;
   const std::string path = write_gzip(folder, "line.dump.gz", "", std::string(1 << 20, ' '), 64);
   EXPECT_THAT(try_to_read(path).error, HasSubstr("longer than 1 MiB"));
+}
+
+TEST(Limits, ManyColumnsTakeNoTime) {
+  const ScratchFolder folder;
+  std::string text =
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS x "
+      "y z";
+  std::string atom = "1 2 3";
+  for (int k = 0; k < 150000; ++k) text += " " + std::to_string(k), atom += " 0";
+  const auto begin = std::clock();
+  EXPECT_EQ(try_to_read(folder.write("wide.dump", text + "\n" + atom + "\n")).frames, 1u);
+  EXPECT_LT(std::clock() - begin, 10 * CLOCKS_PER_SEC);  // name by name with every other it took minutes
 }
 
 TEST(Limits, OfCompressedTopologies) {
