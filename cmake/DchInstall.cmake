@@ -7,7 +7,6 @@ set(DCH_CONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/dch)
 install(EXPORT dch-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER})
 if(TARGET dch_trajectory)
   install(EXPORT dch-trajectory-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER})
-  install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindLibgromacs.cmake DESTINATION ${DCH_CONFIG_FOLDER})
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dch-config.cmake.in
                               ${CMAKE_CURRENT_BINARY_DIR}/dch-config.cmake

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Finds the shared library of GROMACS in single precision and defines the target Libgromacs::libgromacs.
 #
+# Tests and benchmarks compare with it; nothing that is installed links it.
+#
 # GROMACS installs a package file of its own, but it also demands the gmx program and OpenMP, which nothing here needs.
 find_library(Libgromacs_LIBRARY NAMES gromacs DOC "libgromacs (Debian: libgromacs-dev)")
 find_path(Libgromacs_INCLUDE_DIR NAMES gromacs/fileio/trxio.h DOC "Folder of the headers of libgromacs")

@@ -166,8 +166,9 @@ Topology chains_of_length(const std::string& file, std::int64_t length, const tr
   return topology;
 }
 
-Topology read(const std::string& file, const ChainSource& source, const trajectory::Frame& frame) {
-  if (!source.topology.empty()) return trajectory::read_topology(source.topology, frame.ids);
+Topology read(const std::string& file, const ChainSource& source, const trajectory::Frame& frame,
+              const trajectory::ReadLimits& limits) {
+  if (!source.topology.empty()) return trajectory::read_topology(source.topology, frame.ids, limits);
   if (source.length > 0) return chains_of_length(file, source.length, frame);
   if (frame.molecules.empty()) {
     throw UsageError(
@@ -212,8 +213,8 @@ ChainSource::ChainSource(const std::string& file, const std::string& molecules_t
 }
 
 BeadChains read_bead_chains(const std::string& file, const ChainSource& source,
-                            const trajectory::Frame& frame) {
-  const Topology found = read(file, source, frame);
+                            const trajectory::Frame& frame, const trajectory::ReadLimits& limits) {
+  const Topology found = read(file, source, frame, limits);
   if (found.chains.empty() && found.bonds.empty()) {
     throw FileError(
         fmt::format("{}: no bonds and no chains, so there is nothing to find contacts of; give a "

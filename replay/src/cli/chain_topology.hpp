@@ -8,6 +8,7 @@
 
 #include <dch/necklace/chains.hpp>
 #include <dch/trajectory/frame.hpp>
+#include <dch/trajectory/reader.hpp>
 
 namespace dch::cli {
 
@@ -43,7 +44,7 @@ struct ChainSource {
 ///   all; UsageError if no file is named and the frame has no molecules or not those asked for, or if its
 ///   atoms do not make chains of the length.
 BeadChains read_bead_chains(const std::string& file, const ChainSource& source,
-                            const trajectory::Frame& frame);
+                            const trajectory::Frame& frame, const trajectory::ReadLimits& limits = {});
 
 /// Finds the beads in frame after frame by their ids. Other atoms may come and go.
 class BeadFinder {

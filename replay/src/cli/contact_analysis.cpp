@@ -78,7 +78,8 @@ void ContactAnalysis::scan() {
 }
 
 void ContactAnalysis::take_chains(const Scan& scan) {
-  beads_ = read_bead_chains(options_.input.name(), options_.chains, scan.first_frame);
+  beads_ =
+      read_bead_chains(options_.input.name(), options_.chains, scan.first_frame, options_.input.limits());
   finder_.emplace(options_.input.name(), beads_);
   const std::vector<double> radii = options_.radii.of(beads_, options_.input.name());
   report_.topology = beads_.source;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <dch/necklace/contacts.hpp>
+#include <dch/trajectory/reader.hpp>
 
 #include "bead_radii.hpp"
 #include "contact_report.hpp"

@@ -124,8 +124,9 @@ void Replay::read_exclusions(const trajectory::Frame& frame) {
                     exclusion_rule(options_.exclude_depth), options_.input.name()));
   }
   const trajectory::Topology topology =
-      options_.topology.empty() ? trajectory::topology_from_molecules(frame, options_.input.name())
-                                : trajectory::read_topology(options_.topology, frame.ids);
+      options_.topology.empty()
+          ? trajectory::topology_from_molecules(frame, options_.input.name())
+          : trajectory::read_topology(options_.topology, frame.ids, options_.input.limits());
   ExclusionRecord record;
   record.source = topology.source;
   record.bonds = static_cast<std::int64_t>(topology.bonds.size());

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <dch/neighbor_list.hpp>
+#include <dch/trajectory/reader.hpp>
 
 #include "engine.hpp"
 #include "option_values.hpp"

@@ -17,6 +17,7 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "interrupt.hpp"
+#include "read_options.hpp"
 
 namespace dch::cli {
 namespace {
@@ -125,10 +126,14 @@ void add_input_options(CLI::App& command, InputWords& words, const std::string& 
                   "Format of the trajectory, by the ending that names of such files have: lammpstrj, dcd, "
                   "xtc, ... Default: as the name says; standard input has none")
       ->type_name("NAME");
+  add_max_expanded(command, words.max_expanded);
 }
 
 TrajectoryInput::TrajectoryInput(const InputWords& words)
-    : name_(words.file), path_(words.file), format_(words.format) {
+    : name_(words.file),
+      path_(words.file),
+      format_(words.format),
+      limits_(parse_max_expanded(words.max_expanded)) {
   require_format(words);
   if (words.file == "-") {
     name_ = "standard input";
@@ -170,7 +175,7 @@ void TrajectoryInput::copy(int descriptor) {
 }
 
 std::unique_ptr<trajectory::TrajectoryReader> TrajectoryInput::open() const try {
-  auto reader = trajectory::open_trajectory(path_, format_);
+  auto reader = trajectory::open_trajectory(path_, format_, limits_);
   if (path_ == name_) return reader;
   return std::make_unique<NamedReader>(std::move(reader), path_, name_);
 } catch (const FileError& error) {

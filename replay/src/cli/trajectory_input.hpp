@@ -17,13 +17,13 @@ namespace dch::cli {
 
 /// A trajectory as the command line names it.
 struct InputWords {
-  std::string file, format;
+  std::string file, format, max_expanded;
 
   /// For require_distinct_files(); standard input is no file.
   NamedPath named(const std::string& argument) const { return {argument, file == "-" ? "" : file}; }
 };
 
-/// Declares the argument and --format. @param help what the argument is, for the help text.
+/// Declares the argument, --format and --max-expanded. @param help what the argument is, for the help text.
 void add_input_options(CLI::App& command, InputWords& words, const std::string& argument,
                        const std::string& help);
 
@@ -39,6 +39,8 @@ class TrajectoryInput {
 
   /// For messages and reports.
   const std::string& name() const { return name_; }
+  /// Those of this file and of what belongs to it, such as its topology.
+  const trajectory::ReadLimits& limits() const { return limits_; }
   /// @throws trajectory::FileError as trajectory::open_trajectory, under that name; so does the reader.
   std::unique_ptr<trajectory::TrajectoryReader> open() const;
 
@@ -46,6 +48,7 @@ class TrajectoryInput {
   void copy(int descriptor);
 
   std::string name_, path_, format_;
+  trajectory::ReadLimits limits_;
   std::shared_ptr<const int> copy_;  ///< the nameless file, open
 };
 

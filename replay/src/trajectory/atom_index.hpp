@@ -16,6 +16,8 @@ class AtomIndex {
   /// @param ids the frame's ids, ascending; must outlive this object
   explicit AtomIndex(const std::vector<std::int64_t>& ids) : ids_(ids) {}
 
+  std::size_t size() const { return ids_.size(); }
+
   /// Index of the atom that a word names. @throws FileError for the reader's line if it is no id, or not one
   /// of the frame.
   std::int32_t parse(const LineReader& lines, std::string_view word) const;

@@ -11,8 +11,9 @@ IndexPair make_bond(const LineReader& lines, std::int32_t a, std::int32_t b) {
   return {a, b};
 }
 
-std::vector<IndexPair> read_bonds_text(const std::string& path, const AtomIndex& atoms) {
-  LineReader lines(path, FinalNewline::optional);
+std::vector<IndexPair> read_bonds_text(const std::string& path, const AtomIndex& atoms,
+                                       const ReadLimits& limits) {
+  LineReader lines(path, FinalNewline::optional, limits);
   std::vector<IndexPair> bonds;
   for (std::string_view line; lines.next(line);) {
     std::string_view rest = line.substr(0, line.find('#')), first, second;

@@ -45,6 +45,7 @@ class GzipSource final : public ByteSource {
     }
     return size - stream_.avail_out;
   }
+  bool is_compressed() const override { return true; }
 
  private:
   bool refill() {

@@ -21,6 +21,7 @@ class ByteSource {
   /// Reads up to `size` bytes; 0 only at the end.
   /// @throws FileError if the file cannot be read; BrokenStream.
   virtual std::size_t read(char* data, std::size_t size) = 0;
+  virtual bool is_compressed() const { return false; }
 };
 
 /// Opens a file, unpacking it on the way if it starts with the gzip magic (whatever its name).

@@ -9,27 +9,49 @@
 namespace dch::trajectory {
 namespace {
 
-/// Adds the atoms that a word names: "7", or a range "7-12", which may also run downwards.
-void add_atoms(const LineReader& lines, const AtomIndex& atoms, std::string_view word,
-               std::vector<std::int32_t>& chain) {
-  const std::size_t dash = word.find('-', 1);
-  if (dash == std::string_view::npos) {
-    chain.push_back(atoms.parse(lines, word));
-    return;
+/// Reads the words of chains. Ranges are a few bytes for any number of atoms, so there is a bound on what
+/// they may name in all.
+class ChainWords {
+ public:
+  ChainWords(const LineReader& lines, const AtomIndex& atoms) : lines_(lines), atoms_(atoms) {}
+
+  /// Adds the atoms that a word names: "7", or a range "7-12", which may also run downwards.
+  void add(std::string_view word, std::vector<std::int32_t>& chain) {
+    const std::size_t dash = word.find('-', 1);
+    if (dash == std::string_view::npos) {
+      chain.push_back(atoms_.parse(lines_, word));
+      return;
+    }
+    std::int64_t first = 0, last = 0;
+    if (!parse_number(word.substr(0, dash), first) || !parse_number(word.substr(dash + 1), last)) {
+      lines_.fail_here("expected an id or a range of ids such as 7-12, found " + in_quotes(word));
+    }
+    const std::int64_t step = first <= last ? 1 : -1;
+    for (std::int64_t id = first; id != last; id += step) add_of_range(id, chain);
+    add_of_range(last, chain);
   }
-  std::int64_t first = 0, last = 0;
-  if (!parse_number(word.substr(0, dash), first) || !parse_number(word.substr(dash + 1), last)) {
-    lines.fail_here("expected an id or a range of ids such as 7-12, found " + in_quotes(word));
+
+ private:
+  void add_of_range(std::int64_t id, std::vector<std::int32_t>& chain) {
+    constexpr std::size_t kMostTimes = 16;
+    chain.push_back(atoms_.find(lines_, id));
+    if (++in_ranges_ <= kMostTimes * atoms_.size()) return;
+    lines_.fail_here(
+        fmt::format("the ranges up to here name {} atoms, more than {} times the trajectory's {}: name each "
+                    "atom once, or a few times where chains branch",
+                    in_ranges_, kMostTimes, atoms_.size()));
   }
-  const std::int64_t step = first <= last ? 1 : -1;
-  for (std::int64_t id = first; id != last; id += step) chain.push_back(atoms.find(lines, id));
-  chain.push_back(atoms.find(lines, last));
-}
+
+  const LineReader& lines_;
+  const AtomIndex& atoms_;
+  std::size_t in_ranges_ = 0;  ///< atoms named so far
+};
 
 }  // namespace
 
-Topology read_chains_text(const std::string& path, const AtomIndex& atoms) {
-  LineReader lines(path, FinalNewline::optional);
+Topology read_chains_text(const std::string& path, const AtomIndex& atoms, const ReadLimits& limits) {
+  LineReader lines(path, FinalNewline::optional, limits);
+  ChainWords words(lines, atoms);
   Topology topology;
   topology.source = path;
   for (std::string_view line; lines.next(line);) {
@@ -40,7 +62,7 @@ Topology read_chains_text(const std::string& path, const AtomIndex& atoms) {
       if (chain.atoms.empty() && !chain.closed && word == "ring") {
         chain.closed = true;
       } else {
-        add_atoms(lines, atoms, word, chain.atoms);
+        words.add(word, chain.atoms);
       }
     }
     const std::size_t size = chain.atoms.size();

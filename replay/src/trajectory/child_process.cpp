@@ -117,15 +117,32 @@ ChildProcess::~ChildProcess() {
   }
 }
 
+void ChildProcess::set_patience(int seconds) const {
+  const timeval patience{seconds, 0};
+  ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+}
+
 std::string ChildProcess::wait_and_describe() {
   if (id_ < 0) return "it ended the process";
+  // A child whose connection has ended is about to end itself; another one hangs.
+  constexpr int kTries = 1000, kMicroseconds = 1000;
   int status = 0;
   pid_t waited = 0;
-  do {
-    waited = ::waitpid(id_, &status, 0);
-  } while (waited < 0 && errno == EINTR);
+  for (int k = 0; k < kTries && waited == 0; ++k) {
+    if (k > 0) ::usleep(kMicroseconds);
+    waited = ::waitpid(id_, &status, WNOHANG);
+  }
+  const bool hangs = waited == 0;
+  if (hangs) {
+    ::kill(id_, SIGKILL);
+    do {
+      waited = ::waitpid(id_, &status, 0);
+    } while (waited < 0 && errno == EINTR);
+  }
   // A host that ignores SIGCHLD leaves no status to fetch.
-  std::string text = waited == id_ ? describe_status(status) : "it ended the process";
+  std::string text = hangs           ? "no answer came (it hung, or sent what is no frame)"
+                     : waited == id_ ? describe_status(status)
+                                     : "it ended the process";
   id_ = -1;
   if (const std::string words = last_words(); !words.empty()) text += "; its last words: " + words;
   return text;

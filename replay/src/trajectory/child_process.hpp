@@ -25,7 +25,11 @@ class ChildProcess {
   /// The parent's socket.
   int socket() const { return socket_; }
 
-  /// Waits for the child to end; what made it end and the last of what it wrote to stderr, in words.
+  /// Reading from socket() fails after so many seconds without a byte.
+  void set_patience(int seconds) const;
+
+  /// Waits for the child to end, and ends it if it has not within a second; what made it end and the last of
+  /// what it wrote to stderr, in words.
   std::string wait_and_describe();
 
   /// In the child: forgets what it wrote to stderr, so that the nameless file stays small.

@@ -39,12 +39,12 @@ class ColumnNames {
   std::size_t index(std::string_view name) const {
     return static_cast<std::size_t>(std::distance(names_.begin(), find(name)));
   }
-  /// The first name that occurs twice, or an empty one.
+  /// A name that occurs twice, or an empty one. A line of 1 MiB may hold hundreds of thousands of names.
   std::string_view repeated() const {
-    for (std::size_t k = 0; k < names_.size(); ++k) {
-      if (index(names_[k]) != k) return names_[k];
-    }
-    return {};
+    std::vector<std::string_view> sorted(names_);
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    return twice == sorted.end() ? std::string_view() : *twice;
   }
 
  private:

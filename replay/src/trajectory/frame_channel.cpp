@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame_channel.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <limits>
@@ -14,13 +16,16 @@
 namespace dch::trajectory {
 namespace {
 
-/// The parts of a frame whose size does not depend on the number of atoms.
+/// The parts of a frame whose size does not depend on the number of atoms. Only types of which any bytes are
+/// a value: the sender may not be trusted.
 struct FrameHead {
   std::int64_t step;
   double time;
-  bool has_time;
-  bool has_box;
-  Cell cell;
+  std::uint8_t has_time;
+  std::uint8_t has_box;
+  std::array<std::uint8_t, 3> periodic;
+  std::array<Vec3, 3> edges;
+  Vec3 origin;
 };
 static_assert(std::is_trivially_copyable_v<FrameHead>);
 
@@ -31,11 +36,20 @@ FrameHead head_of(const Frame& frame) {
   head.time = frame.time.value_or(0);
   head.has_box = frame.box.kind() != Box::Kind::none;
   for (int axis = 0; axis < 3; ++axis) {
-    head.cell.edges[static_cast<std::size_t>(axis)] = frame.box.vector(axis);
-    head.cell.periodic[static_cast<std::size_t>(axis)] = frame.box.periodic(axis);
+    head.edges[static_cast<std::size_t>(axis)] = frame.box.vector(axis);
+    head.periodic[static_cast<std::size_t>(axis)] = frame.box.periodic(axis);
   }
-  head.cell.origin = frame.box.origin();
+  head.origin = frame.box.origin();
   return head;
+}
+
+Box box_of(const FrameHead& head) {
+  if (head.has_box == 0) return Box::none();
+  Cell cell;
+  cell.edges = head.edges;
+  cell.origin = head.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis) cell.periodic[axis] = head.periodic[axis] != 0;
+  return cell.box();
 }
 
 }  // namespace
@@ -94,8 +108,12 @@ bool FrameReceiver::receive_frame(Frame& frame) {
   if (!receive(&head, sizeof head)) return false;
   frame.step = head.step;
   frame.time.reset();
-  if (head.has_time) frame.time = head.time;
-  frame.box = head.has_box ? head.cell.box() : Box::none();
+  if (head.has_time != 0) frame.time = head.time;
+  try {
+    frame.box = box_of(head);
+  } catch (const InvalidBox&) {
+    return false;
+  }
   return receive_array(frame.positions) && receive_array(frame.ids) && receive_array(frame.types) &&
          receive_array(frame.molecules) && receive_array(frame.images);
 }
@@ -125,8 +143,16 @@ bool FrameReceiver::receive_array(std::vector<T>& values) {
   std::int64_t count = 0;
   if (!receive(&count, sizeof count)) return false;
   if (count < 0 || count > std::numeric_limits<std::int32_t>::max()) return false;
-  values.resize(static_cast<std::size_t>(count));
-  return receive(values.data(), values.size() * sizeof(T));
+  // Memory for what has arrived, and at most as much again or a block.
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  values.clear();
+  for (auto missing = static_cast<std::size_t>(count); missing > 0;) {
+    const std::size_t had = values.size(), part = std::min(missing, std::max(kBlock, had));
+    values.resize(had + part);
+    if (!receive(values.data() + had, part * sizeof(T))) return false;
+    missing -= part;
+  }
+  return true;
 }
 
 }  // namespace dch::trajectory

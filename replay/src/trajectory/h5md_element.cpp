@@ -12,6 +12,8 @@
 
 #include <dch/trajectory/file_error.hpp>
 
+#include "hdf5_open.hpp"
+
 namespace dch::trajectory {
 namespace {
 
@@ -40,9 +42,10 @@ bool is_number(hid_t dataset) {
 }  // namespace
 
 std::optional<H5mdElement> H5mdElement::find(hid_t group, const std::string& name, const std::string& place) {
-  if (!hdf5_exists(group, name)) return std::nullopt;
   H5mdElement element;
   element.place_ = place;
+  if (hdf5_leads_outside(group, name)) element.fail_here("is a link to another file, which is not read");
+  if (!hdf5_exists(group, name)) return std::nullopt;
   H5O_info_t info{};
   if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) {
     element.fail_here(hdf5_reason());
@@ -61,6 +64,13 @@ std::optional<H5mdElement> H5mdElement::find(hid_t group, const std::string& nam
 void H5mdElement::open_fixed(hid_t group, const std::string& name) {
   value_ = Hdf5Handle(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
   if (!value_.valid()) fail_here("cannot be opened; " + hdf5_reason());
+  refuse_outside(value_, name.c_str());
+}
+
+void H5mdElement::refuse_outside(const Hdf5Handle& dataset, const char* part) const {
+  const std::string way = hdf5_outside(dataset.get());
+  if (!way.empty())
+    fail_here(fmt::format("'{}' {}, which are not read; copy the file with h5repack", part, way));
 }
 
 void H5mdElement::open_group(hid_t parent, const std::string& name) {
@@ -68,9 +78,13 @@ void H5mdElement::open_group(hid_t parent, const std::string& name) {
   const Hdf5Handle group(H5Gopen2(parent, name.c_str(), H5P_DEFAULT));
   if (!group.valid()) fail_here("cannot be opened; " + hdf5_reason());
   const auto open = [&](const char* part) {
+    if (hdf5_leads_outside(group.get(), part)) {
+      fail_here(fmt::format("its '{}' is a link to another file, which is not read", part));
+    }
     if (!hdf5_exists(group.get(), part)) return Hdf5Handle();
     Hdf5Handle dataset(H5Dopen2(group.get(), part, H5P_DEFAULT));
     if (!dataset.valid()) fail_here(fmt::format("its '{}' cannot be opened; {}", part, hdf5_reason()));
+    refuse_outside(dataset, part);
     return dataset;
   };
   value_ = open("value");

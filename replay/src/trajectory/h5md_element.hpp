@@ -43,6 +43,7 @@ class H5mdElement {
  private:
   void open_fixed(hid_t group, const std::string& name);
   void open_group(hid_t parent, const std::string& name);
+  void refuse_outside(const Hdf5Handle& dataset, const char* part) const;
   void read_shape();
   void read_raw(std::int64_t frame, hid_t type, void* values) const;
   template <class T>

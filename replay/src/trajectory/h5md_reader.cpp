@@ -9,7 +9,7 @@
 
 #include "cell.hpp"
 #include "forked_reader.hpp"
-#include "input_file.hpp"
+#include "hdf5_open.hpp"
 #include "place.hpp"
 
 namespace dch::trajectory {
@@ -27,7 +27,14 @@ std::vector<std::string> names_in(hid_t group) {
 
 /// Deflate packs a byte of zeros into 1/1032 byte at best, so that a file claiming more is broken (or all
 /// fill values, which is no trajectory either); without this check it would ask for any amount of memory.
-constexpr double kBestCompression = 1032;
+constexpr std::int64_t kBestCompression = 1032;
+
+/// Bytes that the positions of a frame may take as doubles: a file that is not compressed may hold them as
+/// bytes of one eighth, a compressed one has the limit.
+std::int64_t most_position_bytes(std::int64_t file_size, const ReadLimits& limits) {
+  constexpr std::int64_t kWidest = sizeof(double);
+  return std::min(std::max(kWidest * file_size, limits.expanded), 2 * kBestCompression * file_size);
+}
 
 double picoseconds(const std::string& unit) {
   constexpr std::pair<const char*, double> kUnits[] = {
@@ -40,18 +47,13 @@ double picoseconds(const std::string& unit) {
 
 }  // namespace
 
-H5mdReader::H5mdReader(const std::string& path) : path_(path) {
-  const InputFile readable(path);
-  file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+H5mdReader::H5mdReader(std::shared_ptr<const InputFile> input, const ReadLimits& limits)
+    : input_(std::move(input)), path_(input_->path()), file_(open_hdf5(*input_)) {
   if (!file_.valid()) fail(path_, "is not a readable HDF5 file: it is truncated or broken; " + hdf5_reason());
   open_group();
   position_ = find("position");
   check_positions();
-  const double claimed = static_cast<double>(position_->shape()[0]) * 3 * sizeof(float);
-  if (claimed > kBestCompression * static_cast<double>(readable.size())) {
-    position_->fail_here(fmt::format("claims {} atoms, more than the file of {} bytes can hold",
-                                     position_->shape()[0], readable.size()));
-  }
+  check_size(limits);
   image_ = find_per_atom("image", 3);
   id_ = find_per_atom("id", 1);
   species_ = find_per_atom("species", 1);
@@ -62,6 +64,9 @@ H5mdReader::H5mdReader(const std::string& path) : path_(path) {
 }
 
 void H5mdReader::open_group() {
+  if (hdf5_leads_outside(file_.get(), "particles")) {
+    fail(path_, "'particles' is a link to another file, which is not read");
+  }
   if (!hdf5_exists(file_.get(), "particles"))
     fail(path_, "has no group 'particles': it is not an H5MD trajectory");
   const Hdf5Handle particles(H5Gopen2(file_.get(), "particles", H5P_DEFAULT));
@@ -74,6 +79,11 @@ void H5mdReader::open_group() {
 
 std::string H5mdReader::choose_group(hid_t particles) const {
   std::vector<std::string> names = names_in(particles);
+  for (const std::string& name : names) {
+    if (hdf5_leads_outside(particles, name + "/position")) {
+      fail(path_, fmt::format("'particles/{}/position' leads to another file, which is not read", name));
+    }
+  }
   std::erase_if(names, [=](const std::string& name) { return !hdf5_exists(particles, name + "/position"); });
   if (names.empty()) fail(path_, "no group in 'particles' has positions");
   if (names.size() == 1) return names.front();
@@ -114,7 +124,25 @@ void H5mdReader::check_positions() const {
   if (position_->frames() == 0) position_->fail_here("holds no frame");
 }
 
+void H5mdReader::check_size(const ReadLimits& limits) const {
+  const std::int64_t atoms = static_cast<std::int64_t>(position_->shape()[0]), size = input_->size();
+  const std::int64_t bytes = atoms * 3 * static_cast<std::int64_t>(sizeof(double));
+  if (bytes > 2 * kBestCompression * size) {
+    position_->fail_here(
+        fmt::format("claims {} atoms, more than the file of {} bytes can hold", atoms, size));
+  }
+  if (bytes > most_position_bytes(size, limits)) {
+    position_->fail_here(fmt::format(
+        "a frame of {} atoms expands to {} bytes, more than {}: if the file is sound, raise the limit "
+        "with --max-expanded",
+        atoms, bytes, limits.expanded));
+  }
+}
+
 void H5mdReader::open_box() {
+  if (hdf5_leads_outside(group_.get(), "box")) {
+    fail(path_, fmt::format("'particles/{}/box' is a link to another file, which is not read", group_name_));
+  }
   if (!hdf5_exists(group_.get(), "box")) return;
   const Hdf5Handle box(H5Gopen2(group_.get(), "box", H5P_DEFAULT));
   if (!box.valid())
@@ -237,9 +265,18 @@ void H5mdReader::fail_in_frame(const std::string& what) const {
   fail(path_, fmt::format("frame {}, {}", frames_, what));
 }
 
-std::unique_ptr<TrajectoryReader> make_h5md_reader(const std::string& path) {
-  const InputFile readable(path);  // refuses files that cannot be opened before a process is started for them
-  return std::make_unique<ForkedReader>(path, [=] { return std::make_unique<H5mdReader>(path); });
+std::unique_ptr<TrajectoryReader> make_h5md_reader(const std::string& path, const ReadLimits& limits) {
+  const auto input = std::make_shared<const InputFile>(path);
+  // HDF5 and its caches; then the positions as the file has them, as doubles, in the frame, and the rest of
+  // it.
+  constexpr std::int64_t kForLibrary = std::int64_t{1} << 30, kCopies = 6;
+  ChildBounds bounds;
+  bounds.rights =
+      ChildRights{{input->descriptor()}, kForLibrary + kCopies * most_position_bytes(input->size(), limits)};
+  constexpr std::int64_t kSlowest = 10'000'000, kLongest = 3600;  // [bytes/s], [s]
+  bounds.seconds_per_frame = 20 + static_cast<int>(std::min(input->size() / kSlowest, kLongest));
+  return std::make_unique<ForkedReader>(
+      path, [=] { return std::make_unique<H5mdReader>(input, limits); }, bounds);
 }
 
 }  // namespace dch::trajectory

@@ -12,6 +12,7 @@
 #include "frame_sorter.hpp"
 #include "h5md_element.hpp"
 #include "hdf5_handle.hpp"
+#include "input_file.hpp"
 
 namespace dch::trajectory {
 
@@ -19,10 +20,10 @@ namespace dch::trajectory {
 /// id, species, image of one group of particles, and the elements `molecule` and `box/offset` that H5mdWriter
 /// adds.
 ///
-/// Use it in a child process (make_h5md_reader does): HDF5 does not stand every broken file.
+/// Use it in a child process without rights (make_h5md_reader does): HDF5 does not stand every broken file.
 class H5mdReader final : public TrajectoryReader {
  public:
-  explicit H5mdReader(const std::string& path);
+  H5mdReader(std::shared_ptr<const InputFile> input, const ReadLimits& limits);
 
   bool read(Frame& frame) override;
   std::string format() const override { return "H5MD"; }
@@ -35,6 +36,7 @@ class H5mdReader final : public TrajectoryReader {
   std::optional<H5mdElement> find(const std::string& name) const;
   std::optional<H5mdElement> find_per_atom(const std::string& name, std::size_t components) const;
   void check_positions() const;
+  void check_size(const ReadLimits& limits) const;
   Box read_box(std::int64_t frame) const;
   void read_positions(Frame& frame);
   void read_ids(Frame& frame);
@@ -42,6 +44,7 @@ class H5mdReader final : public TrajectoryReader {
   std::optional<double> read_time(std::int64_t frame) const;
   [[noreturn]] void fail_in_frame(const std::string& what) const;
 
+  std::shared_ptr<const InputFile> input_;
   std::string path_;
   std::string group_name_;
   std::string length_unit_;
@@ -56,8 +59,8 @@ class H5mdReader final : public TrajectoryReader {
   std::vector<std::int32_t> integers_;  ///< scratch
 };
 
-/// An H5mdReader in a child process.
+/// An H5mdReader in a child process that has given up its rights.
 /// @throws FileError as open_trajectory.
-std::unique_ptr<TrajectoryReader> make_h5md_reader(const std::string& path);
+std::unique_ptr<TrajectoryReader> make_h5md_reader(const std::string& path, const ReadLimits& limits);
 
 }  // namespace dch::trajectory

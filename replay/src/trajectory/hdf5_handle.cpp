@@ -23,4 +23,14 @@ bool hdf5_exists(hid_t parent, const std::string& name) {
          H5Oexists_by_name(parent, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool hdf5_leads_outside(hid_t parent, const std::string& name) {
+  for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    H5L_info_t info{};
+    if (H5Lget_info(parent, part.c_str(), &info, H5P_DEFAULT) < 0) return false;
+    if (info.type == H5L_TYPE_EXTERNAL) return true;
+    if (end == std::string::npos) return false;
+  }
+}
+
 }  // namespace dch::trajectory

@@ -56,4 +56,7 @@ std::string hdf5_reason();
 /// True if `parent` has a link of that name and it leads to an object.
 bool hdf5_exists(hid_t parent, const std::string& name);
 
+/// True if a part of the path `name` is a link to another file.
+bool hdf5_leads_outside(hid_t parent, const std::string& name);
+
 }  // namespace dch::trajectory

@@ -15,10 +15,9 @@ namespace dch::trajectory {
 namespace {
 
 /// Refuses what only looks like a file (a folder, a device, a pipe): the readers need a size.
-std::int64_t regular_file_size(const std::string& path) {
+std::int64_t regular_file_size(int descriptor, const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
-    fail(path, std::string("cannot be opened: ") + std::strerror(errno));
+  if (::fstat(descriptor, &status) != 0) fail(path, std::string("cannot be read: ") + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) fail(path, "is a folder; a trajectory file is expected");
   if (!S_ISREG(status.st_mode)) fail(path, "is not a regular file");
   if (status.st_size == 0) fail(path, "is empty");
@@ -28,9 +27,16 @@ std::int64_t regular_file_size(const std::string& path) {
 }  // namespace
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
-  size_ = regular_file_size(path_);
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  // Opened first and looked at then, so that both are the same file. Without O_NONBLOCK a pipe would keep the
+  // program waiting for somebody to write into it; for regular files the flag means nothing.
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor_ < 0) fail(path_, std::string("cannot be opened: ") + std::strerror(errno));
+  try {
+    size_ = regular_file_size(descriptor_, path_);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
 }
 
 InputFile::~InputFile() {

@@ -22,6 +22,7 @@ class InputFile {
 
   const std::string& path() const { return path_; }
   std::int64_t size() const { return size_; }
+  int descriptor() const { return descriptor_; }
 
   /// Reads up to `size` bytes from where the last read_some() ended; 0 only at the end. @throws FileError.
   std::size_t read_some(char* data, std::size_t size);

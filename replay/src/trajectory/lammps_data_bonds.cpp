@@ -11,7 +11,8 @@ namespace {
 /// The lines of a LAMMPS data file that hold something: comments and blank lines are passed over.
 class DataLines {
  public:
-  explicit DataLines(const std::string& path) : lines_(path, FinalNewline::required) {
+  DataLines(const std::string& path, const ReadLimits& limits)
+      : lines_(path, FinalNewline::required, limits) {
     std::string_view title;
     lines_.next(title);  // LAMMPS never looks at the first line
   }
@@ -41,8 +42,9 @@ bool is_bond_count(const std::vector<std::string_view>& words, std::int64_t& cou
 
 }  // namespace
 
-std::vector<IndexPair> read_lammps_data_bonds(const std::string& path, const AtomIndex& atoms) {
-  DataLines lines(path);
+std::vector<IndexPair> read_lammps_data_bonds(const std::string& path, const AtomIndex& atoms,
+                                              const ReadLimits& limits) {
+  DataLines lines(path, limits);
   std::vector<std::string_view> words;
   std::int64_t count = -1;
   while (true) {

@@ -17,8 +17,8 @@ using Role = DumpColumns::Role;
 
 }  // namespace
 
-LammpsDumpReader::LammpsDumpReader(const std::string& path)
-    : lines_(path, FinalNewline::required), header_reader_(lines_) {
+LammpsDumpReader::LammpsDumpReader(const std::string& path, const ReadLimits& limits)
+    : lines_(path, FinalNewline::required, limits), header_reader_(lines_) {
   lines_.set_frame(0);
   header_reader_.read_leading_units();
 }

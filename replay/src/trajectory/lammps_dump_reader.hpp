@@ -19,7 +19,7 @@ namespace dch::trajectory {
 class LammpsDumpReader final : public TrajectoryReader {
  public:
   /// @throws FileError as open_trajectory.
-  explicit LammpsDumpReader(const std::string& path);
+  LammpsDumpReader(const std::string& path, const ReadLimits& limits);
 
   bool read(Frame& frame) override;
   std::string format() const override { return "LAMMPS dump"; }

@@ -2,6 +2,7 @@
 #include "line_reader.hpp"
 
 #include <cstring>
+#include <fmt/format.h>
 #include <utility>
 
 #include "place.hpp"
@@ -13,9 +14,10 @@ constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 }  // namespace
 
-LineReader::LineReader(std::string path, FinalNewline final_newline)
+LineReader::LineReader(std::string path, FinalNewline final_newline, const ReadLimits& limits)
     : path_(std::move(path)),
       final_newline_(final_newline),
+      limits_(limits),
       source_(open_byte_source(path_)),
       buffer_(2 * kLongestLine) {}
 
@@ -60,9 +62,21 @@ bool LineReader::fill() try {
   begin_ = 0;
   const std::size_t got = source_->read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += got;
+  if (source_->is_compressed()) count_expanded(got);
   return got > 0;
 } catch (const BrokenStream& error) {
   fail_in_line(number_ + 1, error.what());
+}
+
+/// The buffer may hold the beginning of the next frame, so that a frame may be taken for one buffer longer.
+void LineReader::count_expanded(std::size_t bytes) {
+  expanded_ += static_cast<std::int64_t>(bytes);
+  if (expanded_ <= limits_.expanded + static_cast<std::int64_t>(buffer_.size())) return;
+  fail_in_line(
+      number_ + 1,
+      fmt::format("the compressed data expand to more than {} bytes{}: if the file is sound, raise the "
+                  "limit with --max-expanded",
+                  limits_.expanded, frame_ >= 0 ? " within one frame" : ""));
 }
 
 void LineReader::fail_in_line(std::int64_t line, const std::string& what) const {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <dch/trajectory/reader.hpp>
+
 #include "byte_source.hpp"
 
 namespace dch::trajectory {
@@ -18,20 +20,23 @@ enum class FinalNewline { required, optional };
 class LineReader {
  public:
   /// @throws FileError as open_byte_source.
-  LineReader(std::string path, FinalNewline final_newline);
+  LineReader(std::string path, FinalNewline final_newline, const ReadLimits& limits);
 
   /// Gets the next line, without its end (LF or CR LF); valid until the next call. False at the end of the
   /// file.
   /// @throws FileError if a line is longer than 1 MiB (not a text file), the final newline is missing, or
   /// compressed
-  ///   data are broken.
+  ///   data are broken or expand to more than the limit within a frame.
   bool next(std::string_view& line);
 
   /// Makes the next call of next() return the same line again.
   void put_back() { again_ = true; }
 
-  /// The frame that messages name; none before the first call.
-  void set_frame(std::int64_t frame) { frame_ = frame; }
+  /// The frame that begins here and that messages name; none before the first call.
+  void set_frame(std::int64_t frame) {
+    frame_ = frame;
+    expanded_ = 0;
+  }
 
   /// Number of the line that next() returned last, from 1.
   std::int64_t number() const { return number_; }
@@ -46,10 +51,13 @@ class LineReader {
   /// before.
   std::size_t find_newline();
   bool fill();
+  void count_expanded(std::size_t bytes);
 
   std::string path_;
   FinalNewline final_newline_;
+  ReadLimits limits_;
   std::unique_ptr<ByteSource> source_;
+  std::int64_t expanded_ = 0;  ///< bytes of compressed data since the frame began
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  ///< unread bytes are buffer_[begin_, end_)
   std::size_t end_ = 0;

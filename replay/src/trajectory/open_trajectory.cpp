@@ -6,6 +6,7 @@
 
 #include "dcd_reader.hpp"
 #include "file_name.hpp"
+#include "gro_reader.hpp"
 #include "gromacs_reader.hpp"
 #include "h5md_reader.hpp"
 #include "lammps_dump_reader.hpp"
@@ -14,11 +15,21 @@
 namespace dch::trajectory {
 namespace {
 
-using MakeReader = std::unique_ptr<TrajectoryReader> (*)(const std::string& path);
+using MakeReader = std::unique_ptr<TrajectoryReader> (*)(const std::string& path, const ReadLimits& limits);
 
 template <class Reader>
-std::unique_ptr<TrajectoryReader> make(const std::string& path) {
-  return std::make_unique<Reader>(path);
+std::unique_ptr<TrajectoryReader> make(const std::string& path, const ReadLimits& limits) {
+  return std::make_unique<Reader>(path, limits);
+}
+
+/// Of formats whose frames take a fixed multiple of their bytes in the file.
+template <std::unique_ptr<TrajectoryReader> make_reader(const std::string&)>
+std::unique_ptr<TrajectoryReader> without_limits(const std::string& path, const ReadLimits&) {
+  return make_reader(path);
+}
+
+std::unique_ptr<TrajectoryReader> make_dcd_reader(const std::string& path) {
+  return std::make_unique<DcdReader>(path);
 }
 
 struct Format {
@@ -31,10 +42,10 @@ constexpr Format kFormats[] = {
     {".dump", make<LammpsDumpReader>},
     {".lammpstrj.gz", make<LammpsDumpReader>},
     {".dump.gz", make<LammpsDumpReader>},
-    {".dcd", make<DcdReader>},
-    {".xtc", make_xtc_reader},
-    {".trr", make_trr_reader},
-    {".gro", make_gro_reader},
+    {".dcd", without_limits<make_dcd_reader>},
+    {".xtc", without_limits<make_xtc_reader>},
+    {".trr", without_limits<make_trr_reader>},
+    {".gro", make<GroReader>},
     {".h5", make_h5md_reader},
     {".h5md", make_h5md_reader},
 };
@@ -47,14 +58,15 @@ std::string known_endings() {
 
 }  // namespace
 
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
-  return open_trajectory(path, "");
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const ReadLimits& limits) {
+  return open_trajectory(path, "", limits);
 }
 
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format) {
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format,
+                                                  const ReadLimits& limits) {
   const std::string name = format.empty() ? lower_case_name(path) : "x." + format;
   for (const Format& known : kFormats) {
-    if (has_ending(name, known.ending)) return known.make_reader(path);
+    if (has_ending(name, known.ending)) return known.make_reader(path, limits);
   }
   fail(path, "unknown kind of trajectory; the endings known are " + known_endings());
 }

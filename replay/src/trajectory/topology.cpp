@@ -10,13 +10,14 @@
 
 namespace dch::trajectory {
 
-Topology read_topology(const std::string& path, const std::vector<std::int64_t>& ids) {
+Topology read_topology(const std::string& path, const std::vector<std::int64_t>& ids,
+                       const ReadLimits& limits) {
   const AtomIndex atoms(ids);
   const std::string name = lower_case_name(path);
-  if (has_ending(name, ".bonds")) return {read_bonds_text(path, atoms), path, {}};
-  if (has_ending(name, ".chains")) return read_chains_text(path, atoms);
+  if (has_ending(name, ".bonds")) return {read_bonds_text(path, atoms, limits), path, {}};
+  if (has_ending(name, ".chains")) return read_chains_text(path, atoms, limits);
   if (has_ending(name, ".data") || has_ending(name, ".lmp") || name.substr(0, 5) == "data.") {
-    return {read_lammps_data_bonds(path, atoms), path, {}};
+    return {read_lammps_data_bonds(path, atoms, limits), path, {}};
   }
   fail(path,
        "unknown kind of topology; known are LAMMPS data files (.data, .lmp, data.*), .bonds and .chains");

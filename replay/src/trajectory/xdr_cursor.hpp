@@ -3,43 +3,38 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "input_file.hpp"
+#include "cell.hpp"
+#include "frame_decoder.hpp"
 
 namespace dch::trajectory {
 
-/// Walks over the big-endian numbers of an XDR file (RFC 4506).
+/// Walks over the big-endian numbers of XDR data (RFC 4506) in memory. All functions throw BrokenFrame where
+/// the bytes end too early.
 class XdrCursor {
  public:
-  explicit XdrCursor(const std::string& path) : file_(path) {}
+  explicit XdrCursor(Bytes bytes) : bytes_(bytes) {}
 
   std::int64_t offset() const { return offset_; }
-  bool at_end() const { return offset_ >= file_.size(); }
-  const std::string& path() const { return file_.path(); }
-  std::int64_t file_size() const { return file_.size(); }
 
-  /// The frame that messages name.
-  void set_frame(std::int64_t frame) { frame_ = frame; }
-
-  /// @param what names the number in the message if the file ends in front of its end. @throws FileError.
+  /// @param what names the number in the message
   std::int32_t read_int(const char* what);
+  std::int64_t read_long(const char* what);
   /// @param size 4 or 8 bytes
   double read_real(const char* what, std::int64_t size = 4);
-  /// `count` numbers. @throws FileError unless all are finite.
-  std::vector<double> read_finite_reals(const char* what, std::int64_t count, std::int64_t size = 4);
-  std::string read_bytes(const char* what, std::int64_t count);
-  /// Steps over `count` bytes and the padding to a multiple of four.
-  void skip(const char* what, std::int64_t count);
+  /// @throws BrokenFrame also for a number that is not finite.
+  double read_finite_real(const char* what, std::int64_t size = 4);
+  Vec3 read_finite_vector(const char* what, std::int64_t size = 4);
+  /// Three edge vectors, one number after the other, periodic along all axes.
+  Cell read_cell(std::int64_t size = 4);
+  std::string read_text(const char* what, std::int64_t count);
+  Bytes take(const char* what, std::int64_t count);
 
-  /// Throws FileError naming the byte where the number read last begins.
-  [[noreturn]] void fail_here(const std::string& what) const;
+  /// Throws BrokenFrame naming the byte where the number read last begins.
+  [[noreturn]] void fail_here(const std::string& what) const { throw BrokenFrame(last_offset_, what); }
 
  private:
-  void take(const char* what, void* bytes, std::int64_t count);
-
-  InputFile file_;
-  std::int64_t frame_ = 0;
+  Bytes bytes_;
   std::int64_t offset_ = 0;
   std::int64_t last_offset_ = 0;
 };

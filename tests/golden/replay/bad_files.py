@@ -10,6 +10,8 @@ import os
 import sys
 import tempfile
 
+import h5py
+import numpy
 from dch_command import Checks, expect_failure, run
 
 OUTPUTS = ["--out", "lists.h5", "--report", "report.json", "--plot", "report.html"]
@@ -120,6 +122,73 @@ def check_not_trajectories(checks, command, folder):
     check_replay_and_info(checks, command, path, [".lammpstrj", ".xtc", ".dcd"])
 
 
+def check_pipes(checks, command, folder):
+    """A pipe that nobody writes into: a message at once, and no waiting."""
+    for name in ("pipe.lammpstrj", "pipe.xtc", "pipe.h5"):
+        path = os.path.join(folder, name)
+        os.mkfifo(path)
+        check_replay_and_info(checks, command, path, ["not a regular file"])
+
+
+def check_files_that_lead_outside(checks, command, folder):
+    """HDF5 files whose numbers are in other files: none of their bytes may come out."""
+    secret, good = os.path.join(folder, "secret.bin"), os.path.join(folder, "good.h5")
+    with open(secret, "wb") as file:
+        file.write(b"S" * 4096)
+    with h5py.File(good, "w") as file:
+        file["particles/p/position/value"] = numpy.ones((2, 4, 3))
+
+    def storage(file):
+        file.create_dataset("particles/p/position/value", (2, 4, 3), "f8", external=[(secret, 0, h5py.h5f.UNLIMITED)])
+
+    def virtual(file):
+        layout = h5py.VirtualLayout((2, 4, 3), "f8")
+        layout[...] = h5py.VirtualSource(good, "particles/p/position/value", (2, 4, 3))
+        file.create_virtual_dataset("particles/p/position/value", layout)
+
+    def link(file):
+        file["particles/p/position"] = h5py.ExternalLink(good, "particles/p/position")
+
+    def link_to_pipe(file):
+        file["particles"] = h5py.ExternalLink(os.path.join(folder, "pipe.h5"), "particles")
+
+    for make, parts in ((storage, ["external storage"]), (virtual, ["virtual dataset"]), (link, ["another file"]),
+                        (link_to_pipe, ["another file"])):
+        path = os.path.join(folder, make.__name__ + ".h5")
+        with h5py.File(path, "w") as file:
+            make(file)
+        check_replay_and_info(checks, command, path, parts)
+        expect_failure(checks, command, ["convert", path, os.path.join(folder, "copy.lammpstrj")], 3, parts)
+        checks.that(not os.path.exists(os.path.join(folder, "copy.lammpstrj")), "nothing is copied")
+
+
+def check_compressed_h5md(checks, command, folder):
+    """What h5py packs is read by the process without rights."""
+    path = os.path.join(folder, "packed.h5")
+    with h5py.File(path, "w") as file:
+        positions = numpy.arange(24.0).reshape(2, 4, 3)
+        file.create_dataset("particles/p/position/value", data=positions, chunks=(1, 4, 3), compression="gzip", shuffle=True,
+                            fletcher32=True)
+    result = run(command, "info", path)
+    checks.that(result.returncode == 0, f"packed H5MD file: {result.stderr}")
+
+
+def check_expansion(checks, command, folder):
+    """A small file that would grow to a large frame."""
+    path = os.path.join(folder, "bomb.lammpstrj.gz")
+    head = dump(["1 1 1"], columns="x y z").replace("OF ATOMS\n1\n", "OF ATOMS\n2000000000\n")
+    with gzip.open(path, "wb") as file:
+        file.write(head.encode())
+        for _ in range(200):
+            file.write(b"1 2 3\n" * 10000)
+    for arguments in (["info", path], ["replay", path, "--cutoff", "1"], ["convert", path, os.path.join(folder, "bomb.h5")],
+                      ["contacts", path, "--gap", "1"]):
+        expect_failure(checks, command, [*arguments, "--max-expanded", "2M"], 3,
+                       ["bomb.lammpstrj.gz", "frame 0", "2097152 bytes", "--max-expanded"])
+    for word in ("2", "x", "-1G", "2000T", "1.5G"):
+        expect_failure(checks, command, ["info", path, "--max-expanded", word], 2, ["--max-expanded", word])
+
+
 def check_bad_topologies(checks, command, data, folder):
     trajectory = os.path.join(data, "nacl.lammpstrj")
     for name, content, parts in (("word.bonds", "1 2\n1 x\n", ["line 2"]), ("unknown.bonds", "1 99999\n", ["line 1", "99999"]),
@@ -180,6 +249,10 @@ def main(command, data):
         check_bad_second_frames(checks, command, folder)
         check_truncations(checks, command, data, folder)
         check_not_trajectories(checks, command, folder)
+        check_pipes(checks, command, folder)
+        check_files_that_lead_outside(checks, command, folder)
+        check_compressed_h5md(checks, command, folder)
+        check_expansion(checks, command, folder)
         check_bad_topologies(checks, command, data, folder)
         check_bad_chains(checks, command, data, folder)
         check_frames_that_do_not_fit(checks, command, folder)

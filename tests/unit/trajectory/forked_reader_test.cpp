@@ -57,8 +57,8 @@ class TwoFrames final : public TrajectoryReader {
 };
 
 ForkedReader make(std::function<bool()> at_end, int seconds = 60) {
-  return ForkedReader(
-      "test.xyz", [=] { return std::make_unique<TwoFrames>(at_end); }, seconds);
+  return ForkedReader("test.xyz", [=] { return std::make_unique<TwoFrames>(at_end); },
+                      {.seconds_per_frame = seconds, .rights = {}});
 }
 
 void expect_failure(std::function<bool()> at_end, const testing::Matcher<const std::string&>& message,

@@ -17,11 +17,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Vec3 as_float(double x, double y, double z) {
-  return {static_cast<double>(static_cast<float>(x)), static_cast<double>(static_cast<float>(y)),
-          static_cast<double>(static_cast<float>(z))};
-}
-
 class GromacsReader : public testing::Test {
  protected:
   std::string error(const std::string& name, const std::string& bytes) {
@@ -132,16 +127,34 @@ TEST_F(GromacsReader, RefusesBrokenXtc) {
     return error("test.xtc", broken);
   };
   using std::string;
-  EXPECT_THAT(with(0, string("\0\0\x07\xe7", 4)), HasSubstr("magic 2023"));
+  EXPECT_THAT(with(0, string("\0\0\x07\xe7", 4)),
+              HasSubstr("it is truncated"));  // the size has 64 bits there
   EXPECT_THAT(with(3, "x"), AllOf(HasSubstr("frame 0, byte 0"), HasSubstr("magic number 1995")));
   EXPECT_THAT(with(4, string("\xff\xff\xff\xff", 4)), HasSubstr("number of atoms above 0, found -1"));
   EXPECT_THAT(with(7, "\x0b"), HasSubstr("expected 11 coordinates as in the header, found 10"));
   EXPECT_THAT(with(12, string("\x7f\xc0\0\0", 4)), HasSubstr("the time holds nan"));
   EXPECT_THAT(with(0x38, string("\0\0\0\0", 4)), HasSubstr("precision above 0"));
-  EXPECT_THAT(with(0x54, string("\0\0\0\x49", 4)),
-              HasSubstr("index of the step size from 9 to 72, found 73"));
+  EXPECT_THAT(with(0x54, string("\0\0\0\x4a", 4)),
+              HasSubstr("index of the step size from 9 to 73, found 74"));
   EXPECT_THAT(with(0x58, string("\0\0\0\x01", 4)), HasSubstr("1 bytes cannot hold"));
+  EXPECT_THAT(with(0x58, string("\0\0\0\x08", 4)),
+              AllOf(HasSubstr("frame 0, byte 92"), HasSubstr("coordinates end early")));
   EXPECT_THAT(with(0x9b, "\xff"), AllOf(HasSubstr("frame 1, byte 152"), HasSubstr("magic number")));
+}
+
+TEST_F(GromacsReader, ReadsXtcWithLongSizes) {
+  const std::string good = read_file(data_path("cell_shapes.xtc"));
+  std::string file;
+  for (std::size_t frame = 0; frame < good.size(); frame += good.size() / 3) {
+    std::string bytes = good.substr(frame, good.size() / 3);
+    bytes.replace(2, 2, "\x07\xe7");           // magic 2023
+    bytes.insert(0x58, std::string(4, '\0'));  // the upper half of the size
+    file += bytes;
+  }
+  const auto frames = read_all(folder_.write("test.xtc", file)),
+             same = read_all(data_path("cell_shapes.xtc"));
+  ASSERT_EQ(frames.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(frames[k].positions, same[k].positions);
 }
 
 TEST_F(GromacsReader, ReadsXtcOfAFewAtoms) {
@@ -184,8 +197,8 @@ TEST_F(GromacsReader, ReadsGro) {
   EXPECT_NEAR(frames[0].time.value(), 1.5, 1e-6);
   EXPECT_EQ(frames[0].box.kind(), Box::Kind::orthorhombic);
   EXPECT_NEAR(frames[0].box.vector(2).z, 3.8206, 1e-6);
-  EXPECT_EQ(frames[0].positions[1], as_float(0.190, 1.661, 1.747));
-  EXPECT_EQ(frames[1].positions[0], as_float(0.126, 1.624, -1.679));
+  EXPECT_EQ(frames[0].positions[1], (Vec3{0.190, 1.661, 1.747}));
+  EXPECT_EQ(frames[1].positions[0], (Vec3{0.126, 1.624, -1.679}));
   EXPECT_EQ(frames[1].box, Box::triclinic({2, 0, 0}, {0.5, 3, 0}, {0.25, -0.75, 4}));
 }
 
@@ -204,7 +217,8 @@ TEST_F(GromacsReader, RefusesBrokenGro) {
   EXPECT_THAT(with("1.747", "  nan"), AllOf(HasSubstr("line 4"), HasSubstr("coordinate z")));
   EXPECT_THAT(with("   2.82060", ""),
               AllOf(HasSubstr("line 5"), HasSubstr("3 or 9 numbers for the box, found 2")));
-  EXPECT_THAT(with("2.82060", "0.00000"), AllOf(HasSubstr("frame 0, line 1"), HasSubstr("0")));
+  EXPECT_THAT(with("2.82060", "0.00000"),
+              AllOf(HasSubstr("frame 0, line 5"), HasSubstr("edge along y is 0 long")));
   EXPECT_THAT(with("   0.126   1.624   1.679  0.1227 -0.0580  0.0434", "   1 2 3"),
               HasSubstr("three coordinates"));
   EXPECT_THAT(

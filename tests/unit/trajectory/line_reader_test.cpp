@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 
 std::vector<std::string> lines_of(const std::string& path,
                                   FinalNewline final_newline = FinalNewline::optional) {
-  LineReader reader(path, final_newline);
+  LineReader reader(path, final_newline, ReadLimits());
   std::vector<std::string> lines;
   for (std::string_view line; reader.next(line);) lines.emplace_back(line);
   return lines;
@@ -40,7 +40,7 @@ TEST(LineReader, DemandsTheFinalNewlineIfAsked) {
 
 TEST(LineReader, PutsALineBack) {
   const ScratchFolder folder;
-  LineReader reader(folder.write("a", "one\ntwo\n"), FinalNewline::required);
+  LineReader reader(folder.write("a", "one\ntwo\n"), FinalNewline::required, ReadLimits());
   std::string_view line;
   ASSERT_TRUE(reader.next(line));
   reader.put_back();

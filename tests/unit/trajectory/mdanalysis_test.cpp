@@ -47,6 +47,19 @@ TEST_P(MDAnalysisReads, TheSameFrames) {
   compare(copy, read_all(copy));
 }
 
+TEST(MDAnalysisWrites, XtcFilesThatAreReadBitByBit) {
+  for (const char* atoms : {"7", "10", "500"}) {
+    const ScratchFolder folder;
+    const std::string path = folder.path("test.xtc");
+    const std::string command =
+        std::string(DCH_PYTHON) + " " + DCH_TEST_SCRIPTS + "/write_xtc.py " + path + " " + atoms;
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto frames = read_all(path);
+    EXPECT_EQ(frames.size(), 16u);
+    compare(path, frames);
+  }
+}
+
 TEST_P(MDAnalysisReads, TheH5mdFileWrittenFromThem) {
   const ScratchFolder folder;
   const auto reader = open_trajectory(data_path(GetParam()));

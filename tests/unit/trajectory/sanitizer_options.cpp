@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Readers of GROMACS files fork, some ten thousand times in these tests, and a fork copies the page tables of
+// Readers of HDF5 files fork, some thousand times in these tests, and a fork copies the page tables of
 // all that the address sanitizer holds back of freed memory: 256 MB unless it is told otherwise, with which
 // the tests take twice as long.
 #if defined(__SANITIZE_ADDRESS__)

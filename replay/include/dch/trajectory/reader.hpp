@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,17 +30,25 @@ class TrajectoryReader {
       const = 0;  ///< "nm", "Angstrom", "the dump's unit", or what the file says
 };
 
+/// What a small file may grow to in memory.
+struct ReadLimits {
+  /// A compressed file may expand to so many bytes within one frame (a topology: in all). Other files need no
+  /// bound, since a frame takes a fixed multiple of its bytes in the file.
+  std::int64_t expanded = std::int64_t{4} << 30;
+};
+
 /// Opens a trajectory by its file name: .lammpstrj .dump .lammpstrj.gz .dump.gz (LAMMPS text dump), .xtc .trr
 /// .gro (GROMACS), .dcd (CHARMM/NAMD), .h5 .h5md (H5MD).
 /// @throws FileError if the file does not exist, cannot be read, is empty, or its ending is unknown (the
 /// message lists
 ///   those known).
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const ReadLimits& limits = {});
 
 /// Opens a trajectory whose name does not tell its format.
 /// @param format one of trajectory_formats(); empty: by the file name
 /// @throws FileError as above.
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format);
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& format,
+                                                  const ReadLimits& limits = {});
 
 /// The formats that can be read: the endings of names above, without the dot.
 std::vector<std::string> trajectory_formats();

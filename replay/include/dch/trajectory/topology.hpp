@@ -7,6 +7,7 @@
 
 #include <dch/exclusions.hpp>
 #include <dch/trajectory/frame.hpp>
+#include <dch/trajectory/reader.hpp>
 
 namespace dch::trajectory {
 
@@ -28,8 +29,11 @@ struct Topology {
 /// or of chains (.chains: the ids of one chain in order a line, or ranges first-last, "ring" first for closed
 /// ones); '#' starts a comment.
 /// @param ids the frame's ids, ascending
-/// @throws FileError naming file and line for unknown endings, unknown ids, bonds of an atom with itself.
-Topology read_topology(const std::string& path, const std::vector<std::int64_t>& ids);
+/// @throws FileError naming file and line for unknown endings, unknown ids, bonds of an atom with itself,
+/// ranges
+///   that name every atom more than 16 times.
+Topology read_topology(const std::string& path, const std::vector<std::int64_t>& ids,
+                       const ReadLimits& limits = {});
 
 /// Chains from the molecule column: the atoms of a molecule, in order of id, are bonded one after the other.
 /// Molecule 0 means "none" (LAMMPS).

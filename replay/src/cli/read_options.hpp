@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include <dch/trajectory/reader.hpp>
+
+namespace dch::cli {
+
+/// Adds --max-expanded, for every command that reads files; its word is left in `word`, empty if not given.
+void add_max_expanded(CLI::App& command, std::string& word);
+
+/// What the word says: bytes, or a number of K, M, G or T (powers of 1024).
+/// @throws UsageError for anything else, and outside of 1M to 1,024T.
+trajectory::ReadLimits parse_max_expanded(const std::string& word);
+
+}  // namespace dch::cli
