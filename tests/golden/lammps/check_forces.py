@@ -9,7 +9,8 @@ import sys
 from lammps_run import SCRIPTS, Host, thermo_tables
 
 PRESSURES = ("Press", "Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")
-# By how much differences may grow in 50 steps, trajectories being chaotic, and how large they may become.
+STEPS = 40  # with lists every 5; the second of three frames is compared, the last one says how large forces are
+# By how much differences may grow in half of the steps, trajectories being chaotic, and how large they may become.
 LATER_GROWTH, LATER_LARGEST = 1e5, 1e-2
 
 
@@ -77,7 +78,7 @@ def main():
     tables, frames = [], []
     for lists, load in (("stock", "/dev/null"), ("suffix", host.loader)):
         dump = host.work / f"dump.{lists}"
-        variables = {"lists": lists, "load": load, "forces": "yes", "dump": dump, **dict(arguments.var)}
+        variables = {"lists": lists, "load": load, "forces": "yes", "dump": dump, "steps": STEPS, **dict(arguments.var)}
         code, output = host.run(arguments.ranks, [host.lmp, "-in", case], variables)
         require(code == 0, f"the {lists} run ended with {code}", output)
         tables.append(thermo_tables(output)[-1])

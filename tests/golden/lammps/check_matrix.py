@@ -36,8 +36,9 @@ FACTORS = {
     "bonds": ("none", "left out", "weighted"),
 }
 
-# Tilts xy, xz, yz are whole spacings of the lattice. LAMMPS wants the second dimension of each to be periodic.
-TILTS = {"p p p": (3.5, 1.75, -3.5), "p p s": (3.5, 0, 0), "f s p": (0, 1.75, -3.5), "f f f": (0, 0, 0)}
+# Tilts xy, xz, yz are whole spacings of the lattice. LAMMPS wants the second dimension of each to be periodic; faces
+# marked f stay upright, or atoms of the lattice would be beyond them, and lost.
+TILTS = {"p p p": (3.5, 1.75, -3.5), "p p s": (3.5, 0, 0), "f s p": (0, 0, -3.5), "f f f": (0, 0, 0)}
 EDGE = 14.0
 LARGE = ((0.04, 0.5, 0.5), (0.68, 0.5, 0.5), (0.5, 0.04, 0.07), (0.5, 0.52, 0.07))  # in the coordinates of the box
 
