@@ -174,7 +174,7 @@ void SizedSearch::bring_up_to_date() {
                               : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
-    // It may have lost its points in a list that was not finished.
+    // It may have got no points yet, or lost them, in a list that was not finished.
     group.is_new |= group.search && group.search->hierarchy().size() != group.particle.size();
     if (!group.search || !fits || (group.is_new && keys_.empty())) {
       HierarchyParams own = params_;
@@ -183,7 +183,6 @@ void SizedSearch::bring_up_to_date() {
       auto search = std::make_unique<DchSearch>(own);
       retire(group);
       group.search = std::move(search);
-      group.is_new = true;
     } else if (!stale_ && !group.is_new) {
       continue;
     }

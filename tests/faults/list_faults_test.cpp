@@ -162,12 +162,12 @@ INSTANTIATE_TEST_SUITE_P(Requests, ListFaults, ::testing::ValuesIn(all_requests(
 /// A host's decision that throws is no different.
 TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
   struct Refusing final : PairTest {
-    Refusing() : PairTest(1e-3) {}
+    explicit Refusing(int after) : PairTest(0.09), left(after) {}
     bool accepts(std::int32_t, std::int32_t) const override {
-      if (++asked == 3) throw std::bad_alloc();
+      if (--left < 0) throw std::bad_alloc();
       return false;
     }
-    mutable int asked = 0;
+    mutable int left;
   };
   const Scene scene(kPoints);
   Asked asked;
@@ -175,8 +175,8 @@ TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
   asked.answer(scene);
   Hierarchy hierarchy(params_for());
   hierarchy.build(scene.points, scene.box);
-  for (int turn = 0; turn < 3; ++turn) {
-    const Refusing refusing;
+  for (int turn = 0; turn < 40; ++turn) {
+    const Refusing refusing(turn);
     ListParams request = asked.request;
     request.near_cutoff = &refusing;
     NeighborList list;

@@ -141,6 +141,21 @@ TEST_P(SearchFaults, AnUpdateAfterAListThatThrewIsRight) {
       4);
 }
 
+/// Classes stay the same then, and their hierarchies get another radius.
+TEST_P(SearchFaults, AListWithAnotherSkinIsRightTheNextTime) {
+  Asked wider;
+  wider.radii = first_.asked.radii;
+  wider.request.radii = wider.radii;
+  wider.request.skin = 0.05;
+  wider.answer(first_.scene);
+  expect_sound(sweep([&] { return used(false); },
+                     [&](const std::unique_ptr<PairSearch>& search) { search->list(wider.request); },
+                     [&](const std::unique_ptr<PairSearch>& search, Ending ending) {
+                       return after(ending, wider.difference(search->list(wider.request)));
+                     }),
+               4);
+}
+
 /// Both kinds of requests in one call, which memory did not suffice for, and then the first of them alone.
 TEST_P(SearchFaults, AListAfterSeveralThatThrewIsRight) {
   Asked narrow;

@@ -12,6 +12,7 @@
 #include <dch/hierarchy.hpp>
 #include <dch/lennard_jones.hpp>
 
+#include "effort.hpp"
 #include "list_compare.hpp"
 #include "random.hpp"
 #include "scenes.hpp"
@@ -56,7 +57,8 @@ TEST(SharedExecutor, GivesEachThreadItsWholeList) {
     std::vector<std::thread> users;
     for (std::size_t k = 0; k < searchers.size(); ++k)
       users.emplace_back([&, k] {
-        for (int round = 0; round < 1000 && wrong[k].empty(); ++round) wrong[k] = searchers[k].search();
+        for (int round = 0; round < effort(1000) && wrong[k].empty(); ++round)
+          wrong[k] = searchers[k].search();
       });
     for (std::thread& user : users) user.join();
     for (const std::string& difference : wrong) EXPECT_EQ(difference, "") << threads << " threads";
