@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <dch/error.hpp>
@@ -31,20 +32,32 @@ class ThreadPool final : public Executor {
   int threads() const override { return static_cast<int>(workers_.size()) + 1; }
 
   void run(int parts, const std::function<void(int)>& task) override {
+    if (parts < 1) return;
+    Job job{task, parts, parts};
     std::unique_lock lock(mutex_);
-    task_ = &task;
-    next_ = 0;
-    parts_ = parts;
-    open_ = parts;
-    error_ = nullptr;
-    wake_.notify_all();
-    take_parts(lock);
-    done_.wait(lock, [this] { return open_ == 0; });
-    task_ = nullptr;
-    if (error_) std::rethrow_exception(error_);
+    if (parts > 1) {  // which the others may help with
+      job.next = newest_;
+      newest_ = &job;
+      wake_.notify_all();
+    }
+    take_parts(job, lock);
+    ended_.wait(lock, [&] { return job.open == 0; });
+    if (job.error) std::rethrow_exception(job.error);
   }
 
  private:
+  /// One call of run(), on the stack of its caller. The caller begins parts of its own job only and then
+  /// waits for those that others have begun. A part waits only for jobs that it has started itself, so no two
+  /// threads wait for each other, however calls are nested.
+  struct Job {
+    const std::function<void(int)>& task;
+    int parts;
+    int open;       ///< parts that have not ended
+    int begun = 0;  ///< parts
+    std::exception_ptr error = nullptr;
+    Job* next = nullptr;  ///< the job that came before it, of those with parts to begin
+  };
+
   void close() {
     {
       const std::lock_guard lock(mutex_);
@@ -57,36 +70,44 @@ class ThreadPool final : public Executor {
   void work() {
     std::unique_lock lock(mutex_);
     for (;;) {
-      wake_.wait(lock, [this] { return closing_ || next_ < parts_; });
+      wake_.wait(lock, [this] { return closing_ || newest_ != nullptr; });
       if (closing_) return;
-      take_parts(lock);
+      take_parts(*newest_, lock);  // which older jobs wait for, if it is nested
     }
   }
 
-  /// Runs parts as long as there are any to begin.
-  void take_parts(std::unique_lock<std::mutex>& lock) {
-    while (next_ < parts_) {
-      const int part = next_++;
-      const std::function<void(int)>& task = *task_;
+  /// Runs parts of a job as long as there are any to begin. When it returns, the job may be gone.
+  void take_parts(Job& job, std::unique_lock<std::mutex>& lock) {
+    while (job.begun < job.parts) {
+      const int part = job.begun++;
+      if (job.begun == job.parts) leave_out(job);
       lock.unlock();
       std::exception_ptr error;
       try {
-        task(part);
+        job.task(part);
       } catch (...) {
         error = std::current_exception();
       }
       lock.lock();
-      if (error && !error_) error_ = error;
-      if (--open_ == 0) done_.notify_all();
+      if (error && !job.error) job.error = std::move(error);
+      if (--job.open > 0) continue;
+      ended_.notify_all();
+      return;
+    }
+  }
+
+  /// Takes a job with no parts to begin out of the chain.
+  void leave_out(const Job& job) {
+    for (Job** link = &newest_; *link != nullptr; link = &(*link)->next) {
+      if (*link != &job) continue;
+      *link = job.next;
+      return;
     }
   }
 
   std::mutex mutex_;
-  std::condition_variable wake_, done_;
-  const std::function<void(int)>* task_ = nullptr;
-  int next_ = 0, parts_ = 0;  ///< parts not begun yet
-  int open_ = 0;              ///< parts that have not ended
-  std::exception_ptr error_;
+  std::condition_variable wake_, ended_;  ///< for a job, and for the last part of one
+  Job* newest_ = nullptr;                 ///< of the jobs with parts to begin
   bool closing_ = false;
   std::vector<std::thread> workers_;  // last, so that what they use is there when they start
 };

@@ -2,10 +2,13 @@
 //
 // A host's own threads: an executor over OpenMP is a few lines, and gives the lists that a pool gives. Not
 // under the thread sanitizer, which does not know the locks of GCC's OpenMP runtime.
+#include <atomic>
 #include <exception>
 #include <gtest/gtest.h>
 #include <omp.h>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include <dch/all_pairs.hpp>
 #include <dch/executor.hpp>
@@ -17,6 +20,8 @@
 namespace dch {
 namespace {
 
+/// Each thread that calls run() has a team of its own. Parts that call it have the thread that they are on:
+/// by default OpenMP opens no parallel region within another.
 class OpenMpExecutor final : public Executor {
  public:
   explicit OpenMpExecutor(int threads) : threads_(threads) {}
@@ -59,6 +64,19 @@ TEST(OpenMpExecutorTest, GivesTheListsOfOneThread) {
       for (Vec3& p : moved) p = p + random.in_cube(0.2);
     }
   }
+}
+
+TEST(OpenMpExecutorTest, ServesSeveralThreadsAndPartsThatCallIt) {
+  OpenMpExecutor executor(3);
+  std::atomic<int> innermost{0};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 3; ++caller)
+    callers.emplace_back([&] {
+      for (int round = 0; round < 100; ++round)
+        executor.run(4, [&](int) { executor.run(3, [&](int) { ++innermost; }); });
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(innermost, 3 * 100 * 4 * 3);
 }
 
 TEST(OpenMpExecutorTest, HandsOnWhatATaskThrows) {

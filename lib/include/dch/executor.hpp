@@ -9,6 +9,12 @@ namespace dch {
 
 /// Runs the parts of a task, perhaps side by side: how a host lends its threads. Results do not depend on how
 /// many there are.
+///
+/// One executor may serve several objects, hence several threads may call run() at once; and a part may call
+/// run() of the executor that runs it. Each call has to return when its own parts have ended, whatever other
+/// calls there are. A part may wait for another one of its call that has begun before it, so a thread that
+/// waits may be lent to parts of its own call only. Where a host's threads cannot be shared like that, run()
+/// calls all parts on the thread that it was called from while the others are taken.
 class Executor {
  public:
   virtual ~Executor() = default;
@@ -17,11 +23,13 @@ class Executor {
   virtual int threads() const = 0;
 
   /// Calls task(0) .. task(parts - 1), each once, on any threads and in any order, and returns when all have
-  /// ended. If some threw, one of the exceptions is thrown on, after all have ended.
+  /// ended. If some threw, one of the exceptions is thrown on, after all have ended. Any number of threads
+  /// may call it at once, and parts may.
   virtual void run(int parts, const std::function<void(int)>& task) = 0;
 };
 
-/// A pool of `threads` - 1 standing threads and the one that calls run().
+/// A pool of `threads` - 1 standing threads and those that call run(), any number of them at once. It must
+/// outlive all calls.
 /// @throws InvalidParameter unless 1 <= threads <= 4096, Error if the system does not give that many.
 std::unique_ptr<Executor> make_thread_pool(int threads);
 

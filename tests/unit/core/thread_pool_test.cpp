@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <atomic>
 #include <gmock/gmock.h>
+#include <latch>
 #include <stdexcept>
 #include <string>
 #include <sys/resource.h>
+#include <thread>
 #include <vector>
 
 #include <dch/error.hpp>
@@ -45,6 +47,83 @@ TEST(ThreadPool, ThrowsOnAndStaysUsable) {
   EXPECT_EQ(ended, 7);
   pool->run(2, [&](int) { ++ended; });
   EXPECT_EQ(ended, 9);
+}
+
+/// Calls f(k) on `callers` threads of their own at once.
+template <class F>
+void on_threads(int callers, const F& f) {
+  std::latch all_are_there(callers);
+  std::vector<std::thread> threads;
+  for (int k = 0; k < callers; ++k)
+    threads.emplace_back([&, k] {
+      all_are_there.arrive_and_wait();
+      f(k);
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(ThreadPool, ServesSeveralCallersAtOnce) {
+  for (const int threads : {1, 2, 4}) {
+    const auto pool = make_thread_pool(threads);
+    std::atomic<int> wrong{0};
+    on_threads(3, [&](int caller) {
+      for (int round = 0; round < 2000; ++round) {
+        std::vector<int> calls(static_cast<std::size_t>(1 + (round + caller) % 7), 0);
+        pool->run(static_cast<int>(calls.size()), [&](int part) {
+          if (part % 3 == 1) std::this_thread::yield();
+          ++calls[static_cast<std::size_t>(part)];
+        });
+        wrong += calls != std::vector<int>(calls.size(), 1);
+      }
+    });
+    EXPECT_EQ(wrong, 0) << threads << " threads";
+  }
+}
+
+TEST(ThreadPool, ServesPartsThatCallIt) {
+  for (const int threads : {1, 2, 4}) {
+    const auto pool = make_thread_pool(threads);
+    for (int round = 0; round < 2000; ++round) {
+      std::atomic<int> innermost{0};
+      pool->run(4, [&](int) { pool->run(3, [&](int) { pool->run(2, [&](int) { ++innermost; }); }); });
+      ASSERT_EQ(innermost, 4 * 3 * 2) << threads << " threads, round " << round;
+    }
+  }
+}
+
+TEST(ThreadPool, ServesCallersWhosePartsCallIt) {
+  const auto pool = make_thread_pool(3);
+  std::atomic<int> wrong{0};
+  on_threads(3, [&](int) {
+    for (int round = 0; round < 300; ++round) {
+      std::atomic<int> inner{0};
+      pool->run(3, [&](int) { pool->run(3, [&](int) { ++inner; }); });
+      wrong += inner != 9;
+    }
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(ThreadPool, ThrowsToTheCallerWhosePartThrew) {
+  const auto pool = make_thread_pool(3);
+  std::atomic<int> wrong{0};
+  on_threads(3, [&](int caller) {
+    for (int round = 0; round < 500; ++round) {
+      const bool throws = (round + caller) % 2 == 0;
+      int caught = -1;
+      std::atomic<int> ended{0};
+      try {
+        pool->run(5, [&](int part) {
+          if (throws && part == 2) throw caller;
+          ++ended;
+        });
+      } catch (int from) {
+        caught = from;
+      }
+      wrong += caught != (throws ? caller : -1) || ended != (throws ? 4 : 5);
+    }
+  });
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(ThreadPool, RefusesNumbersOutOfRange) {
