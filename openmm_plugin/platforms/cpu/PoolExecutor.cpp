@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "PoolExecutor.h"
 
-#include <atomic>
 #include <exception>
 #include <mutex>
 
 namespace OpenMMDCH {
+namespace {
 
-void PoolExecutor::run(int parts, const std::function<void(int)>& task) {
-  if (threads() == 1 || parts <= 1) {
-    for (int part = 0; part < parts; ++part) task(part);
-    return;
-  }
-  std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr error;
-  pool.execute([&](OpenMM::ThreadPool&, int) {
+/// Takes parts of one run until there are none left, and keeps the first exception.
+class Parts {
+ public:
+  Parts(int count, const std::function<void(int)>& toRun) : parts(count), task(toRun) {}
+  void take() {
     for (int part = next++; part < parts; part = next++) {
       try {
         task(part);
@@ -24,9 +20,36 @@ void PoolExecutor::run(int parts, const std::function<void(int)>& task) {
         if (!error) error = std::current_exception();
       }
     }
-  });
-  pool.waitForThreads();
-  if (error) std::rethrow_exception(error);
+  }
+  void throwOn() const {
+    if (error) std::rethrow_exception(error);
+  }
+
+ private:
+  int parts;
+  const std::function<void(int)>& task;
+  std::atomic<int> next{0};
+  std::mutex mutex;
+  std::exception_ptr error;
+};
+
+struct Release {
+  std::atomic<bool>& busy;
+  ~Release() { busy = false; }
+};
+
+}  // namespace
+
+void PoolExecutor::run(int parts, const std::function<void(int)>& task) {
+  Parts all(parts, task);
+  if (threads() == 1 || parts <= 1 || busy.exchange(true)) {
+    all.take();
+  } else {
+    const Release whenDone{busy};
+    pool.execute([&](OpenMM::ThreadPool&, int) { all.take(); });
+    pool.waitForThreads();
+  }
+  all.throwOn();
 }
 
 }  // namespace OpenMMDCH
