@@ -26,11 +26,15 @@ void CageHierarchy::take(Span<const Vec3> positions, const Box& box, std::vector
     cages_.resize(trees_.nodes().size());
     box_ = box;
   } catch (...) {
-    beads_.clear();
-    positions_.clear();
-    cages_.clear();
+    forget();
     throw;
   }
+}
+
+void CageHierarchy::forget() {
+  beads_.clear();
+  positions_.clear();
+  cages_.clear();
 }
 
 void CageHierarchy::place_beads(Span<const Vec3> positions, Span<const Vec3> placed,

@@ -179,6 +179,7 @@ void Chains::add(Span<const std::int32_t> beads, bool closed) {
                            std::to_string(beads.size()) + " beads; it needs three at least");
   }
   const auto chain = static_cast<std::int32_t>(size());
+  const std::size_t beads_before = beads_.size();
   std::size_t entered = 0;
   try {
     for (; entered < beads.size(); ++entered) {
@@ -192,13 +193,15 @@ void Chains::add(Span<const std::int32_t> beads, bool closed) {
       }
       owner = chain;
     }
+    beads_.insert(beads_.end(), beads.begin(), beads.end());
+    first_.push_back(static_cast<std::int64_t>(beads_.size()));
+    closed_.push_back(closed);
   } catch (...) {
     for (std::size_t k = 0; k < entered; ++k) chain_of_[static_cast<std::size_t>(beads[k])] = kNone;
+    first_.resize(static_cast<std::size_t>(chain) + 1);
+    beads_.resize(beads_before);
     throw;
   }
-  beads_.insert(beads_.end(), beads.begin(), beads.end());
-  first_.push_back(static_cast<std::int64_t>(beads_.size()));
-  closed_.push_back(closed);
 }
 
 std::vector<IndexPair> Chains::bonds() const {

@@ -121,11 +121,12 @@ bool ContactFinder::list_near(const ContactQuery& query) {
   const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff());
   if (search_ == nullptr || !fits) {
     HierarchyParams structure;
-    structure.radius = search_radius_ = radius;
+    structure.radius = radius;
     structure.executor = params_.executor;
     structure.size_classes =
         necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
     search_ = make_dch_search(structure);
+    search_radius_ = radius;
     search_is_new_ = false;
   }
   if (!search_is_new_) search_->update(by_place_, box_);

@@ -51,7 +51,21 @@ WrappedHierarchy::WrappedHierarchy(Necklace necklace, const WrappedParams& param
   }
 }
 
+void WrappedHierarchy::forget() {
+  bases_.clear();
+  CageHierarchy::forget();
+}
+
 void WrappedHierarchy::build(Span<const Vec3> positions, const Box& box) {
+  try {
+    find_bases(positions, box);
+  } catch (...) {
+    forget();
+    throw;
+  }
+}
+
+void WrappedHierarchy::find_bases(Span<const Vec3> positions, const Box& box) {
   bases_.clear();
   take(positions, box);
   bases_.resize(trees().nodes().size());
@@ -69,14 +83,18 @@ void WrappedHierarchy::build(Span<const Vec3> positions, const Box& box) {
 
 void WrappedHierarchy::update(Span<const Vec3> positions, const Box& box) {
   if (bases_.empty()) return build(positions, box);
-  const bool watched = params_.verification == Verification::watched;
   try {
-    take(positions, box, watched ? &bead_moved2_ : nullptr);
+    repair_bases(positions, box);
   } catch (...) {
-    bases_.clear();
+    forget();
     throw;
   }
   ++stats_.updates;
+}
+
+void WrappedHierarchy::repair_bases(Span<const Vec3> positions, const Box& box) {
+  const bool watched = params_.verification == Verification::watched;
+  take(positions, box, watched ? &bead_moved2_ : nullptr);
   if (watched) note_motion();
   if (even_) detail::balls_of_bases(beads(), bases_, mutable_cages());
   for (auto k = static_cast<std::int32_t>(bases_.size()) - 1; k >= 0; --k) {

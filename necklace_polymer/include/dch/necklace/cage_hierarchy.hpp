@@ -45,6 +45,7 @@ class CageHierarchy {
   /// place the squared distance of each bead from where it was [length^2].
   /// @throws InvalidParameter, InvalidPosition, Undetermined.
   void take(Span<const Vec3> positions, const Box& box, std::vector<double>* moved2 = nullptr);
+  void forget();  ///< what take() took; takes no memory
   std::vector<Ball>& mutable_cages() { return cages_; }
 
  private:

@@ -47,9 +47,9 @@ class Chains {
   static Chains from_molecules(Span<const std::int32_t> molecules);
 
   /// Adds a chain, beads in order along it.
-  /// @throws InvalidParameter, leaving the chains as they were, for no bead, an index outside [0, particles),
-  /// a bead
-  ///   that repeats or stands in another chain already, and a ring of fewer than three beads.
+  /// @throws InvalidParameter for no bead, an index outside [0, particles), a bead that repeats or stands in
+  ///   another chain already, and a ring of fewer than three beads. After a throw the chains are as they
+  ///   were.
   void add(Span<const std::int32_t> beads, bool closed = false);
 
   /// Chains over `particles` particles, none yet; see add().

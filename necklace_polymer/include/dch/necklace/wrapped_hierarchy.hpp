@@ -76,6 +76,9 @@ class WrappedHierarchy : public CageHierarchy {
     double travelled = 0;  ///< no bead of the cage has moved farther since then
   };
 
+  void find_bases(Span<const Vec3> positions, const Box& box);
+  void repair_bases(Span<const Vec3> positions, const Box& box);
+  void forget();
   EnclosingBall of_leaf(const ChainTrees::Node& node) const;
   EnclosingBall of_children(std::int32_t k) const;
   void repair(std::int32_t k, EnclosingBall found, Verification verification);
