@@ -81,16 +81,17 @@ class CandidateBuffer {
   double distance2(std::size_t k) const { return distance2_[k]; }
 
  private:
+  /// All arrays are as wide before capacity_ says so, since memory may run out at any of them.
   void grow() {
     const std::size_t wider = 2 * capacity_ + 64;
     std::vector<double> data(3 * wider);
+    distance2_.resize(wider);
+    node_.resize(wider);
+    hit_.resize(wider);
     for (std::size_t axis = 0; axis < 3; ++axis)
       std::copy_n(data_.data() + axis * capacity_, size_, data.data() + axis * wider);
     data_.swap(data);
     capacity_ = wider;
-    distance2_.resize(wider);
-    node_.resize(wider);
-    hit_.resize(wider);
   }
 
   std::size_t size_ = 0, capacity_ = 0;

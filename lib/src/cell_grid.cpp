@@ -55,6 +55,14 @@ std::int32_t floor_to_integer(double x) {
 
 }  // namespace
 
+void CellNumbering::clear() {
+  dense_ = true;
+  low_ = {1, 1, 1};
+  high_ = {0, 0, 0};
+  cells_.clear();
+  buckets_.clear();
+}
+
 void CellNumbering::reset(std::size_t points, CellCoordinates low, CellCoordinates high) {
   low_ = low;
   high_ = high;
@@ -138,7 +146,7 @@ void CellGrid::clear() {
   position_.clear();
   point_.clear();
   first_.assign(1, 0);
-  numbering_.reset(0, {0, 0, 0}, {0, 0, 0});
+  numbering_.clear();
 }
 
 void CellGrid::build(Span<const Vec3> wrapped, const Box& box, double width) {

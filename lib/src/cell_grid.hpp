@@ -19,7 +19,9 @@ class CellNumbering {
  public:
   static constexpr std::int32_t kNone = -1;
 
-  /// Forgets all cells; those to come have coordinates within [low, high].
+  /// Forgets all cells.
+  void clear();
+  /// The same; those to come have coordinates within [low, high].
   void reset(std::size_t points, CellCoordinates low, CellCoordinates high);
   /// Number of a cell, which exists from now on.
   std::int32_t insert(CellCoordinates c);
@@ -44,7 +46,7 @@ class CellGrid {
   /// Cells are at least `width` wide between opposite faces (a box narrower than that has one cell there).
   /// `wrapped` are positions that Box::wrap has put into the cell.
   void build(Span<const Vec3> wrapped, const Box& box, double width);
-  void clear();
+  void clear();  ///< takes no memory
 
   std::int32_t cells() const { return numbering_.count(); }
   /// The points of a cell: places first_place(cell) up to first_place(cell + 1).

@@ -37,6 +37,7 @@ class CellSearch final : public PairSearch {
 
  private:
   void clear();
+  void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
   void find_pairs_by_shifts(const detail::PairFilter& filter);
   void find_pairs_by_nearest_images(const detail::PairFilter& filter);
   void gather(std::int32_t cell, Vec3 shift);
@@ -67,6 +68,19 @@ void CellSearch::clear() {
 void CellSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
   const auto start = std::chrono::steady_clock::now();
   clear();
+  try {
+    take(positions, box, keys);
+  } catch (...) {
+    clear();
+    throw;
+  }
+  ++stats_.updates;
+  ++stats_.builds;
+  stats_.maintain_seconds += seconds_since(start);
+  stats_.memory_bytes = memory_bytes();
+}
+
+void CellSearch::take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
   if (!keys.empty()) key_table_.fill(positions.size(), keys);  // throws if they repeat
   detail::check_radius(radius_, box);
   const double reach = detail::check_positions(positions, box);
@@ -78,24 +92,21 @@ void CellSearch::update(Span<const Vec3> positions, const Box& box, Span<const s
   grid_.build(wrapped_, box, (radius_ + wrap_error_) / divisions_);
   positions_.assign(positions.begin(), positions.end());
   box_ = box;
-
-  ++stats_.updates;
-  ++stats_.builds;
-  stats_.maintain_seconds += seconds_since(start);
-  stats_.memory_bytes = memory_bytes();
 }
 
 void CellSearch::list(const ListParams& params, NeighborList& out) {
   const auto start = std::chrono::steady_clock::now();
   detail::check_list_params(params, positions_.size(), radius_);
-  const detail::PairFilter filter(positions_, box_, params, wrap_error_ + params.cutoff_error());
-  pairs_.clear();
-  if (grid_.separates_images(divisions_)) {
-    find_pairs_by_shifts(filter);
-  } else {
-    find_pairs_by_nearest_images(filter);
-  }
-  assembler_.assemble(positions_.size(), params.kind, params.first_ghost, pairs_, out);
+  detail::make_or_empty({&out}, [&] {
+    const detail::PairFilter filter(positions_, box_, params, wrap_error_ + params.cutoff_error());
+    pairs_.clear();
+    if (grid_.separates_images(divisions_)) {
+      find_pairs_by_shifts(filter);
+    } else {
+      find_pairs_by_nearest_images(filter);
+    }
+    assembler_.assemble(positions_.size(), params.kind, params.first_ghost, pairs_, out);
+  });
   stats_.list_seconds += seconds_since(start);
   stats_.memory_bytes = memory_bytes();
 }

@@ -23,7 +23,6 @@ constexpr std::int32_t kSearchesPerOrder = 8;
 template <class Metric>
 void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
   nodes_.assign(static_cast<std::size_t>(scene.nodes.size()), Node());
-  std::swap(cuts_, last_cuts_);
   cuts_.of_node.assign(nodes_.size(), Cut());
   std::int32_t clusters = 0;
   for (std::int32_t k = 0; k < scene.nodes.size(); ++k) {

@@ -127,7 +127,7 @@ class ClusterPairFinder {
   bool drops_types_ = false;  ///< whether some pair of types has no cutoff
   float limit2_ = 0;          ///< squared reach with its margin
   std::vector<Node> nodes_;
-  Cuts cuts_, last_cuts_;              ///< of this search and of the one before
+  Cuts cuts_, last_cuts_;              ///< of this search, and of the last one that came to its end
   Boxes boxes_;                        ///< of all clusters, each relative to its node
   std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost

@@ -183,6 +183,7 @@ void ClusterPoints::name(const PointBlocks& from, const ParticleNames& names, co
                       params.types.data()};
   const bool sizes_are_known = names.version != 0 || filter.by() == PairFilter::By::one_cutoff;
   if (named_ && sizes_are_known && naming == naming_) return;
+  named_ = false;
   const auto all = static_cast<std::size_t>(blocks);
   ids.resize(all);
   owned.resize(all);

@@ -57,6 +57,8 @@ void DchSearch::by_index(Span<const Vec3> positions, const Box& box) {
 }
 
 void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  // The hierarchy may have lost its points in a list or a repair that was not finished.
+  if (hierarchy_.size() != names_.size()) state_ = State::empty;
   const bool are_as_before = state_ == State::keyed && keys.size() == positions.size() &&
                              std::equal(keys.begin(), keys.end(), names_.begin(), names_.end());
   if (are_as_before) {

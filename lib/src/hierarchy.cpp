@@ -82,6 +82,21 @@ std::int32_t Hierarchy::Impl::node_of(std::int32_t id, int level) const {
   return node;
 }
 
+/// The smallest id that no point has.
+std::int32_t Hierarchy::Impl::take_free_id() {
+  std::int32_t id;
+  if (free_ids.empty()) {
+    id = static_cast<std::int32_t>(slot_of_id.size());
+    slot_of_id.push_back(kNone);
+    raw.emplace_back();
+  } else {
+    std::pop_heap(free_ids.begin(), free_ids.end(), std::greater<>());
+    id = free_ids.back();
+    free_ids.pop_back();
+  }
+  return id;
+}
+
 std::size_t Hierarchy::Impl::memory_bytes() const {
   std::size_t bytes =
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
@@ -146,12 +161,7 @@ Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
 
 void Hierarchy::build(Span<const Vec3> positions, const Box& box) {
-  try {
-    impl_->build(positions, box);
-  } catch (...) {
-    impl_->reset(Box());
-    throw;
-  }
+  impl_->change_or_empty([&] { impl_->build(positions, box); });
 }
 
 void Hierarchy::update(Span<const Vec3> positions, const Box& box) {
@@ -169,20 +179,14 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
                            " to look near of");
   Impl& h = *impl_;
   h.repair_if_pending();
-  h.largest_reach = std::max(h.largest_reach, reach);
-  h.note_new_places();
-  std::int32_t id;
-  if (h.free_ids.empty()) {
-    id = static_cast<std::int32_t>(h.slot_of_id.size());
-    h.slot_of_id.push_back(kNone);
-    h.raw.push_back(position);
-  } else {
-    std::pop_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
-    id = h.free_ids.back();
-    h.free_ids.pop_back();
-  }
-  with_metric(h.box, [&](const auto& metric) {
-    h.insert(metric, id, position, near == kNone ? Impl::Hint{} : h.lowest_node(near));
+  std::int32_t id = kNone;
+  h.change_or_empty([&] {
+    h.largest_reach = std::max(h.largest_reach, reach);
+    h.note_new_places();
+    id = h.take_free_id();
+    with_metric(h.box, [&](const auto& metric) {
+      h.insert(metric, id, position, near == kNone ? Impl::Hint{} : h.lowest_node(near));
+    });
   });
   ++h.stats.inserted;
   return id;
@@ -192,10 +196,12 @@ void Hierarchy::remove(std::int32_t id) {
   if (!contains(id)) throw InvalidParameter("remove(): there is no point with id " + std::to_string(id));
   Impl& h = *impl_;
   h.repair_if_pending();
-  h.note_new_places();
-  with_metric(h.box, [&](const auto& metric) { h.remove(metric, id); });
-  h.free_ids.push_back(id);
-  std::push_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
+  h.change_or_empty([&] {
+    h.note_new_places();
+    with_metric(h.box, [&](const auto& metric) { h.remove(metric, id); });
+    h.free_ids.push_back(id);
+    std::push_heap(h.free_ids.begin(), h.free_ids.end(), std::greater<>());
+  });
   ++h.stats.removed;
 }
 

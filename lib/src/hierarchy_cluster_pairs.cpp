@@ -25,12 +25,17 @@ void Hierarchy::Impl::cluster_pairs(const ListParams& request, ClusterPairs& out
     throw InvalidParameter("cutoff + skin = " + detail::describe(radius) +
                            " is outside 1e-9..1e9, where cluster pairs hold coordinates in single precision; "
                            "use another unit of length, or a neighbor list");
-  const double reach = radius + prepare_for_lists();
-  detail::with_metric(box, [&](const auto& metric) {
-    using Scene = detail::ClusterPairFinder::Scene<std::decay_t<decltype(metric)>>;
-    pair_finder.find(Scene{metric, box, levels[1], points, raw, request, reach}, params.executor, out);
-  });
-  out.refresh(raw, box);
+  try {
+    const double reach = radius + prepare_for_lists();
+    detail::with_metric(box, [&](const auto& metric) {
+      using Scene = detail::ClusterPairFinder::Scene<std::decay_t<decltype(metric)>>;
+      pair_finder.find(Scene{metric, box, levels[1], points, raw, request, reach}, params.executor, out);
+    });
+    out.refresh(raw, box);
+  } catch (...) {
+    out = ClusterPairs();
+    throw;
+  }
   stats.list_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

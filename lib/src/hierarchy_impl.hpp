@@ -135,8 +135,20 @@ struct Hierarchy::Impl {
 
   // hierarchy.cpp: whole-structure operations
   void reset(const Box& b);
+  /// Runs what changes the structure. If that throws, nothing is left of it: an empty hierarchy, for which
+  /// reset() takes no memory.
+  template <class Change>
+  void change_or_empty(const Change& change) {
+    try {
+      change();
+    } catch (...) {
+      reset(Box());
+      throw;
+    }
+  }
   void push_level();
   void pop_level();
+  std::int32_t take_free_id();
   std::int32_t node_of(std::int32_t id, int level) const;
   std::size_t memory_bytes() const;
 

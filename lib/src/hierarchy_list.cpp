@@ -17,9 +17,11 @@ double Hierarchy::Impl::prepare_for_lists() {
   const double wrap_error = detail::WrapError(box).bound(largest_reach);
   with_metric(box, [&](const auto& metric) {
     if (wrap_error > wrap_slack) {  // points inserted since the last update lie much farther out
-      set_wrap_slack();
-      refresh_centers(metric);
-      repair(metric, 0);
+      change_or_empty([&] {
+        set_wrap_slack();
+        refresh_centers(metric);
+        repair(metric, 0);
+      });
     }
     measure(metric);
   });
@@ -39,10 +41,12 @@ void Hierarchy::Impl::lists(Span<const ListParams> requests, const std::vector<N
     reach = std::max(reach, request.list_radius());
     host_error = std::max(host_error, request.cutoff_error());
   }
-  const double error = prepare_for_lists() + host_error;
-  const detail::ListScene scene{box,   {list_source({})}, {(reach + error) * (1 + 1e-12)},
-                                error, params.executor,   lone_points()};
-  list_finder.find(scene, raw, requests, out);
+  detail::make_or_empty(out, [&] {
+    const double error = prepare_for_lists() + host_error;
+    const detail::ListScene scene{box,   {list_source({})}, {(reach + error) * (1 + 1e-12)},
+                                  error, params.executor,   lone_points()};
+    list_finder.find(scene, raw, requests, out);
+  });
   stats.list_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

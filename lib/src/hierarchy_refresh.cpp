@@ -144,10 +144,12 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
 
 void Hierarchy::Impl::repair_if_pending() {
   if (!pending) return;
-  set_wrap_slack();
-  with_metric(box, [&](const auto& metric) {
-    refresh_centers(metric);
-    repair(metric, 0);
+  change_or_empty([&] {
+    set_wrap_slack();
+    with_metric(box, [&](const auto& metric) {
+      refresh_centers(metric);
+      repair(metric, 0);
+    });
   });
 }
 

@@ -24,8 +24,8 @@ class KeyTable {
                              std::to_string(n) + " positions; give one for each, or none");
     std::size_t buckets = 16;
     while (buckets < 2 * keys.size()) buckets *= 2;
-    mask_ = buckets - 1;
     entries_.assign(buckets, {0, kAbsent});
+    mask_ = buckets - 1;
     for (std::size_t i = 0; i < keys.size(); ++i) {
       Entry& entry = entries_[slot_of(keys[i])];
       if (entry.index != kAbsent)

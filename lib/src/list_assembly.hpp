@@ -10,6 +10,23 @@
 
 namespace dch::detail {
 
+/// Makes lists with `make`, which are empty if that throws.
+template <class Make>
+void make_or_empty(const std::vector<NeighborList*>& lists, const Make& make) {
+  for (NeighborList* list : lists) list->first.assign(1, 0);  // whatever lists there are, first has room then
+  try {
+    make();
+  } catch (...) {
+    for (NeighborList* list : lists) {
+      list->first.assign(1, 0);
+      list->particle.clear();
+      list->near_end.clear();
+      list->j.clear();
+    }
+    throw;
+  }
+}
+
 /// Pairs that an engine found, each once, in any order; the engine keeps the buffer so that its memory is
 /// reused.
 class PairBuffer {

@@ -117,9 +117,10 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   std::int32_t most = 0;
   for (const BlockRange& range : ranges) most += range.count;
   const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk)) + kChunk;
-  if (block_.size() < blocks) {
+  if (block_room_ < blocks) {
     block_.resize(blocks);
     valid_.resize(blocks / kBlocksInChunk);
+    block_room_ = blocks;
   }
   range_end_.resize(std::max(range_end_.size(), ranges.size()));
 
@@ -188,6 +189,7 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
                           near - before, test.near.at(0));
       if (part.owned) before += points.count[own];
     }
+    open_count_ = 0;  // there may be some of a list that was not finished
     for (std::int32_t own = first; own < last; ++own) {
       test_block(request, points, own, tests_[own - first]);
       note_open_pairs(request, points, own, tests_[own - first]);
@@ -204,13 +206,14 @@ void RowFinder::make_room_for_tests(std::int32_t count) {
   tests_.resize(kGroup);
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
   const std::size_t entries = room / kChunk * std::size_t{kBlock};
-  if (unsettled_.size() >= entries) return;
+  if (test_room_ >= entries) return;
   unsettled_.resize(entries);
   for (BlockTest& test : tests_) {
     test.near.make_room(room);
     test.mask.resize(entries);
     test.near_mask.resize(entries);
   }
+  test_room_ = entries;
 }
 
 /// Tests a block against the candidates near it.
@@ -299,7 +302,6 @@ void RowFinder::note_open_pairs(const Request& request, const ClusterPoints& poi
 void RowFinder::settle(const PairFilter& filter) {
   for (std::size_t k = 0; k < open_count_; ++k)
     if (filter.accept(open_[k].i, open_[k].j)) *open_[k].mask |= open_[k].bit;
-  open_count_ = 0;
 }
 
 /// Whom the points of blocks [first, last) are excluded with is likely in no cache: asked for together.

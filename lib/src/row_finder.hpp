@@ -49,7 +49,7 @@ class RowFinder {
   using PairLimits = ListLimits::PairLimits;
   struct CandidateStore {
     AlignedVector<std::int16_t> x, y, z, tag;
-    AlignedVector<std::int32_t> id;
+    AlignedVector<std::int32_t> id;  ///< grows last: the others have room for as many at least
     Candidates at(std::int32_t k);
     void make_room(std::size_t count);
     std::size_t memory_bytes() const;
@@ -116,10 +116,12 @@ class RowFinder {
   const ListKernels* kernels_ = nullptr;
   std::vector<std::vector<BlockRange>> ranges_;  ///< by source: blocks of clusters near the cluster
   std::vector<std::int32_t> block_, range_end_;
+  std::size_t block_room_ = 0;  ///< blocks that block_ and valid_ have room for
   CandidateStore around_part_, around_request_, around_group_;
   std::vector<Unsettled> unsettled_;
   std::vector<std::uint32_t> valid_;
   std::vector<BlockTest> tests_;  ///< of the blocks that are looked at together
+  std::size_t test_room_ = 0;     ///< masks that each of them and unsettled_ have room for
   std::vector<OpenPair> open_;    ///< and room for more
   std::size_t open_count_ = 0;
 };

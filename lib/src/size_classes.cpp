@@ -89,14 +89,15 @@ bool SizeRecord::says_the_same(Span<const ListParams> requests) const {
 }
 
 void SizeRecord::keep(Span<const ListParams> requests) {
-  each_.clear();
+  std::vector<Request> each;
   for (const ListParams& request : requests) {
-    const bool known = !each_.empty() && has_sizes_of(request, requests[0]);
-    each_.push_back({request.skin, request.cutoffs, {}, {}, known});
+    const bool known = !each.empty() && has_sizes_of(request, requests[0]);
+    each.push_back({request.skin, request.cutoffs, {}, {}, known});
     if (known) continue;
-    each_.back().radii.assign(request.radii.begin(), request.radii.end());
-    each_.back().types.assign(request.types.begin(), request.types.end());
+    each.back().radii.assign(request.radii.begin(), request.radii.end());
+    each.back().types.assign(request.types.begin(), request.types.end());
   }
+  each_.swap(each);
 }
 
 std::size_t SizeRecord::memory_bytes() const {

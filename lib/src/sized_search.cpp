@@ -46,7 +46,7 @@ SizedSearch::SizedSearch(const HierarchyParams& params) : params_(params) {
 }
 
 void SizedSearch::clear() {
-  for (const Group& group : groups_) retire(*group.search);
+  for (const Group& group : groups_) retire(group);
   groups_.clear();
   sizes_.forget();
   positions_.clear();
@@ -54,7 +54,10 @@ void SizedSearch::clear() {
   stale_ = false;
 }
 
-void SizedSearch::retire(const DchSearch& search) { add(search.stats(), retired_); }
+/// Counts what the search of a group did, if it has one.
+void SizedSearch::retire(const Group& group) {
+  if (group.search) add(group.search->stats(), retired_);
+}
 
 void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
   const auto start = Clock::now();
@@ -63,12 +66,12 @@ void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const 
     check_radius(params_.radius, box);
     if (!keys.empty()) key_table_.fill(positions.size(), keys);
     if (keys.empty() != keys_.empty() || (keys.empty() && positions.size() != positions_.size())) clear();
+    positions_.assign(positions.begin(), positions.end());
+    keys_.assign(keys.begin(), keys.end());
   } catch (...) {
     clear();
     throw;
   }
-  positions_.assign(positions.begin(), positions.end());
-  keys_.assign(keys.begin(), keys.end());
   box_ = box;
   stale_ = true;
   ++updates_;
@@ -89,10 +92,17 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
   host_error_ = 0;
   for (const ListParams& request : requests) host_error_ = std::max(host_error_, request.cutoff_error());
   classify(requests);
-  bring_up_to_date();
-  maintain_seconds_ += seconds_since(start);
+  make_or_empty(out, [&] {
+    bring_up_to_date();
+    maintain_seconds_ += seconds_since(start);
+    const auto listing = Clock::now();
+    list_finder_.find(scene(), positions_, requests, out);
+    list_seconds_ += seconds_since(listing);
+  });
+}
 
-  const auto listing = Clock::now();
+/// The hierarchies of all groups, which are up to date.
+ListScene SizedSearch::scene() {
   double error = 0;
   std::vector<ListSource> sources;
   for (Group& group : groups_) {
@@ -104,8 +114,7 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
   error += host_error_;
   ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
   for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
-  list_finder_.find(scene, positions_, requests, out);
-  list_seconds_ += seconds_since(listing);
+  return scene;
 }
 
 /// Checks the requests and sorts the particles into classes, unless sizes are what they were.
@@ -126,16 +135,16 @@ void SizedSearch::classify(Span<const ListParams> requests) {
   if (are_known && can_be_told_apart == told_apart_) return;
   sizes_.forget();
   classes_ = SizeClasses(requests, positions_.size(), can_be_told_apart);
-  sizes_.keep(requests);
   told_apart_ = can_be_told_apart;
   ++names_version_;
   assign_particles();
+  sizes_.keep(requests);  // last, when all goes by them
 }
 
 /// Each group gets the particles of its class, in their order.
 void SizedSearch::assign_particles() {
   while (groups_.size() > classes_.count) {
-    retire(*groups_.back().search);
+    retire(groups_.back());
     groups_.pop_back();
   }
   groups_.resize(classes_.count);
@@ -163,12 +172,15 @@ void SizedSearch::bring_up_to_date() {
         reach > 0 ? reach + host_error_ : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
     const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
+    // It may have got no points yet, or lost them, in a list that was not finished.
+    group.is_new |= group.search && group.search->hierarchy().size() != group.particle.size();
     if (!group.search || !fits || (group.is_new && keys_.empty())) {
-      if (group.search) retire(*group.search);
       HierarchyParams own = params_;
       own.radius = wanted;
       own.fold_lone_points = false;  // they may have neighbors in other classes
-      group.search = std::make_unique<DchSearch>(own);
+      auto search = std::make_unique<DchSearch>(own);
+      retire(group);
+      group.search = std::move(search);
     } else if (!stale_ && !group.is_new) {
       continue;
     }
@@ -185,6 +197,7 @@ const SearchStats& SizedSearch::stats() const {
                         classes_.of.capacity() * sizeof(std::int32_t) + sizes_.memory_bytes() +
                         list_finder_.memory_bytes();
   for (const Group& group : groups_) {
+    if (!group.search) continue;
     const SearchStats& own = group.search->stats();
     add(own, stats_);
     stats_.levels = std::max(stats_.levels, own.levels);

@@ -45,11 +45,12 @@ class SizedSearch final : public PairSearch {
 
   void clear();
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  ListScene scene();
   void classify(Span<const ListParams> requests);
   void assign_particles();
   void take_positions(Group& group) const;
   void bring_up_to_date();
-  void retire(const DchSearch& search);
+  void retire(const Group& group);
 
   HierarchyParams params_;
   Box box_;

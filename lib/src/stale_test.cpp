@@ -21,10 +21,10 @@ bool StaleTest::is_stale(Span<const Vec3> positions, const Box& box) const {
 }
 
 void StaleTest::remember(Span<const Vec3> positions, const Box& box) {
+  valid_ = false;  // until all of it has changed
   reference_.assign(positions.begin(), positions.end());
   for (Vec3& p : reference_) p = box.wrap(p);
   reference_box_ = box;
-  valid_ = true;
 
   std::array<Vec3, 3> given{};
   std::array<std::size_t, 3> axes{};
@@ -41,6 +41,7 @@ void StaleTest::remember(Span<const Vec3> positions, const Box& box) {
       combinations_[k][axes[l]] = std::nearbyint(dot(dual[l], box.reduced()[k]));
     }
   }
+  valid_ = true;
 }
 
 std::array<Vec3, 3> StaleTest::periods(const Box& box) const {

@@ -156,7 +156,8 @@ struct ClusterPairs {
   /// taken to have moved less than half the smallest height since the last time. The pairs stay complete as
   /// long as StaleTest's condition holds. O(n), a few nanoseconds a particle.
   /// @throws InvalidParameter for another number of positions, InvalidBox for another periodicity,
-  ///   InvalidPosition for a coordinate that is not finite.
+  ///   InvalidPosition for a coordinate that is not finite. After a throw the positions are of no time; the
+  ///   next ones may be taken all the same.
   /// @param executor threads to do it with; null for that of the caller
   void refresh(Span<const Vec3> positions, const Box& now, Executor* executor = nullptr);
 

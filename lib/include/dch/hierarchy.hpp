@@ -87,6 +87,14 @@ struct LevelInfo {
 /// Where this departs from the thesis's text (thresholds, repair order, forest roots) see docs/thesis-map.md.
 ///
 /// Points have ids: 0..n-1 after build(), and what insert() returns. Not thread-safe.
+///
+/// What is thrown for arguments that do not fit is thrown before anything changes, but build() and update()
+/// check positions when the old ones are given up. If anything else is thrown (std::bad_alloc, what a
+/// PairTest or an Executor throws), build(), update(), repair(), insert() and remove() leave the hierarchy
+/// empty, without points until the next build(); renumber() leaves it as it was. list(), lists() and
+/// cluster_pairs() leave it as it was too (empty only where they had to repair it first, since points
+/// inserted since update() lie much farther out than all others), and what they were to write is empty or as
+/// it was.
 class Hierarchy {
  public:
   /// @throws InvalidParameter for a radius or c out of range, or max_roots < 1.
@@ -107,7 +115,8 @@ class Hierarchy {
   /// up to date by black-box repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement,
   /// O(n + k lg alpha) for k changes; or a build, as the policy decides. Entries of ids that were removed are
   /// ignored.
-  /// @throws InvalidParameter if the number of positions is not capacity(); as build() otherwise.
+  /// @throws InvalidParameter, changing nothing, if the number of positions is not capacity(); as build()
+  ///   otherwise.
   void update(Span<const Vec3> positions, const Box& box);
 
   /// Whether points have moved since the structure was last in order. Parents and edges then are those of

@@ -56,7 +56,8 @@ struct PairList {
 /// Makes a PairList of the pairs of a half list at the positions that the list is of. Those of a list with a
 /// shell (ListParams::shell) are sorted by it, near ones first in each group: kernels, which look at several
 /// at once, are done faster with those where nothing acts. `out` is overwritten;
-/// its memory is used again. From then on particles may leave the cell, but not be wrapped into it. O(pairs).
+/// its memory is used again, and it is empty after a throw. From then on particles may leave the cell, but
+/// not be wrapped into it. O(pairs).
 /// @param accept called as accept(i, j) for every pair; those that it refuses are left out
 /// @param list_radius cutoff + skin of the list [length]
 /// @param types by particle, or none if there is one type
@@ -98,7 +99,7 @@ class PairListMaker {
 
 template <class Accept>
 void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,
-                    Span<const std::int32_t> types, const Accept& accept, PairList& out) {
+                    Span<const std::int32_t> types, const Accept& accept, PairList& out) try {
   detail::PairListMaker maker(list, list_radius, positions, box, types, out);
   const auto take = [&](std::size_t row, std::int64_t first, std::int64_t last) {
     const std::int32_t i = list.particle.empty() ? static_cast<std::int32_t>(row) : list.particle[row];
@@ -113,6 +114,9 @@ void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec
   for (std::size_t row = 0; has_shell && row < list.size(); ++row)
     take(row, list.near_end[row], list.first[row + 1]);
   maker.finish();
+} catch (...) {
+  out = PairList();
+  throw;
 }
 
 }  // namespace dch

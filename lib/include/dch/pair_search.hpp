@@ -53,7 +53,8 @@ class PairSearch {
 
   /// All pairs that params asks for, at the positions of the last update.
   /// @throws InvalidParameter if params.list_radius() exceeds the radius the engine was made for, for a
-  ///   negative or non-finite skin, and for types or exclusions that do not fit the particles.
+  ///   negative or non-finite skin, and for types or exclusions that do not fit the particles. After any
+  ///   throw the particles are there as before, and `out` is empty or as it was.
   virtual void list(const ListParams& params, NeighborList& out) = 0;
   NeighborList list(const ListParams& params) {
     NeighborList out;

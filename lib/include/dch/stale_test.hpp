@@ -30,7 +30,7 @@ class StaleTest {
   /// remembered. O(n).
   bool is_stale(Span<const Vec3> positions, const Box& box) const;
 
-  /// Takes positions and the box that pairs are being found for.
+  /// Takes positions and the box that pairs are being found for. After a throw none are remembered.
   void remember(Span<const Vec3> positions, const Box& box);
   void forget() { valid_ = false; }
 

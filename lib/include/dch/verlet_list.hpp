@@ -22,7 +22,7 @@ class VerletList {
   }
 
   /// Rebuilds the list if it is stale; says whether it did.
-  /// @throws as PairSearch::update and PairSearch::list; the list is then stale.
+  /// @throws as PairSearch::update and PairSearch::list; the list is then stale, whatever it holds.
   bool update(Span<const Vec3> positions, const Box& box);
 
   const NeighborList& list() const { return list_; }
