@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <exception>
+#include <gtest/gtest.h>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <dch/error.hpp>
+
+#include "failing_memory.hpp"
+
+namespace dch::faults {
+
+struct SweepResult {
+  long failures = 0;                ///< calls during which an allocation failed
+  std::vector<std::string> faults;  ///< what was wrong afterwards
+};
+
+/// How a call ended.
+enum class Ending { returned, threw };
+
+/// Makes a call again and again, each time with the next one of its allocations failing, until none does.
+/// @param make returns what the call is made on, each time afresh
+/// @param call the call, as call(subject)
+/// @param fault_of as fault_of(subject, ending): with memory there again, what is wrong, in words; empty if
+///   nothing is
+template <class Make, class Call, class FaultOf>
+SweepResult sweep(const Make& make, const Call& call, const FaultOf& fault_of) {
+  constexpr std::size_t kEnough = 5;  // faults to know
+  SweepResult result;
+  for (const Shortage shortage : {Shortage::once, Shortage::lasting}) {
+    bool has_failed = true;
+    for (long k = 0; has_failed && result.faults.size() < kEnough; ++k) {
+      auto subject = make();
+      std::string fault;
+      Ending ending = Ending::threw;
+      {
+        const FailingMemory memory(k, shortage);
+        try {
+          call(subject);
+          ending = Ending::returned;
+        } catch (const std::bad_alloc&) {
+        } catch (const Error&) {
+        } catch (const std::exception&) {
+          fault = "it threw neither bad_alloc nor Error";
+        }
+        has_failed = memory.has_failed();
+      }
+      if (fault.empty() && ending == Ending::threw && !has_failed) fault = "it threw, though nothing failed";
+      if (fault.empty()) fault = fault_of(subject, ending);
+      result.failures += has_failed;
+      if (!fault.empty())
+        result.faults.push_back("allocation " + std::to_string(k) +
+                                (shortage == Shortage::once ? ": " : " and all after it: ") + fault);
+    }
+  }
+  return result;
+}
+
+/// Has a test fail if something was wrong, or if so few calls failed that the sweep shows little.
+inline void expect_sound(const SweepResult& result, long least_failures) {
+  for (const std::string& fault : result.faults) ADD_FAILURE() << fault;
+  EXPECT_GE(result.failures, least_failures);
+  ::testing::Test::RecordProperty("failures", std::to_string(result.failures));
+}
+
+}  // namespace dch::faults
