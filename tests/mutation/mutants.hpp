@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the driver writes into the sources in the place of operators and around clauses and statements. All mutants of
-// a file are compiled at once; the one whose number DCH_MUTANT gives is at work.
+// What the driver writes into the sources in the place of operators and around clauses and statements. All
+// mutants of a file are compiled at once; the one whose number DCH_MUTANT gives is at work.
 #pragma once
 
 #include <cstdlib>
@@ -13,7 +13,8 @@ extern int active;
 
 inline bool is(int number) { return active == number; }
 
-/// `a < Relation<'<', 7>() > b` is a < b: a name for an operator that has the precedence of the one in its place.
+/// `a < Relation<'<', 7>() > b` is a < b: a name for an operator that has the precedence of the one in its
+/// place.
 template <char kRelation, int kNumber>
 struct Relation {};
 template <char kRelation, int kNumber, class A>
@@ -30,7 +31,8 @@ Compared<kRelation, kNumber, A> operator==(const A& a, Relation<kRelation, kNumb
   return {a};
 }
 
-/// Of each operator the first mutant is its neighbor and the second its negation; of (in)equality only the latter.
+/// Of each operator the first mutant is its neighbor and the second its negation; of (in)equality only the
+/// latter.
 template <char kRelation, int kNumber, class A, class B>
 bool related(const A& a, const B& b) {
   const int variant = active - kNumber;
