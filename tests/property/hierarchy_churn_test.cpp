@@ -59,8 +59,9 @@ class HierarchyChurn : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(HierarchyChurn, ValidUnderInsertionsAndRemovals) {
   const Box box = GetParam().box;
-  const auto operations = static_cast<std::size_t>(effort(600));
-  for (const auto& params : {params_with(EdgeRule::additive, 16), params_with(EdgeRule::thesis, 1)}) {
+  const auto operations = static_cast<std::size_t>(effort(300));
+  for (const auto& params : {params_with(EdgeRule::additive, 16), params_with(EdgeRule::additive, 1),
+                             params_with(EdgeRule::thesis, 16), params_with(EdgeRule::thesis, 1)}) {
     scenes::Random random(3);
     const std::vector<Vec3> pool = scenes::uniform_in(box, 100 + operations, 17);
     Hierarchy hierarchy(params);
@@ -99,25 +100,27 @@ TEST_P(HierarchyChurn, ValidUnderInsertionsAndRemovals) {
 
 TEST_P(HierarchyChurn, ValidUnderMotionBetweenInsertionsAndRemovals) {
   const Box box = GetParam().box;
-  scenes::Random random(8);
-  HierarchyParams params = params_with(EdgeRule::additive, 1);
-  params.policy = MaintenancePolicy::always_repair;
-  Hierarchy hierarchy(params);
-  hierarchy.build(scenes::uniform_in(box, 200, 5), box);
-  for (int round = 0; round < effort(30); ++round) {
-    std::vector<Vec3> points(hierarchy.capacity());
-    for (std::size_t id = 0; id < points.size(); ++id)
-      if (hierarchy.contains(static_cast<std::int32_t>(id)))
-        points[id] = hierarchy.position(static_cast<std::int32_t>(id)) + random.in_cube(0.3);
-    hierarchy.update(points, box);
-    ASSERT_EQ(hierarchy.validate(), "") << "motion, round " << round;
-    for (int k = 0; k < 5; ++k) {
-      const auto id = static_cast<std::int32_t>(random.below(hierarchy.capacity()));
-      if (hierarchy.contains(id)) hierarchy.remove(id);
+  for (HierarchyParams params : {params_with(EdgeRule::additive, 1), params_with(EdgeRule::additive, 16),
+                                 params_with(EdgeRule::thesis, 1), params_with(EdgeRule::thesis, 16)}) {
+    scenes::Random random(8);
+    params.policy = MaintenancePolicy::always_repair;
+    Hierarchy hierarchy(params);
+    hierarchy.build(scenes::uniform_in(box, 200, 5), box);
+    for (int round = 0; round < effort(10); ++round) {
+      std::vector<Vec3> points(hierarchy.capacity());
+      for (std::size_t id = 0; id < points.size(); ++id)
+        if (hierarchy.contains(static_cast<std::int32_t>(id)))
+          points[id] = hierarchy.position(static_cast<std::int32_t>(id)) + random.in_cube(0.3);
+      hierarchy.update(points, box);
+      ASSERT_EQ(hierarchy.validate(), "") << "motion, round " << round;
+      for (int k = 0; k < 5; ++k) {
+        const auto id = static_cast<std::int32_t>(random.below(hierarchy.capacity()));
+        if (hierarchy.contains(id)) hierarchy.remove(id);
+      }
+      for (const Vec3 p : scenes::uniform_in(box, 4, 100 + static_cast<std::uint64_t>(round)))
+        hierarchy.insert(p);
+      ASSERT_EQ(hierarchy.validate(), "") << "exchange, round " << round;
     }
-    for (const Vec3 p : scenes::uniform_in(box, 4, 100 + static_cast<std::uint64_t>(round)))
-      hierarchy.insert(p);
-    ASSERT_EQ(hierarchy.validate(), "") << "exchange, round " << round;
   }
 }
 

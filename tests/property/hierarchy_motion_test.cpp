@@ -24,8 +24,8 @@ TEST_P(HierarchyMotion, ValidAfterEveryRepair) {
     SCOPED_TRACE(factor);
     ASSERT_NO_FATAL_FAILURE(
         shake(scenes::uniform_in(box, 150, 31), box, repairing(), factor * r0(repairing()), 200, 77));
-    for (const HierarchyParams& params :
-         {repairing(EdgeRule::thesis, 1), repairing(EdgeRule::additive, 1, 2.0)})
+    for (const HierarchyParams& params : {repairing(EdgeRule::thesis, 1), repairing(EdgeRule::thesis, 16),
+                                          repairing(EdgeRule::additive, 1, 2.0)})
       ASSERT_NO_FATAL_FAILURE(
           shake(scenes::uniform_in(box, 150, 32), box, params, factor * r0(params), 30, 78));
   }
@@ -35,9 +35,10 @@ TEST_P(HierarchyMotion, DegenerateScenesStayValid) {
   const Box box = GetParam().box;
   for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 120, r0(repairing()))) {
     SCOPED_TRACE(scene.name);
-    for (const double factor : {0.01, 1.0, 30.0})
-      ASSERT_NO_FATAL_FAILURE(
-          shake(scene.points, box, repairing(EdgeRule::additive, 1), factor * r0(repairing()), 40, 5));
+    for (const HierarchyParams& params : {repairing(EdgeRule::additive, 1), repairing(EdgeRule::additive, 16),
+                                          repairing(EdgeRule::thesis, 1), repairing(EdgeRule::thesis, 16)})
+      for (const double factor : {0.01, 1.0, 30.0})
+        ASSERT_NO_FATAL_FAILURE(shake(scene.points, box, params, factor * r0(params), 12, 5));
   }
 }
 

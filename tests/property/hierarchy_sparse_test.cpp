@@ -40,7 +40,12 @@ std::vector<HierarchyParams> variants() {
   lazy.radius = kRadius;
   HierarchyParams unfolded = repairing();
   unfolded.fold_lone_points = false;
-  return {repairing(), repairing(EdgeRule::additive, 1), repairing(EdgeRule::thesis, 1), wide, lazy,
+  return {repairing(),
+          repairing(EdgeRule::additive, 1),
+          repairing(EdgeRule::thesis, 1),
+          repairing(EdgeRule::thesis, 16),
+          wide,
+          lazy,
           unfolded};
 }
 

@@ -187,6 +187,24 @@ TEST(StaleTest, RemembersOnePlaceUntilItForgets) {
   EXPECT_THROW(StaleTest(std::numeric_limits<double>::quiet_NaN()), InvalidParameter);
 }
 
+// Whichever axes they are, and whatever box was remembered before.
+TEST(StaleTest, OpenAxesAreLeftOut) {
+  const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  for (int open = 0; open < 3; ++open) {
+    const auto box_of = [&](double along, double across) {
+      Vec3 lengths{across, across, across};
+      lengths[open] = along;
+      return Box::orthorhombic(lengths, {open != 0, open != 1, open != 2});
+    };
+    StaleTest test(0.5);
+    test.remember(points, Box::orthorhombic({10, 10, 10}));
+    test.remember(points, box_of(10, 10));
+    EXPECT_FALSE(test.is_stale(points, box_of(77, 10))) << open;
+    EXPECT_FALSE(test.is_stale(points, box_of(10, 10.3))) << open;
+    EXPECT_TRUE(test.is_stale(points, box_of(10, 10.4))) << open << ", by 0.4 sqrt(2)";
+  }
+}
+
 TEST(VerletList, NeverMissesAPairBetweenRebuilds) {
   const double cutoff = 1.2, skin = 0.5;
   for (const auto& [name, box] : scenes::all_boxes(5)) {
