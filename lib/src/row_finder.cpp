@@ -322,7 +322,8 @@ void RowFinder::append_block(const Request& request, const ClusterPoints& points
   const std::int32_t rows = points.count[block];
   const std::array<std::int32_t, kBlock>& ids = points.ids[block];
   auto written = static_cast<std::size_t>(out.first.back());
-  const std::size_t most = written + std::size_t{kBlock * kChunk} * static_cast<std::size_t>(test.chunks) + kChunk;
+  const std::size_t most =
+      written + std::size_t{kBlock * kChunk} * static_cast<std::size_t>(test.chunks) + kChunk;
   if (out.j.size() < most) out.j.resize(most + most / 4);
   const std::size_t rows_before = out.particle.size();
   out.particle.insert(out.particle.end(), ids.begin(), ids.begin() + rows);
