@@ -201,6 +201,7 @@ std::vector<Case> extreme_cases() {
   std::vector<double> mixed(40, 1e-300);
   for (std::size_t k = 0; k < mixed.size(); k += 3) mixed[k] = 0.5;
   const std::string as_given = "the list of all pairs", contacts = "the contacts of all pairs";
+  const Box skewed = Box::triclinic({10, 0, 0}, {10 / 3.0, 10, 0}, {-2.5, 10 / 7.0, 10});
   std::vector<Case> cases;
   const auto add = [&](const std::string& name, const std::string& expected, auto run) {
     cases.push_back({"extremes", name, expected, run});
@@ -209,12 +210,10 @@ std::vector<Case> extreme_cases() {
   add("a box whose corner is at 1e12", as_given, [] {
     return as_all_pairs(Box::orthorhombic({9.1, 9.1, 9.1}, {true, true, true}, {1e12, -1e12, 1e12}), 1, 1e3);
   });
-  add("coordinates of 1e13 cutoffs in a skewed cell", as_given, [] {
-    return as_all_pairs(Box::triclinic({10, 0, 0}, {3, 10, 0}, {-2, 1, 10}), 1e-2, 1e10);
-  });
-  add("coordinates of 1e16 cutoffs in a skewed cell", as_given, [] {
-    return as_all_pairs(Box::triclinic({10, 0, 0}, {3, 10, 0}, {-2, 1, 10}), 1e-4, 1e11);
-  });
+  add("coordinates of 1e13 cutoffs in a skewed cell", as_given,
+      [skewed] { return as_all_pairs(skewed, 1e-2, 1e10); });
+  add("coordinates of 1e16 cutoffs in a skewed cell", as_given,
+      [skewed] { return as_all_pairs(skewed, 1e-4, 1e11); });
   add("points of a hierarchy back from 1e12 periods away", "valid", back_from_far_away);
   add("beads that are points", contacts, [] { return beads_of(std::vector<double>(40, 0.0)); });
   add("beads of 1e-300", contacts, [] { return beads_of(std::vector<double>(40, 1e-300)); });

@@ -72,12 +72,12 @@ TEST(PairFilter, DistancesAtTheCutoffInSpiteOfWrapping) {
 
 TEST(PairFilter, ErrorsLargerThanTheCutoffInventNoPairs) {
   // Wrapped images may coincide although the pair distance is farther than the cutoff.
-  const Box box = Box::triclinic({10, 0, 0}, {3, 10, 0}, {-2, 1, 10});
+  const Box box = Box::triclinic({10, 0, 0}, {10 / 3.0, 10, 0}, {-2.5, 10 / 7.0, 10});
   for (const double periods : {1e10, 1e11, 1e12}) {
     scenes::Random random(4);
     std::vector<Vec3> points;
-    for (int k = 0; k < 60; ++k) {
-      Vec3 p = random.in_ball(1e-4);
+    for (int k = 0; k < 120; ++k) {
+      Vec3 p = random.in_ball(2e-4);
       for (int axis = 0; axis < 3; ++axis)
         p = p + std::nearbyint(random.uniform(-periods, periods)) * box.vector(axis);
       points.push_back(p);

@@ -125,5 +125,23 @@ TEST(FarBoxes, HierarchyStaysValidWhenPointsComeBack) {
     }
 }
 
+// A class of particles whose radii are below the least list radius of a hierarchy.
+TEST(ExtremeSizes, ClassesOfAnyRatioGiveTheListOfAllPairs) {
+  std::vector<Vec3> points = scenes::uniform(90, {3, 3, 3}, 8);
+  points[1] = points[2];
+  std::vector<double> radii(points.size(), 1e-300);
+  for (std::size_t k = 0; k < radii.size(); k += 3) radii[k] = 0.5;
+  ListParams params;
+  params.radii = radii;
+  HierarchyParams structure;
+  structure.radius = params.list_radius();
+  structure.size_classes = true;
+  const auto search = make_dch_search(structure);
+  search->update(points, Box::none());
+  const NeighborList expected = all_pairs(points, Box::none(), params);
+  EXPECT_GT(expected.pairs(), 30);
+  EXPECT_EQ(first_difference(search->list(params), expected), "");
+}
+
 }  // namespace
 }  // namespace dch
