@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
 #include "usage_message.hpp"
+
+#include <gtest/gtest.h>
 
 namespace dch::cli {
 namespace {
@@ -20,7 +20,8 @@ TEST(ClosestWord, ForgivesSlipsOfTheFinger) {
 
 TEST(ClosestWord, SuggestsNothingFarFetched) {
   const std::vector<std::string> names{"info", "replay", "contacts", "convert", "generate", "help"};
-  for (const char* word : {"", "x", "foo", "frobnicate", "hierarchy"}) EXPECT_EQ(closest_word(word, names), "");
+  for (const char* word : {"", "x", "foo", "frobnicate", "hierarchy"})
+    EXPECT_EQ(closest_word(word, names), "");
   EXPECT_EQ(closest_word("info", {}), "");
 }
 
