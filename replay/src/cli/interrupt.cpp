@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <unistd.h>
+#include <utility>
 
 #include "exit_code.hpp"
 
@@ -54,7 +55,7 @@ void catch_interrupts() {
   }
 }
 
-UnfinishedFile::UnfinishedFile(const std::string& path) : path_(path) {
+UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)) {
   for (; slot_ < kMost; ++slot_) {
     const char* free_slot = nullptr;
     if (unfinished[slot_].compare_exchange_strong(free_slot, path_.c_str())) return;

@@ -20,7 +20,7 @@ void catch_interrupts();
 class UnfinishedFile {
  public:
   /// @throws std::logic_error for more than kMost files at once, which no subcommand writes.
-  explicit UnfinishedFile(const std::string& path);
+  explicit UnfinishedFile(std::string path);
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;

@@ -47,6 +47,9 @@ def check_files_beside_closed_streams(checks, command, data):
                 checks.that(json.load(file)["frames"] == 42, f"{streams}: the report")
             with h5py.File(os.path.join(folder, "lists.h5")) as file:
                 checks.that(len(file["frame"]) == 42, f"{streams}: the lists")
+            for line in ('"$0" convert "$1" out.h5 --quiet', '"$0" replay out.h5 --cutoff 8 --quiet'):  # with child processes
+                result = shell(command, f'cd "$2" && {line} {streams}', polymer, folder)
+                checks.that(result.returncode == 0, f"{line} {streams}: status {result.returncode}")
 
 
 def check_unwritable_results(checks, command, data):
