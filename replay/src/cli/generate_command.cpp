@@ -10,6 +10,7 @@
 #include "exit_code.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
+#include "output_file.hpp"
 
 namespace dch::cli {
 namespace {
@@ -30,8 +31,12 @@ int run(const MeltWords& words) {
                                 {0, 10, true, "the number of beads per volume of one bead diameter cubed"});
   params.seed = static_cast<std::uint64_t>(parse_whole_number(
       "--seed", words.seed, 0, std::numeric_limits<std::int64_t>::max(), "the seed of the random numbers"));
+  OutputFile file(words.output);
   const necklace::Melt melt = necklace::make_melt(params);
-  necklace::write_lammps_data(words.output, melt);
+  OutputStream stream(file);
+  necklace::write_lammps_data(stream, melt);
+  stream.flush();
+  file.commit();
   if (!words.quiet) {
     fmt::print("{}: {} of {}, density {}, seed {}, cubic box of {} bead diameters\n", words.output,
                counted(params.chains, "chain"), counted(params.beads_per_chain, "bead"), params.density,

@@ -3,6 +3,8 @@
 
 #include <csignal>
 
+#include <dch/trajectory/output_file.hpp>
+
 #include "exit_code.hpp"
 
 namespace dch::cli {
@@ -10,16 +12,22 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void set_interrupted(int signal) {
+extern "C" void on_interrupt(int signal) {
+  if (interrupted) {
+    trajectory::remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
   interrupted = 1;
-  std::signal(signal, SIG_DFL);  // a second one ends the process at once
 }
 
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, set_interrupted);
-  std::signal(SIGTERM, set_interrupted);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void throw_if_interrupted() {

@@ -7,7 +7,6 @@
 #include <hdf5.h>
 #include <new>
 
-#include <dch/necklace/melt.hpp>
 #include <dch/trajectory/file_error.hpp>
 
 #include "commands.hpp"
@@ -69,8 +68,6 @@ int main(int argc, char** argv) {
   } catch (const cli::Interrupted& error) {
     return cli::fail(cli::kInterrupted, error.what());
   } catch (const trajectory::FileError& error) {
-    return cli::fail(cli::kBadFile, error.what());
-  } catch (const necklace::WriteError& error) {
     return cli::fail(cli::kBadFile, error.what());
   } catch (const Error& error) {  // the library refuses a parameter
     return cli::fail(cli::kUsage, error.what());

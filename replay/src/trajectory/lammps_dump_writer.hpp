@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
-#include <memory>
 #include <string>
 
+#include <dch/trajectory/output_file.hpp>
 #include <dch/trajectory/writer.hpp>
 
 #include "lammps_units.hpp"
-#include "temporary_file.hpp"
 
 namespace dch::trajectory {
 
@@ -31,12 +29,8 @@ class LammpsDumpWriter final : public TrajectoryWriter {
   void append_atoms(const Frame& frame);
   void flush();
 
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  TemporaryFile file_;
-  std::unique_ptr<std::FILE, CloseFile> stream_;
+  OutputFile file_;
+  bool closed_ = false;
   const LammpsUnits* units_;  ///< null if the unit of length is none of LAMMPS's
   fmt::memory_buffer text_;
   std::int64_t frames_ = 0;
