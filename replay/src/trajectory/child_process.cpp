@@ -119,6 +119,7 @@ ChildProcess::~ChildProcess() {
 
 std::string ChildProcess::wait_and_describe() {
   if (id_ < 0) return "it ended the process";
+  ::shutdown(socket_, SHUT_RDWR);  // one that waits for this process would wait for ever
   int status = 0;
   pid_t waited = 0;
   do {

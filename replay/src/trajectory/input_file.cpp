@@ -29,7 +29,9 @@ std::int64_t regular_file_size(const std::string& path) {
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   size_ = regular_file_size(path_);
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  do {
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  } while (descriptor_ < 0 && errno == EINTR);
   if (descriptor_ < 0) fail(path_, std::string("cannot be opened: ") + std::strerror(errno));
 }
 
