@@ -157,7 +157,6 @@ void OutputFile::commit() {
     fail_here("cannot be given its name", errno);
   }
   temporary_.clear();
-  forget_unfinished_file(std::exchange(place_, -1));
   sync_folder();
 }
 
