@@ -123,11 +123,15 @@ void measure_scene(const QueryScene& scene, int rounds, Table& table) {
   }
 }
 
+void require_written(std::ofstream& out, const std::string& path) {
+  if (!out.flush()) throw Error(path + ": cannot be written; check the folder and the free space");
+}
+
 void write_positions(const std::string& path, const std::vector<Vec3>& positions) {
   std::ofstream out(path, std::ios::binary);
   out.write(reinterpret_cast<const char*>(positions.data()),
             static_cast<std::streamsize>(positions.size() * sizeof(Vec3)));
-  if (!out.flush()) throw Error(path + ": cannot be written; check the folder and the free space");
+  require_written(out, path);
 }
 
 }  // namespace
@@ -169,7 +173,9 @@ void write_chain(const std::string& path, int beads) {
   chain.images.resize(chain.positions.size());
   chain.molecules.assign(chain.positions.size(), 1);
   for (std::int32_t k = 0; k + 1 < beads; ++k) chain.bonds.push_back({k, k + 1});
-  write_lammps_data(path, chain);
+  std::ofstream out(path);
+  write_lammps_data(out, chain);
+  require_written(out, path);
 }
 
 }  // namespace dch::bench

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <ostream>
-#include <unistd.h>
+#include <string>
 
 #include <dch/necklace/melt.hpp>
 
@@ -28,44 +24,6 @@ class Line {
 
  private:
   std::string text_;
-};
-
-/// A file beside its final place, removed unless it gets there.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& path)
-      : path_(path), temporary_(path + ".tmp" + std::to_string(::getpid())) {
-    errno = 0;
-    out_.open(temporary_, std::ios::binary | std::ios::trunc);
-    if (!out_) fail("cannot be created");
-    open_ = true;
-  }
-  ~TemporaryFile() {
-    if (open_) std::remove(temporary_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  std::ostream& stream() { return out_; }
-
-  void commit() {
-    if (out_) errno = 0;  // else it tells why a write failed
-    out_.close();
-    if (!out_) fail("cannot be completed");
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
-    open_ = false;
-  }
-
- private:
-  [[noreturn]] void fail(const char* what) const {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "the system gives no reason";
-    throw WriteError(path_ + " " + what + ": " + reason);
-  }
-
-  std::string path_;
-  std::string temporary_;
-  std::ofstream out_;
-  bool open_ = false;
 };
 
 }  // namespace
@@ -93,12 +51,6 @@ void write_lammps_data(std::ostream& out, const Melt& melt) {
   for (std::size_t k = 0; k < melt.bonds.size(); ++k) {
     out << (Line() << k + 1 << 1 << melt.bonds[k][0] + 1 << melt.bonds[k][1] + 1).text();
   }
-}
-
-void write_lammps_data(const std::string& path, const Melt& melt) {
-  TemporaryFile file(path);
-  write_lammps_data(file.stream(), melt);
-  file.commit();
 }
 
 }  // namespace dch::necklace

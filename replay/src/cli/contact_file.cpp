@@ -30,8 +30,9 @@ void append(hid_t data, const std::vector<double>& values) {
 /// Writes a dataset of one axis at once.
 template <class Values>
 void write_column(hid_t group, const char* name, hid_t type, const Values& values) {
-  const Hdf5Id data = column(group, name, type);
+  Hdf5Id data = column(group, name, type);
   append(data, values);
+  data.finish();
 }
 
 void write_chains(hid_t file, const necklace::Necklace& necklace, const std::vector<std::int64_t>& ids) {
@@ -45,11 +46,12 @@ void write_chains(hid_t file, const necklace::Necklace& necklace, const std::vec
     ring.push_back(necklace.chains().closed(chain) ? 1 : 0);
   }
   for (std::size_t chain = 0; chain <= ring.size(); ++chain) first.push_back(necklace.first_place(chain));
-  const Hdf5Id group = create_group(file, "chains");
+  Hdf5Id group = create_group(file, "chains");
   write_column(group, "ids", H5T_STD_I64LE, order);
   write_column(group, "radius", H5T_IEEE_F64LE, radius);
   write_column(group, "first", H5T_STD_I64LE, first);
   write_column(group, "ring", H5T_STD_I8LE, ring);
+  group.finish();
 }
 
 /// Writes numbers of pairs of bins a chunk at once: HDF5 compresses a chunk that its cache has no room for
@@ -57,7 +59,7 @@ void write_chains(hid_t file, const necklace::Necklace& necklace, const std::vec
 template <class Value>
 void write_matrix(hid_t group, const char* name, std::size_t bins, const Value& value) {
   const std::size_t rows = std::max<std::size_t>(1, kChunkEntries / std::max<std::size_t>(1, bins));
-  const Hdf5Id data = create_growing(group, name, H5T_STD_I64LE, bins, rows);
+  Hdf5Id data = create_growing(group, name, H5T_STD_I64LE, bins, rows);
   std::vector<std::int64_t> chunk;
   for (std::size_t first = 0; first < bins; first += rows) {
     const std::size_t last = std::min(bins, first + rows);
@@ -66,26 +68,29 @@ void write_matrix(hid_t group, const char* name, std::size_t bins, const Value& 
       for (std::size_t b = 0; b < bins; ++b) chunk.push_back(value(a, b));
     append_rows(data, H5T_NATIVE_INT64, last - first, bins, chunk.data());
   }
+  data.finish();
 }
 
 void write_map(hid_t file, const necklace::ContactMap& map) {
-  const Hdf5Id group = create_group(file, "map");
+  Hdf5Id group = create_group(file, "map");
   const std::size_t bins = map.bins();
   std::vector<std::int64_t> first;
   for (std::size_t bin = 0; bin <= bins; ++bin) first.push_back(map.first_place(bin));
   write_column(group, "first_place", H5T_STD_I64LE, first);
   write_matrix(group, "contacts", bins, [&](std::size_t a, std::size_t b) { return map.contacts(a, b); });
   write_matrix(group, "pairs", bins, [&](std::size_t a, std::size_t b) { return map.pairs(a, b); });
+  group.finish();
 }
 
 void write_probability(hid_t file, const necklace::ContactProbability& probability) {
-  const Hdf5Id group = create_group(file, "separation");
+  Hdf5Id group = create_group(file, "separation");
   std::vector<double> values;
   for (std::size_t s = 0; s < probability.pairs().size(); ++s) values.push_back(probability.probability(s));
   const auto contacts = probability.contacts(), pairs = probability.pairs();
   write_column(group, "contacts", H5T_STD_I64LE, std::vector<std::int64_t>(contacts.begin(), contacts.end()));
   write_column(group, "pairs", H5T_STD_I64LE, std::vector<std::int64_t>(pairs.begin(), pairs.end()));
   write_column(group, "probability", H5T_IEEE_F64LE, values);
+  group.finish();
 }
 
 }  // namespace
@@ -96,13 +101,14 @@ struct ContactFile::Datasets {
   Hdf5Id i, j, first, frames, begin, last, begun_before, not_ended;
 
   explicit Datasets(const OutputFile& output) : file(create_hdf5(output)) {
-    const Hdf5Id frame_group = create_group(file, "frames");
+    Hdf5Id frame_group = create_group(file, "frames");
     frame = column(frame_group, "frame", H5T_STD_I64LE);
     step = column(frame_group, "step", H5T_STD_I64LE);
     time = column(frame_group, "time", H5T_IEEE_F64LE);
     within = column(frame_group, "within", H5T_STD_I64LE);
     between = column(frame_group, "between", H5T_STD_I64LE);
-    const Hdf5Id event_group = create_group(file, "events");
+    frame_group.finish();
+    Hdf5Id event_group = create_group(file, "events");
     i = column(event_group, "i", H5T_STD_I64LE);
     j = column(event_group, "j", H5T_STD_I64LE);
     first = column(event_group, "first", H5T_STD_I64LE);
@@ -111,6 +117,7 @@ struct ContactFile::Datasets {
     last = column(event_group, "last", H5T_IEEE_F64LE);
     begun_before = column(event_group, "begun_before", H5T_STD_I8LE);
     not_ended = column(event_group, "not_ended", H5T_STD_I8LE);
+    event_group.finish();
   }
 
   void describe(const ContactFileHeader& header) {

@@ -2,14 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
 
 #include <dch/trajectory/writer.hpp>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "frame_stream.hpp"
-#include "interrupt.hpp"
 #include "number_text.hpp"
 #include "option_values.hpp"
 #include "standard_streams.hpp"
@@ -23,15 +21,6 @@ struct ConvertWords {
   bool quiet = false;
 };
 
-/// Creates the output and notes its unfinished file.
-std::unique_ptr<trajectory::TrajectoryWriter> create_output(const std::string& path, const std::string& unit,
-                                                            std::optional<UnfinishedFile>& unfinished) {
-  const HoldInterrupts hold;
-  auto writer = trajectory::create_trajectory(path, unit);
-  unfinished.emplace(writer->temporary_path());
-  return writer;
-}
-
 int run(const ConvertWords& words) {
   const FrameRange range = words.frames.empty() ? FrameRange() : parse_frame_range(words.frames);
   require_distinct_files({words.input.named("IN")}, {{"OUT", words.output}});
@@ -39,8 +28,7 @@ int run(const ConvertWords& words) {
   ProgressBar progress(words.quiet);
   const Scan scan = scan_trajectory(input, range, progress);
   FrameStream stream(input, range);
-  std::optional<UnfinishedFile> unfinished;
-  const auto writer = create_output(words.output, scan.unit, unfinished);
+  const auto writer = trajectory::create_trajectory(words.output, scan.unit);
   progress.start("converting", scan.frames);
   trajectory::Frame frame;
   std::int64_t done = 0;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <memory>
 
 #include <dch/necklace/melt.hpp>
-#include <dch/trajectory/file_error.hpp>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -25,18 +21,6 @@ struct MeltWords {
   bool quiet = false;
 };
 
-void write_melt(OutputFile& file, const necklace::Melt& melt) {
-  std::ofstream out(file.temporary_path(), std::ios::binary);
-  errno = 0;  // then that of the first write that fails
-  necklace::write_lammps_data(out, melt);
-  out.close();
-  if (!out) {
-    throw trajectory::FileError(
-        fmt::format("{}: cannot be written: {}; check the free space", file.path(), std::strerror(errno)));
-  }
-  file.commit();
-}
-
 int run(const MeltWords& words) {
   constexpr std::int64_t kMostBeads = std::numeric_limits<std::int32_t>::max();
   necklace::MeltParams params;
@@ -51,7 +35,10 @@ int run(const MeltWords& words) {
   require_distinct_files({}, {{"OUT", words.output}});
   OutputFile file(words.output);
   const necklace::Melt melt = necklace::make_melt(params);
-  write_melt(file, melt);
+  OutputStream stream(file);
+  necklace::write_lammps_data(stream, melt);
+  stream.flush();
+  file.commit();
   if (!words.quiet) {
     print_output("{}: {} of {}, density {}, seed {}, cubic box of {} bead diameters\n", words.output,
                  counted(params.chains, "chain"), counted(params.beads_per_chain, "bead"), params.density,

@@ -27,6 +27,8 @@ Hdf5Id::Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {
   if (id < 0) throw trajectory::FileError("an HDF5 object cannot be created");
 }
 
+void Hdf5Id::finish() { require(reset()); }
+
 Hdf5Id create_hdf5(const OutputFile& output) {
   return {H5Fcreate(output.temporary_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
 }

@@ -30,6 +30,9 @@ class Hdf5Id {
     return *this;
   }
   operator hid_t() const { return id_; }
+  /// HDF5 writes much of what it was given only now.
+  /// @throws trajectory::FileError if that fails, of which the destructor would say nothing.
+  void finish();
   herr_t reset() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
 
  private:

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "interrupt.hpp"
 
-#include <array>
-#include <atomic>
-#include <stdexcept>
 #include <string_view>
 #include <unistd.h>
-#include <utility>
+
+#include <dch/trajectory/output_file.hpp>
 
 #include "exit_code.hpp"
 
@@ -15,8 +13,6 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-std::array<std::atomic<const char*>, UnfinishedFile::kMost> unfinished{};
-static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads them");
 bool bar_may_stand = false;  ///< on the terminal's line where the message goes
 
 sigset_t signal_set() {
@@ -29,9 +25,7 @@ sigset_t signal_set() {
 /// A handler may call no more than this. A second signal finds the system's own handler and ends the process
 /// whatever this one waits for (a reader of standard error, say).
 extern "C" void end_process(int signal) {
-  for (const auto& file : unfinished) {
-    if (const char* const path = file.load()) ::unlink(path);
-  }
+  trajectory::remove_unfinished_files();
   constexpr std::string_view kWipe = "\r\x1b[K";
   constexpr std::string_view kMessage = "dch: interrupted; unfinished output files are removed\n";
   ssize_t ignored = bar_may_stand ? ::write(STDERR_FILENO, kWipe.data(), kWipe.size()) : 0;
@@ -54,16 +48,6 @@ void catch_interrupts() {
     ::sigaction(signal, &action, nullptr);
   }
 }
-
-UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)) {
-  for (; slot_ < kMost; ++slot_) {
-    const char* free_slot = nullptr;
-    if (unfinished[slot_].compare_exchange_strong(free_slot, path_.c_str())) return;
-  }
-  throw std::logic_error("more unfinished files than UnfinishedFile::kMost");
-}
-
-UnfinishedFile::~UnfinishedFile() { unfinished[slot_] = nullptr; }
 
 HoldInterrupts::HoldInterrupts() {
   const sigset_t set = signal_set();

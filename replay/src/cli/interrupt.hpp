@@ -2,9 +2,7 @@
 #pragma once
 
 #include <csignal>
-#include <cstddef>
 #include <memory>
-#include <string>
 
 #include <dch/executor.hpp>
 
@@ -16,23 +14,7 @@ namespace dch::cli {
 /// ignored.
 void catch_interrupts();
 
-/// Names a file that is to be removed if one of these signals ends the process before it has its final name.
-class UnfinishedFile {
- public:
-  /// @throws std::logic_error for more than kMost files at once, which no subcommand writes.
-  explicit UnfinishedFile(std::string path);
-  ~UnfinishedFile();
-  UnfinishedFile(const UnfinishedFile&) = delete;
-  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-
-  static constexpr std::size_t kMost = 16;
-
- private:
-  std::string path_;
-  std::size_t slot_ = 0;
-};
-
-/// These signals wait while it lives: between the making of a file and its UnfinishedFile.
+/// These signals wait while it lives: while something is half made that the handler does not know of.
 class HoldInterrupts {
  public:
   HoldInterrupts();

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string_view>
 
-#include <dch/necklace/melt.hpp>
 #include <dch/trajectory/file_error.hpp>
 
 #include "commands.hpp"
@@ -77,8 +76,6 @@ int run(int argc, char** argv) {
   } catch (const UsageError& error) {
     return fail(kUsage, error.what());
   } catch (const trajectory::FileError& error) {
-    return fail(kBadFile, error.what());
-  } catch (const necklace::WriteError& error) {
     return fail(kBadFile, error.what());
   } catch (const Error& error) {  // the library refuses a parameter
     return fail(kUsage, error.what());

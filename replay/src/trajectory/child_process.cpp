@@ -124,6 +124,7 @@ void ChildProcess::set_patience(int seconds) const {
 
 std::string ChildProcess::wait_and_describe() {
   if (id_ < 0) return "it ended the process";
+  ::shutdown(socket_, SHUT_RDWR);  // one that waits for this process would wait for ever
   // A child whose connection has ended is about to end itself; another one hangs.
   constexpr int kTries = 1000, kMicroseconds = 1000;
   int status = 0;

@@ -95,9 +95,10 @@ void H5mdFile::create_atoms(const Frame& frame) {
 void H5mdFile::write_fixed(const char* name, hid_t file_type, hid_t memory_type, hsize_t count,
                            const void* values) {
   const Hdf5Handle space(H5Screate_simple(1, &count, nullptr));
-  const Hdf5Handle dataset(
+  Hdf5Handle dataset(
       H5Dcreate2(group_.get(), name, file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   check(dataset.valid() && H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+  check(dataset.reset());
 }
 
 /// A time-dependent element that shares `step` and `time` with the positions.

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <fmt/format.h>
+#include <sys/socket.h>
 #include <system_error>
 
 #include <dch/trajectory/file_error.hpp>
@@ -18,7 +19,7 @@ namespace {
 void write_all_frames(const std::string& path, const std::string& name, const std::string& length_unit,
                       FrameReceiver& receiver, FrameSender& sender) try {
   H5mdFile file(path, name, length_unit);
-  sender.send_done();
+  if (!sender.send_done()) return;
   Frame frame;
   for (Message kind{}; receiver.receive_kind(kind);) {
     if (kind == Message::end) {
@@ -40,40 +41,41 @@ void write_all_frames(const std::string& path, const std::string& name, const st
 
 H5mdWriter::H5mdWriter(const std::string& path, const std::string& length_unit) : target_(path) {
   start(length_unit);
-  await_answer();
+  await_answer(true);
 }
 
 void H5mdWriter::start(const std::string& length_unit) try {
   child_ = std::make_unique<ChildProcess>([&](int socket) {
     FrameReceiver receiver(socket);
     FrameSender sender(socket);
-    write_all_frames(target_.path(), target_.final_path(), length_unit, receiver, sender);
+    write_all_frames(target_.temporary_path(), target_.path(), length_unit, receiver, sender);
   });
 } catch (const std::system_error& error) {
-  fail(target_.final_path(), std::string("no process to write it in: ") + error.what());
+  fail(target_.path(), std::string("no process to write it in: ") + error.what());
 }
 
 void H5mdWriter::write(const Frame& frame) {
-  check_frame(frame, target_.final_path(), frames_);
-  FrameSender(child_->socket()).send_frame(frame);  // if the child has gone, there is no answer either
-  await_answer();
+  check_frame(frame, target_.path(), frames_);
+  await_answer(FrameSender(child_->socket()).send_frame(frame));
   ++frames_;
 }
 
 void H5mdWriter::close() {
   if (!child_) return;
-  FrameSender(child_->socket()).send_end();
-  await_answer();
+  await_answer(FrameSender(child_->socket()).send_end());
   child_.reset();
   target_.commit();
 }
 
-void H5mdWriter::await_answer() {
+/// A child that was sent no whole message would wait for the rest, as this process for its answer: without a
+/// connection it ends.
+void H5mdWriter::await_answer(bool was_sent) {
+  if (!was_sent) ::shutdown(child_->socket(), SHUT_WR);
   FrameReceiver receiver(child_->socket());
   Message kind{};
   std::string what;
   if (!receiver.receive_kind(kind) || (kind == Message::error && !receiver.receive_text(what))) {
-    fail(target_.final_path(),
+    fail(target_.path(),
          fmt::format("frame {} cannot be written: HDF5 failed: {}", frames_, child_->wait_and_describe()));
   }
   if (kind == Message::error) throw FileError(what);

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
+#include <dch/trajectory/output_file.hpp>
 #include <dch/trajectory/writer.hpp>
 
 #include "child_process.hpp"
-#include "temporary_file.hpp"
 
 namespace dch::trajectory {
 
@@ -20,13 +20,12 @@ class H5mdWriter final : public TrajectoryWriter {
 
   void write(const Frame& frame) override;
   void close() override;
-  const std::string& temporary_path() const override { return target_.path(); }
 
  private:
   void start(const std::string& length_unit);
-  void await_answer();
+  void await_answer(bool was_sent);
 
-  TemporaryFile target_;
+  OutputFile target_;
   std::unique_ptr<ChildProcess> child_;
   std::int64_t frames_ = 0;
 };

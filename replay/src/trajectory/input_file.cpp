@@ -29,7 +29,9 @@ std::int64_t regular_file_size(int descriptor, const std::string& path) {
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   // Opened first and looked at then, so that both are the same file. Without O_NONBLOCK a pipe would keep the
   // program waiting for somebody to write into it; for regular files the flag means nothing.
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  do {
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  } while (descriptor_ < 0 && errno == EINTR);
   if (descriptor_ < 0) fail(path_, std::string("cannot be opened: ") + std::strerror(errno));
   try {
     size_ = regular_file_size(descriptor_, path_);

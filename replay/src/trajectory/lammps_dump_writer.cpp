@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <iterator>
-#include <string_view>
+#include <utility>
 
 #include "frame_check.hpp"
-#include "place.hpp"
 
 namespace dch::trajectory {
 namespace {
@@ -29,14 +26,10 @@ bool is_restricted(const Box& box) {
 }  // namespace
 
 LammpsDumpWriter::LammpsDumpWriter(const std::string& path, const std::string& length_unit)
-    : file_(path),
-      stream_(std::fopen(file_.path().c_str(), "w")),
-      units_(find_lammps_units_by_length(length_unit)) {
-  if (!stream_) fail(path, std::string("cannot be written: ") + std::strerror(errno));
-}
+    : file_(path), units_(find_lammps_units_by_length(length_unit)) {}
 
 void LammpsDumpWriter::write(const Frame& frame) {
-  check_frame(frame, file_.final_path(), frames_);
+  check_frame(frame, file_.path(), frames_);
   append_header(frame);
   append_box(frame.box);
   append_atoms(frame);
@@ -99,17 +92,12 @@ void LammpsDumpWriter::append_atoms(const Frame& frame) {
 }
 
 void LammpsDumpWriter::flush() {
-  if (std::fwrite(text_.data(), 1, text_.size(), stream_.get()) != text_.size()) {
-    fail(file_.final_path(), fmt::format("frame {} cannot be written: {}", frames_, std::strerror(errno)));
-  }
+  file_.write({text_.data(), text_.size()});
   text_.clear();
 }
 
 void LammpsDumpWriter::close() {
-  if (!stream_) return;
-  if (std::fclose(stream_.release()) != 0) {
-    fail(file_.final_path(), std::string("cannot be written: ") + std::strerror(errno));
-  }
+  if (std::exchange(closed_, true)) return;
   file_.commit();
 }
 

@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <fmt/format.h>
-#include <memory>
 #include <string>
 
+#include <dch/trajectory/output_file.hpp>
 #include <dch/trajectory/writer.hpp>
 
 #include "lammps_units.hpp"
-#include "temporary_file.hpp"
 
 namespace dch::trajectory {
 
@@ -24,7 +22,6 @@ class LammpsDumpWriter final : public TrajectoryWriter {
 
   void write(const Frame& frame) override;
   void close() override;
-  const std::string& temporary_path() const override { return file_.path(); }
 
  private:
   void append_header(const Frame& frame);
@@ -32,12 +29,8 @@ class LammpsDumpWriter final : public TrajectoryWriter {
   void append_atoms(const Frame& frame);
   void flush();
 
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  TemporaryFile file_;
-  std::unique_ptr<std::FILE, CloseFile> stream_;
+  OutputFile file_;
+  bool closed_ = false;
   const LammpsUnits* units_;  ///< null if the unit of length is none of LAMMPS's
   fmt::memory_buffer text_;
   std::int64_t frames_ = 0;

@@ -2,6 +2,9 @@
 // Writes the bead-spring melt of the chain cases as a LAMMPS data file: make_melt_data FILE.
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 
 #include <dch/necklace/melt.hpp>
 
@@ -14,7 +17,9 @@ int main(int argc, char** argv) {
     dch::necklace::MeltParams params;
     params.chains = 20;
     params.beads_per_chain = 60;
-    dch::necklace::write_lammps_data(argv[1], dch::necklace::make_melt(params));
+    std::ofstream out(argv[1]);
+    write_lammps_data(out, dch::necklace::make_melt(params));
+    if (!out.flush()) throw std::runtime_error(std::string(argv[1]) + " cannot be written");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "make_melt_data: %s\n", e.what());
     return 1;

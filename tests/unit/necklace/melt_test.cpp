@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <limits>
 #include <sstream>
@@ -24,7 +22,6 @@ using dch::necklace::make_melt;
 using dch::necklace::Melt;
 using dch::necklace::MeltParams;
 using dch::necklace::write_lammps_data;
-using dch::necklace::WriteError;
 
 MeltParams small_melt() {
   MeltParams params;
@@ -209,46 +206,6 @@ TEST(LammpsData, HeaderOfASmallMelt) {
                                   "0 5 xlo xhi\n0 5 ylo yhi\n0 5 zlo zhi\n\nMasses\n\n1 1\n\n"
                                   "Atoms # bond\n\n1 1 1 "));
   EXPECT_THAT(file.str(), testing::Not(testing::HasSubstr("Bonds")));
-}
-
-/// An empty folder for one test.
-class Folder {
- public:
-  explicit Folder(const std::string& name) : path_(std::filesystem::path(testing::TempDir()) / name) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::ptrdiff_t files() const {
-    return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-TEST(LammpsData, LeavesOneCompleteFile) {
-  const Folder folder("dch_melt_complete");
-  const Melt melt = make_melt(small_melt());
-  write_lammps_data(folder / "melt.data", melt);
-  std::ostringstream expected, found;
-  write_lammps_data(expected, melt);
-  found << std::ifstream(folder / "melt.data").rdbuf();
-  EXPECT_EQ(found.str(), expected.str());
-  EXPECT_EQ(folder.files(), 1);
-}
-
-TEST(LammpsData, LeavesNothingBehindAfterAFailure) {
-  const Folder folder("dch_melt_failure");
-  EXPECT_THROW(write_lammps_data(folder / "missing/melt.data", make_melt(small_melt())), WriteError);
-  // A folder stands where the file should go: the data are written, but cannot be put in place.
-  std::filesystem::create_directories(folder / "taken/inner");
-  EXPECT_THROW(write_lammps_data(folder / "taken", make_melt(small_melt())), WriteError);
-  EXPECT_EQ(folder.files(), 1);
 }
 
 }  // namespace

@@ -44,20 +44,9 @@ struct Melt {
 ///   bonds, in which bonds could meet their own images.
 Melt make_melt(const MeltParams& params);
 
-/// A file that cannot be created or completed, the disk being full, say.
-class WriteError : public Error {
- public:
-  using Error::Error;
-};
-
 /// Writes a LAMMPS data file: sections Masses (one type, mass 1), `Atoms # bond` (id mol type x y z ix iy iz)
 /// and Bonds (one type), ids from 1. Coordinates have enough digits to be read back exactly, whatever the
-/// locale.
+/// locale. Whether all of it was written is for the stream to say.
 void write_lammps_data(std::ostream& out, const Melt& melt);
-
-/// The same to a file, which appears under its name only when it is complete: until then it is written beside
-/// it under a temporary name, which is removed upon failure.
-/// @throws WriteError naming the file and the reason.
-void write_lammps_data(const std::string& path, const Melt& melt);
 
 }  // namespace dch::necklace

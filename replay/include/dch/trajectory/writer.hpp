@@ -17,8 +17,6 @@ class TrajectoryWriter {
   virtual void write(const Frame& frame) = 0;
   /// Completes the file. @throws FileError.
   virtual void close() = 0;
-  /// The temporary name: of the file to remove if the process ends without a destructor, by a signal, say.
-  virtual const std::string& temporary_path() const = 0;
 };
 
 /// Creates a writer by file name: .h5 .h5md (H5MD), .lammpstrj .dump (LAMMPS text dump).
