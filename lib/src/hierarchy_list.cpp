@@ -19,7 +19,7 @@ double Hierarchy::Impl::prepare_for_lists() {
     if (wrap_error > wrap_slack) {  // points inserted since the last update lie much farther out
       set_wrap_slack();
       refresh_centers(metric);
-      repair(metric, 0);
+      repair(metric);
     }
     measure(metric);
   });
