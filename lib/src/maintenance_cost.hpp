@@ -26,7 +26,7 @@ inline constexpr double kOrphansOfDemoted = 0.4;
 inline constexpr double kStrayed = 0.1;
 
 /// Times of parts of the work [ns]: least squares over the scenes and steps of `dch_bench_maintenance`, with
-/// AVX-512 on one processor of an Intel Xeon (Sapphire Rapids). Only their ratios matter, and these not much.
+/// AVX-512 on one processor of an Intel Xeon with AMX. Only their ratios matter, and these not much.
 struct MaintenanceWeights {
   struct {
     double point, edge, orphan, candidate, reordered_point;
