@@ -18,13 +18,19 @@ constexpr std::size_t kStride = 16;
 constexpr double kPointsWithinRadius = 300;
 constexpr double kLeastFactor = 0.25, kMostFactor = 4;  ///< R_0 / radius
 
+std::size_t counted_points(std::size_t n) { return std::min(n, std::max(kLeastOthers, n / kStride)); }
+
 }  // namespace
+
+std::int64_t density_samples(std::size_t points) {
+  return static_cast<std::int64_t>(kSamples * counted_points(points));
+}
 
 double base_radius_for(Span<const Vec3> positions, const Box& box, double radius) {
   const std::size_t n = positions.size();
   const double most = std::min(kMostFactor * radius, std::max(box.max_cutoff(), kLeastFactor * radius));
   if (n < 2) return radius;
-  const std::size_t others = std::min(n, std::max(kLeastOthers, n / kStride));
+  const std::size_t others = counted_points(n);
   const double share = static_cast<double>(others) / static_cast<double>(n);
   const auto nth = std::min(others - 1, static_cast<std::size_t>(std::ceil(kPointsWithinRadius * share)));
   std::vector<double> medians, distances2(others);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include <dch/box.hpp>
 #include <dch/span.hpp>
 #include <dch/vec3.hpp>
@@ -11,5 +14,7 @@ namespace dch::detail {
 /// points: a median, so that it follows where most points are, not how large the box is. O(n) time.
 /// @param radius of the lists; the result is within a factor of it.
 double base_radius_for(Span<const Vec3> positions, const Box& box, double radius);
+/// Distances that this computes for so many points.
+std::int64_t density_samples(std::size_t points);
 
 }  // namespace dch::detail

@@ -7,6 +7,7 @@
 
 #include <dch/error.hpp>
 
+#include "hierarchy_impl.hpp"
 #include "seconds_since.hpp"
 #include "sized_search.hpp"
 
@@ -41,17 +42,11 @@ const SearchStats& DchSearch::stats() const {
   return stats_;
 }
 
-void DchSearch::build(Span<const Vec3> positions, const Box& box) {
-  const auto start = Clock::now();
-  hierarchy_.build(positions, box);
-  if (!positions.empty()) build_per_point_.observe(seconds_since(start) / double(positions.size()));
-}
-
 void DchSearch::by_index(Span<const Vec3> positions, const Box& box) {
   if (state_ == State::indexed && positions.size() == hierarchy_.size()) {
     hierarchy_.update(positions, box);
   } else {
-    build(positions, box);
+    hierarchy_.build(positions, box);
   }
   state_ = State::indexed;
 }
@@ -69,7 +64,7 @@ void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const st
   if (state_ == State::keyed && match(positions, keys)) {
     hierarchy_.update(positions, box);
   } else {
-    build(positions, box);
+    hierarchy_.build(positions, box);
   }
   std::swap(keys_, fresh_keys_);
   names_.assign(keys.begin(), keys.end());
@@ -77,7 +72,7 @@ void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const st
 }
 
 /// Makes the hierarchy hold the particles with these keys under their new indices; false if so many come
-/// and go that by the times measured so far a new build is cheaper.
+/// and go that a new build is less work.
 bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys) {
   const std::size_t before = hierarchy_.size();
   std::vector<std::int32_t> old_of_new(keys.size());
@@ -93,20 +88,13 @@ bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys
   }
   const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
   if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
-      exchange_.seconds() * static_cast<double>(exchanged) >
-          build_per_point_.seconds() * static_cast<double>(keys.size())) {
-    exchange_.fade();
+      !hierarchy_.impl_->exchange_pays(exchanged))
     return false;
-  }
-
-  if (exchanged > 0) hierarchy_.repair();  // what was put off is no cost of the exchange
-  const auto start = Clock::now();
   for (std::size_t id = 0; id < before; ++id)
     if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (old_of_new[k] == KeyTable::kAbsent)
       old_of_new[k] = hierarchy_.insert(positions[k], k == 0 ? -1 : old_of_new[k - 1]);
-  if (exchanged > 0) exchange_.observe(seconds_since(start) / static_cast<double>(exchanged));
   hierarchy_.renumber(old_of_new);
   return true;
 }

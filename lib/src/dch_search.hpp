@@ -7,7 +7,6 @@
 
 #include <dch/hierarchy.hpp>
 
-#include "cost_estimate.hpp"
 #include "key_table.hpp"
 
 namespace dch::detail {
@@ -33,7 +32,6 @@ class DchSearch final : public PairSearch {
  private:
   enum class State { empty, indexed, keyed };
 
-  void build(Span<const Vec3> positions, const Box& box);
   void by_index(Span<const Vec3> positions, const Box& box);
   void by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
   bool match(Span<const Vec3> positions, Span<const std::uint64_t> keys);
@@ -42,8 +40,6 @@ class DchSearch final : public PairSearch {
   State state_ = State::empty;
   KeyTable keys_, fresh_keys_;
   std::vector<std::uint64_t> names_;  ///< the keys of the last update, in order
-  CostEstimate build_per_point_;
-  CostEstimate exchange_;  ///< to insert or remove one particle
   std::int64_t updates_ = 0;
   double maintain_seconds_ = 0;
   mutable SearchStats stats_;

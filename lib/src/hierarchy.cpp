@@ -45,7 +45,7 @@ double Hierarchy::Impl::threshold_of_level(int i) const {
 void Hierarchy::Impl::set_base_radius(Span<const Vec3> positions) {
   if (params.base_radius > 0) {
     base_radius = params.base_radius;
-  } else if (params.edge_rule == EdgeRule::thesis) {
+  } else if (!finds_base_radius()) {
     base_radius = params.radius / (2 * params.c);
   } else {
     const double r0 = params.radius / (2 * params.c);

@@ -5,7 +5,6 @@
 // takes the nearest of them that covers it, or else becomes a node itself, which goes into the levels above
 // and into the batch's store. The points get their places when all are known, in their final order.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "base_radius.hpp"
@@ -17,7 +16,6 @@ namespace dch {
 
 using detail::kNone;
 using detail::with_metric;
-using Clock = std::chrono::steady_clock;
 
 namespace {
 constexpr std::size_t kLargestBatch = 64;
@@ -51,7 +49,6 @@ Nearest nearest_of(const std::vector<Vec3>& points, Vec3 p) {
 }  // namespace
 
 void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
-  const auto start = Clock::now();
   const std::int64_t promotions = stats.promotions;
   reset(b);
   largest_reach = detail::check_positions(positions, b);
@@ -71,7 +68,6 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   for (detail::Level& level : levels) level.complete = level.reach;
   ++stats.builds;
   stats.promotions = promotions;  // counts what motion brings about, not the growth of a new structure
-  if (n > 0) build_per_point.observe(std::chrono::duration<double>(Clock::now() - start).count() / double(n));
 }
 
 /// Makes all levels but 0. Until place_points(), slot_of_id holds the points' parents.

@@ -11,10 +11,10 @@
 #include "candidate_buffer.hpp"
 #include "cluster_pair_finder.hpp"
 #include "cluster_points.hpp"
-#include "cost_estimate.hpp"
 #include "hierarchy_level.hpp"
 #include "list_finder.hpp"
 #include "list_source.hpp"
+#include "maintenance_cost.hpp"
 #include "metric.hpp"
 #include "point_blocks.hpp"
 #include "sibling_store.hpp"
@@ -32,10 +32,6 @@ inline constexpr double kMotionSlack = 0.4;
 /// How much farther than rho_i edges of level i >= 2 reach, in units of R_i, so that they need not be
 /// enumerated anew at each repair. More: fewer enumerations, more edges.
 inline constexpr double kEdgeSlack = 0.1;
-
-/// Share of the nodes that may lie away from their siblings before all are put in order again. Not critical:
-/// without any reordering, repair and list of a melt of 32,000 atoms took 3 % longer after 120 rebuilds.
-inline constexpr double kStrayed = 0.1;
 
 inline constexpr double kMinC = 1.05, kMaxC = 1000;
 
@@ -62,12 +58,6 @@ struct Hierarchy::Impl {
   std::vector<LoneNode> lone;
   bool placing_later = false;  ///< while building: slot_of_id holds parents
 
-  // What the two ways to bring the structure up to date cost, measured on itself [s].
-  detail::CostEstimate build_per_point;
-  detail::CostEstimate sweep_per_point;  ///< of a repair that finds nothing to change
-  detail::CostEstimate per_orphan;       ///< to give one orphan a parent or promote it
-  detail::CostEstimate reorder_per_point;
-
   /// Added to the thresholds of all levels but 0: how far the distance of wrapped points may be from the pair
   /// distance that lists go by. About 1e-13 of the box, more if a point lies very many boxes away.
   double wrap_slack = 0;
@@ -92,6 +82,7 @@ struct Hierarchy::Impl {
   void check_base_radius(const Box& b) const;
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
+  bool finds_base_radius() const { return params.base_radius == 0 && params.edge_rule == EdgeRule::additive; }
   void set_base_radius(Span<const Vec3> positions);
   void set_wrap_slack();
   void set_lengths(int i);
@@ -273,18 +264,28 @@ struct Hierarchy::Impl {
   /// New positions of the levels above, which keep those of the last repair while one is pending.
   template <class Metric>
   void refresh_centers(const Metric& metric);
+  /// What a repair to the new positions has to do.
   template <class Metric>
-  std::int64_t count_orphans(const Metric& metric);
+  detail::MaintenanceWork work_ahead(const Metric& metric);
+  template <class Metric>
+  void count_uncovered(const Metric& metric, int i, detail::MaintenanceWork& work);
+  template <class Metric>
+  void count_demoted(const Metric& metric, int i, detail::MaintenanceWork& work);
+  /// What of it the structure alone says.
+  detail::MaintenanceWork standing_work() const;
   template <class Metric>
   void measure(const Metric& metric);
   template <class Metric>
   bool edges_are_certified(const Metric& metric);
   void repair_if_pending();
-  bool repair_pays(std::int64_t orphans) const;
+  template <class Metric>
+  bool repair_pays(const Metric& metric);
+  /// Whether to insert and remove so many particles in all is less work than to build anew.
+  bool exchange_pays(std::size_t particles) const;
 
   // hierarchy_repair.cpp
   template <class Metric>
-  void repair(const Metric& metric, double check_seconds);
+  void repair(const Metric& metric);
   bool is_known_to_cover(std::int32_t cluster) const;
   template <class Metric>
   void cover_points(const Metric& metric);
@@ -295,6 +296,8 @@ struct Hierarchy::Impl {
   void find_too_close(const Metric& metric, int i);
   template <class Metric>
   void connect_level(const Metric& metric, int i);
+  /// Whether of two nodes of a level that are too close the first one stays.
+  bool keeps_first(int i, std::int32_t a, std::int32_t b) const;
   void separate_level(int i);
   void demote(int i, std::int32_t node, std::int32_t heir);
 

@@ -20,7 +20,7 @@ double Hierarchy::Impl::prepare_for_lists() {
       change_or_empty([&] {
         set_wrap_slack();
         refresh_centers(metric);
-        repair(metric, 0);
+        repair(metric);
       });
     }
     measure(metric);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // New positions: taken over and measured in one pass, and what is done then: nothing while the edges are
-// certified to be enough for lists, else a repair or a new build, whichever is cheaper by the structure's own
-// timings.
+// certified to be enough for lists, else a repair or a new build, whichever is less work as counted.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "base_radius.hpp"
 #include "hierarchy_impl.hpp"
 #include "position_check.hpp"
 #include "seconds_since.hpp"
@@ -14,10 +14,18 @@
 namespace dch {
 
 using detail::kNone;
+using detail::kOrphansOfDemoted;
 using detail::Level;
 using detail::seconds_since;
 using detail::with_metric;
 using Clock = std::chrono::steady_clock;
+
+namespace {
+void add_orphans(double orphans, std::size_t neighbors_of_parent, detail::MaintenanceWork& work) {
+  work.orphans += orphans;
+  work.candidates += orphans * static_cast<double>(1 + neighbors_of_parent);
+}
+}  // namespace
 
 void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   ++stats.updates;
@@ -44,14 +52,10 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
         }
         set_wrap_slack();
         refresh_centers(metric);
-        const auto counting = Clock::now();
-        const std::int64_t orphans = count_orphans(metric);
-        const double check_seconds = seconds_since(counting);
-        if (params.policy != MaintenancePolicy::always_repair && free_ids.empty() && !repair_pays(orphans)) {
+        if (params.policy != MaintenancePolicy::always_repair && free_ids.empty() && !repair_pays(metric)) {
           build(positions, b);
-          per_orphan.fade();
         } else {
-          repair(metric, check_seconds);
+          repair(metric);
         }
       });
     }
@@ -97,21 +101,54 @@ void Hierarchy::Impl::refresh_centers(const Metric& metric) {
 }
 
 template <class Metric>
-std::int64_t Hierarchy::Impl::count_orphans(const Metric& metric) {
-  std::int64_t count = 0;
-  for (const auto& cluster : cluster_points.clusters) count += cluster.uncovered;
-  for (int i = 2; i <= top(); ++i) {
-    stats.distances += levels[i - 1].alive();
-    const double limit2 = levels[i - 1].radius2;
-    for (std::int32_t k = 0; k < levels[i].size(); ++k) {
-      if (!levels[i].is_alive(k)) continue;
-      const Vec3 center = levels[i].position[k];
-      for_each_child(i, k, [&](std::int32_t child) {
-        count += metric.distance2(position(i - 1, child), center) > limit2;
-      });
-    }
+detail::MaintenanceWork Hierarchy::Impl::work_ahead(const Metric& metric) {
+  detail::MaintenanceWork work = standing_work();
+  for (int i = 1; i <= top(); ++i) {
+    count_uncovered(metric, i, work);
+    count_demoted(metric, i, work);
   }
-  return count;
+  return work;
+}
+
+/// Children that their parents in level i cover no more.
+template <class Metric>
+void Hierarchy::Impl::count_uncovered(const Metric& metric, int i, detail::MaintenanceWork& work) {
+  const Level& level = levels[i];
+  const double limit2 = levels[i - 1].radius2;
+  if (i > 1) stats.distances += levels[i - 1].alive();
+  for (std::int32_t k = 0; k < level.size(); ++k) {
+    if (!level.is_alive(k)) continue;
+    std::int64_t orphans = i == 1 ? cluster_points.clusters[k].uncovered : 0;
+    if (i > 1)
+      for_each_child(i, k, [&](std::int32_t child) {
+        orphans += metric.distance2(position(i - 1, child), level.position[k]) > limit2;
+      });
+    add_orphans(static_cast<double>(orphans), level.edges.row(k).size(), work);
+  }
+}
+
+/// Children of those nodes of level i that have come too close to another one, as separate_level() will find.
+template <class Metric>
+void Hierarchy::Impl::count_demoted(const Metric& metric, int i, detail::MaintenanceWork& work) {
+  const Level& level = levels[i];
+  find_too_close(metric, i);
+  std::vector<char> is_demoted(static_cast<std::size_t>(level.size()), 0);
+  for (const auto& [a, b] : too_close) {
+    if (is_demoted[a] || is_demoted[b]) continue;
+    const std::int32_t node = keeps_first(i, a, b) ? b : a;
+    is_demoted[node] = 1;
+    double children = 0;
+    for_each_child(i, node, [&](std::int32_t) { ++children; });
+    add_orphans(kOrphansOfDemoted * children, level.edges.row(node).size(), work);
+  }
+}
+
+detail::MaintenanceWork Hierarchy::Impl::standing_work() const {
+  detail::MaintenanceWork work;
+  work.points = static_cast<double>(raw.size());
+  if (finds_base_radius()) work.samples = static_cast<double>(detail::density_samples(raw.size()));
+  for (int i = 1; i <= top(); ++i) work.edges += static_cast<double>(levels[i].edges.entries());
+  return work;
 }
 
 template <class Metric>
@@ -151,20 +188,31 @@ void Hierarchy::Impl::repair_if_pending() {
     set_wrap_slack();
     with_metric(box, [&](const auto& metric) {
       refresh_centers(metric);
-      repair(metric, 0);
+      repair(metric);
     });
   });
 }
 
-// Both sides are this structure's own wall-clock times: of its last build, and of the sweep and the orphans
-// of its repairs so far. Until both have been seen once, repair, which is what measures them. Each orphan
-// brings the next reordering nearer and pays its share of that.
-bool Hierarchy::Impl::repair_pays(std::int64_t orphans) const {
-  if (!build_per_point.known() || !sweep_per_point.known() || !per_orphan.known()) return true;
-  const auto n = static_cast<double>(raw.size());
-  const double orphan_seconds = per_orphan.seconds() + reorder_per_point.seconds() / kStrayed;
-  return sweep_per_point.seconds() * n + orphan_seconds * static_cast<double>(orphans) <
-         build_per_point.seconds() * n;
+template <class Metric>
+bool Hierarchy::Impl::repair_pays(const Metric& metric) {
+  const detail::MaintenanceWork work = work_ahead(metric);
+  const detail::MaintenanceWeights& weights = detail::weights_in(box);
+  return repair_cost(work, weights) <= build_cost(work, weights);
+}
+
+// A particle that comes needs a parent, as do those with one that goes if it is a center; where, is not known
+// yet.
+bool Hierarchy::Impl::exchange_pays(std::size_t particles) const {
+  double near_all = 0;  // of all points in clusters, what a search near them looks at
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
+    if (!levels[1].is_alive(k)) continue;
+    const auto near_one = static_cast<double>(1 + levels[1].edges.row(k).size());
+    for (std::int32_t block = levels[1].first_child[k]; block != kNone; block = points.next[block])
+      near_all += near_one * points.count[block];
+  }
+  const auto& [particle, candidate] = detail::weights_in(box).exchange;
+  const double one = particle + candidate * near_all / std::max(1, points.alive);
+  return one * static_cast<double>(particles) <= build_cost(standing_work(), detail::weights_in(box));
 }
 
 #define DCH_INSTANTIATE(Metric)                          \

@@ -11,29 +11,21 @@
 // Settling the orphans one after the other, each promoted one with its edges at once, keeps the centers
 // separated.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "hierarchy_impl.hpp"
-#include "seconds_since.hpp"
 
 namespace dch {
 
 using detail::kNone;
 using detail::Level;
-using detail::seconds_since;
-using Clock = std::chrono::steady_clock;
 
 template <class Metric>
-void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
-  const auto start = Clock::now();
+void Hierarchy::Impl::repair(const Metric& metric) {
   const std::int64_t reparented_before = stats.reparented;
   measure(metric);
-  double cover_seconds = 0;
   for (int i = top(); i > 0; --i) {
-    const auto covering = Clock::now();
     if (i < top()) cover_level(metric, i);
-    cover_seconds += seconds_since(covering);
     if (edges_are_complete(i)) {
       find_too_close(metric, i);
     } else {
@@ -42,25 +34,15 @@ void Hierarchy::Impl::repair(const Metric& metric, double check_seconds) {
     unfold_joined(i);
     separate_level(i);
   }
-  const auto covering = Clock::now();
   cover_points(metric);  // which have no separation to keep, and whose edges are the lists
-  cover_seconds += seconds_since(covering);
   grow_top(metric);
   trim_top();
   fold();
   ++stats.repairs;
   pending = false;
   note_new_places();
-  const std::int64_t orphans = stats.reparented - reparented_before;
-  const double n = static_cast<double>(std::max<std::size_t>(raw.size(), 1));
-  const double orphan_seconds = std::max(0.0, cover_seconds - check_seconds);
-  sweep_per_point.observe((seconds_since(start) - orphan_seconds) / n);
-  if (orphans > 0) per_orphan.observe(orphan_seconds / static_cast<double>(orphans));
-  strayed += orphans;
-  if (static_cast<double>(strayed) <= kStrayed * n) return;
-  const auto reordering = Clock::now();
-  reorder();
-  reorder_per_point.observe(seconds_since(reordering) / n);
+  strayed += stats.reparented - reparented_before;
+  if (static_cast<double>(strayed) > detail::kStrayed * static_cast<double>(raw.size())) reorder();
 }
 
 /// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
@@ -191,10 +173,15 @@ void Hierarchy::Impl::separate_level(int i) {
   const Level& level = levels[i];
   for (const auto& [a, b] : too_close) {
     if (!level.is_alive(a) || !level.is_alive(b)) continue;
-    // At most one of them stands in the level above, whose nodes are farther apart than that.
-    const bool keep_a = level.up[a] != kNone || (level.up[b] == kNone && level.id[a] < level.id[b]);
+    const bool keep_a = keeps_first(i, a, b);
     demote(i, keep_a ? b : a, keep_a ? a : b);
   }
+}
+
+// At most one of them stands in the level above, whose nodes are farther apart than that.
+bool Hierarchy::Impl::keeps_first(int i, std::int32_t a, std::int32_t b) const {
+  const Level& level = levels[i];
+  return level.up[a] != kNone || (level.up[b] == kNone && level.id[a] < level.id[b]);
 }
 
 void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
@@ -224,7 +211,9 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
   ++stats.demotions;
 }
 
-#define DCH_INSTANTIATE(Metric) template void Hierarchy::Impl::repair(const Metric&, double);
+#define DCH_INSTANTIATE(Metric)                         \
+  template void Hierarchy::Impl::repair(const Metric&); \
+  template void Hierarchy::Impl::find_too_close(const Metric&, int);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)
 DCH_INSTANTIATE(detail::LatticeMetric)

@@ -16,8 +16,9 @@
 namespace dch {
 
 namespace detail {
+class DchSearch;
 class SizedSearch;
-}
+}  // namespace detail
 
 /// How the edge thresholds rho_i of the conflict graph grow with the level.
 enum class EdgeRule {
@@ -29,8 +30,8 @@ enum class EdgeRule {
 
 /// When update() repairs and when it builds anew.
 enum class MaintenancePolicy {
-  automatic,      ///< nothing as long as lists are certified to be complete without, then whichever the
-                  ///< structure's own timings say is cheaper
+  automatic,      ///< nothing as long as lists are certified to be complete without, then whichever is less
+                  ///< work, as counted before: the same on any machine, however busy
   always_repair,  ///< build once, then repair
   always_rebuild  ///< build at every update
 };
@@ -193,6 +194,7 @@ class Hierarchy {
  private:
   friend struct HierarchyTestAccess;  // tests plant faults for validate() to find
   friend class detail::SizedSearch;   // makes lists from several hierarchies
+  friend class detail::DchSearch;     // asks what an exchange of particles costs
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -341,26 +341,17 @@ TEST(HierarchyStats, CountsDistancesOfBuildInsertionRepairAndRemoval) {
   EXPECT_EQ(counted(), 4);  // the repair that was put off: both roots with both
 }
 
-/// The automatic policy on given costs, since the measured ones depend on what else the machine does.
+/// The automatic policy decides by counts alone.
 class AutomaticPolicyTest : public ::testing::Test {
  protected:
-  AutomaticPolicyTest() : hierarchy_(with_radius(1)), points_(scenes::uniform(4000, {14, 14, 14}, 6)) {
+  AutomaticPolicyTest() : hierarchy_(with_radius(1)), points_(scenes::uniform(20000, {24, 24, 24}, 6)) {
     hierarchy_.build(points_, Box::none());
-  }
-  void pretend_costs(double build_per_point, double sweep_per_point, double per_orphan) {
-    auto& inside = HierarchyTestAccess::impl(hierarchy_);
-    for (auto* estimate : {&inside.build_per_point, &inside.sweep_per_point, &inside.per_orphan})
-      *estimate = {};
-    inside.build_per_point.observe(build_per_point);
-    inside.sweep_per_point.observe(sweep_per_point);
-    inside.per_orphan.observe(per_orphan);
   }
   Hierarchy hierarchy_;
   std::vector<Vec3> points_;
 };
 
 TEST_F(AutomaticPolicyTest, RepairsWhenFewLostTheirParents) {
-  pretend_costs(2e-6, 0.5e-6, 3e-6);
   points_[7].x += 20;
   hierarchy_.update(points_, Box::none());
   EXPECT_EQ(hierarchy_.stats().repairs, 1);
@@ -368,35 +359,48 @@ TEST_F(AutomaticPolicyTest, RepairsWhenFewLostTheirParents) {
 }
 
 TEST_F(AutomaticPolicyTest, RebuildsWhenMostLostTheirParents) {
-  pretend_costs(2e-6, 0.5e-6, 3e-6);
-  hierarchy_.update(scenes::uniform(4000, {14, 14, 14}, 7), Box::none());
+  hierarchy_.update(scenes::uniform(20000, {24, 24, 24}, 7), Box::none());
   EXPECT_EQ(hierarchy_.stats().repairs, 0);
   EXPECT_EQ(hierarchy_.stats().builds, 2);
 }
 
-TEST_F(AutomaticPolicyTest, RepairsOnceToLearnItsCost) {
-  hierarchy_.update(scenes::uniform(4000, {14, 14, 14}, 7), Box::none());
-  EXPECT_EQ(hierarchy_.stats().repairs, 1);
+// All keep their parents, but half of the centers are demoted.
+TEST_F(AutomaticPolicyTest, RebuildsWhenCentersCameTooCloseToEachOther) {
+  for (Vec3& p : points_) p = 0.5 * p;
+  hierarchy_.update(points_, Box::none());
+  EXPECT_EQ(hierarchy_.stats().repairs, 0);
+  EXPECT_EQ(hierarchy_.stats().builds, 2);
 }
 
-TEST_F(AutomaticPolicyTest, TriesRepairAgainAfterManyBuilds) {
-  pretend_costs(2e-6, 1e-8, 1e-3);  // as if a repair had been interrupted for long
-  for (std::uint64_t step = 0; step < 100 && hierarchy_.stats().repairs == 0; ++step)
-    hierarchy_.update(scenes::uniform(4000, {14, 14, 14}, step), Box::none());
-  EXPECT_EQ(hierarchy_.stats().repairs, 1);
-  EXPECT_GT(hierarchy_.stats().builds, 10);
+TEST(MaintenanceCostTest, ComparesWhatIsCounted) {
+  detail::MaintenanceWork work;
+  work.points = 1000;
+  for (const auto& weights : {detail::kWeightsInBricks, detail::kWeightsInLattices}) {
+    work.orphans = 10;
+    work.candidates = 500;
+    EXPECT_LT(repair_cost(work, weights), build_cost(work, weights));
+    work.orphans = 1000;
+    work.candidates = 50000;
+    EXPECT_GT(repair_cost(work, weights), build_cost(work, weights));
+  }
+  EXPECT_EQ(&detail::weights_in(Box::none()), &detail::kWeightsInBricks);
+  EXPECT_EQ(&detail::weights_in(Box::orthorhombic({9, 9, 9})), &detail::kWeightsInBricks);
+  EXPECT_EQ(&detail::weights_in(Box::triclinic({9, 0, 0}, {2, 9, 0}, {0, 0, 9})),
+            &detail::kWeightsInLattices);
 }
 
-TEST(CostEstimateTest, FollowsTheLeastTimeAndForgetsSlowly) {
-  detail::CostEstimate estimate;
-  EXPECT_FALSE(estimate.known());
-  estimate.observe(2.0);
-  estimate.observe(1.0);
-  EXPECT_DOUBLE_EQ(estimate.seconds(), 1.0);
-  estimate.observe(50.0);
-  EXPECT_DOUBLE_EQ(estimate.seconds(), 1.05);
-  estimate.fade();
-  EXPECT_DOUBLE_EQ(estimate.seconds(), 0.9 * 1.05);
+// Beyond a tenth of the points all are put in order again, however many more there are.
+TEST(MaintenanceCostTest, ReordersOnce) {
+  detail::MaintenanceWork work;
+  const auto& weights = detail::kWeightsInBricks;
+  work.points = 1000;
+  const auto of_orphans = [&](double orphans) {
+    work.orphans = orphans;
+    return repair_cost(work, weights) - weights.repair.point * work.points - weights.repair.orphan * orphans;
+  };
+  EXPECT_DOUBLE_EQ(of_orphans(50), 0.5 * weights.repair.reordered_point * work.points);
+  EXPECT_DOUBLE_EQ(of_orphans(100), weights.repair.reordered_point * work.points);
+  EXPECT_DOUBLE_EQ(of_orphans(900), weights.repair.reordered_point * work.points);
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The same script five times, while other programs keep the processors more or less busy: the same bits each time."""
+
+import contextlib
+import hashlib
+import re
+import subprocess
+import sys
+import unittest
+
+from lammps_run import thermo_tables
+from script_tests import host, main
+
+REPEATS = 5
+# Fast atoms, so that the structure often has to be repaired or built anew.
+SCRIPT = """
+units lj
+atom_style atomic
+atom_modify sort 20 0
+lattice {lattice}
+region box prism 0 {cells} 0 {cells} 0 {cells} {tilt} 0 0
+create_box 1 box
+create_atoms 1 box
+mass 1 1.0
+velocity all create {temperature} 87287 loop geom
+pair_style lj/cut 2.5
+pair_coeff 1 1 1.0 1.0
+neighbor {skin} bin
+neigh_modify delay 0 every 1 check yes
+fix 1 all nve
+thermo 20
+thermo_modify format float %.17g
+dump 1 all custom {steps} {dump} id x y z vx vy vz fx fy fz
+dump_modify 1 sort id format float %.17g
+run {steps}
+dch stats
+"""
+SCENES = {
+    "gas": {"lattice": "sc 0.1", "cells": 14, "tilt": 4, "temperature": 10, "skin": 1.5, "steps": 120},
+    "melt": {"lattice": "fcc 0.8442", "cells": 7, "tilt": 2, "temperature": 20, "skin": 1.0, "steps": 60},
+}
+
+
+@contextlib.contextmanager
+def load(programs):
+    """So many other programs use the processors meanwhile; they end by themselves if this one cannot end them."""
+    code = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
+    running = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(programs)]
+    try:
+        yield
+    finally:
+        for program in running:
+            program.kill()
+            program.wait()
+
+
+def outcome(scene, words, ranks, threads):
+    """A hash of the last frame and all thermo output, and how often structures were built and repaired."""
+    dump = host.work / "dump.repeat"
+    text = f"include ${{load}}\n{words}dch threads {threads}\n" + SCRIPT.format(dump=dump, **SCENES[scene])
+    code, output = host.run_text(text, ranks=ranks)
+    if code != 0:
+        raise AssertionError(output)
+    state = dump.read_text() + repr(thermo_tables(output))
+    work = re.search(r"built (\d+) times, repaired (\d+) times, neither (\d+) times", output)
+    return hashlib.sha256(state.encode()).hexdigest(), tuple(map(int, work.groups()))
+
+
+class Repeats(unittest.TestCase):
+    def check(self, scene, words, ranks, threads=(1,)):
+        found = {}
+        for repeat in range(REPEATS):
+            with load(repeat):
+                result = outcome(scene, words, ranks, threads[repeat % len(threads)])
+            found.setdefault(result, []).append(repeat)
+        self.assertEqual(len(found), 1, f"{scene}, {words!r}, {ranks} processes: {found}")
+        (_, (builds, repairs, _)), = found
+        self.assertGreater(builds + repairs, 2, "nothing was decided")
+
+    def test_force_styles_on_one_process_with_one_and_two_threads(self):
+        for scene in SCENES:
+            self.check(scene, "dch on\nsuffix dch\n", 1, threads=(1, 2))
+
+    def test_lists_on_one_process(self):
+        for scene in SCENES:
+            self.check(scene, "dch on\n", 1)
+
+    def test_two_processes(self):
+        host.environment["OMPI_MCA_mpi_yield_when_idle"] = "1"  # one that waits leaves the processor to the others
+        self.check("melt", "dch on\nsuffix dch\n", 2)
+
+
+if __name__ == "__main__":
+    main(__doc__)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""The same replay five times, while other programs keep the processors busy: the same report, but for times and memory,
+and the same lists.
+
+    repeat.py DCH FOLDER_OF_TRAJECTORIES
+"""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+
+from dch_command import Checks, run
+
+REPEATS = 5
+TIMED = ("_ms", "_ns", "seconds", "speed", "per_second")
+
+
+@contextlib.contextmanager
+def load(programs):
+    """So many other programs use the processors meanwhile; they end by themselves if this one cannot end them."""
+    code = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
+    running = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(programs)]
+    try:
+        yield
+    finally:
+        for program in running:
+            program.kill()
+            program.wait()
+
+
+def without_times(value):
+    if isinstance(value, dict):
+        return {k: without_times(v) for k, v in value.items() if not any(word in k for word in TIMED)}
+    return [without_times(v) for v in value] if isinstance(value, list) else value
+
+
+def contents(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()].tobytes()})
+                        if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def outcome(command, path, cutoff, folder):
+    lists, report = os.path.join(folder, "lists.h5"), os.path.join(folder, "report.json")
+    result = run(command, "replay", path, "--cutoff", cutoff, "--out", lists, "--report", report)
+    if result.returncode != 0:
+        raise SystemExit(result.stderr)
+    return without_times(json.load(open(report))), contents(lists)
+
+
+def main(command, data):
+    checks = Checks()
+    for name, cutoff in (("polymer.lammpstrj", "10"), ("water.trr", "0.4"), ("cell_shapes.trr", "0.05")):
+        with tempfile.TemporaryDirectory() as folder:
+            first = None
+            for repeat in range(REPEATS):
+                with load(repeat):
+                    report, lists = outcome(command, os.path.join(data, name), cutoff, folder)
+                first = first or (report, lists)
+                different = [key for key in report if report[key] != first[0][key]]
+                checks.that(report == first[0], f"{name}, run {repeat}: other values of {different}")
+                checks.that(lists == first[1] and lists, f"{name}, run {repeat}: other lists")
+    checks.finish()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
