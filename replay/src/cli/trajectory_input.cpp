@@ -141,17 +141,21 @@ TrajectoryInput::TrajectoryInput(const InputWords& words)
     if (!is_whole_file(STDIN_FILENO)) copy(STDIN_FILENO);
   } else if (is_pipe(path_)) {
     format_ = format_of(words);
+    require_format_of_pipes();  // before it is opened, which waits for whoever writes into it
     const auto pipe = owned(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
     copy(*pipe);
   }
 }
 
+void TrajectoryInput::require_format_of_pipes() const {
+  if (format_ != "h5" && format_ != "h5md") return;
+  throw UsageError(name_ +
+                   ": H5MD cannot be read from a pipe, since HDF5 opens files by their names alone; "
+                   "save it to a file and name that");
+}
+
 void TrajectoryInput::copy(int descriptor) {
-  if (format_ == "h5" || format_ == "h5md") {
-    throw UsageError(name_ +
-                     ": H5MD cannot be read from a pipe, since HDF5 opens files by their names alone; "
-                     "save it to a file and name that");
-  }
+  require_format_of_pipes();
   copy_ = owned(make_nameless_file(name_));
   path_ = descriptor_path(*copy_);
   std::vector<char> bytes(std::size_t{1} << 20);

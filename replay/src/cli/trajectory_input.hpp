@@ -45,6 +45,7 @@ class TrajectoryInput {
   std::unique_ptr<trajectory::TrajectoryReader> open() const;
 
  private:
+  void require_format_of_pipes() const;
   void copy(int descriptor);
 
   std::string name_, path_, format_;

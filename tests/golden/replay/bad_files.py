@@ -7,6 +7,7 @@
 import glob
 import gzip
 import os
+import subprocess
 import sys
 import tempfile
 
@@ -122,12 +123,22 @@ def check_not_trajectories(checks, command, folder):
     check_replay_and_info(checks, command, path, [".lammpstrj", ".xtc", ".dcd"])
 
 
-def check_pipes(checks, command, folder):
-    """A pipe that nobody writes into: a message at once, and no waiting."""
-    for name in ("pipe.lammpstrj", "pipe.xtc", "pipe.h5"):
+def check_pipes(checks, command, data, folder):
+    """Pipes with nothing in them are empty files. Where none can be read, nobody waits for somebody to write into it."""
+    for name in ("pipe.lammpstrj", "pipe.xtc"):
         path = os.path.join(folder, name)
         os.mkfifo(path)
-        check_replay_and_info(checks, command, path, ["not a regular file"])
+        writer = subprocess.Popen([sys.executable, "-c", "import sys; open(sys.argv[1], 'wb').close()", path])
+        expect_failure(checks, command, ["info", path], 3, [name, "empty"])
+        writer.wait(timeout=60)
+    path = os.path.join(folder, "pipe.h5")
+    os.mkfifo(path)
+    expect_failure(checks, command, ["info", path], 2, ["pipe.h5", "cannot be read from a pipe", "save it to a file"])
+    bonds = os.path.join(folder, "pipe.bonds")
+    os.mkfifo(bonds)
+    trajectory = os.path.join(data, "nopbc.dcd")
+    expect_failure(checks, command, ["contacts", trajectory, "--gap", "1", "--topology", bonds], 3,
+                   ["pipe.bonds", "not a regular file"])
 
 
 def check_files_that_lead_outside(checks, command, folder):
@@ -249,7 +260,7 @@ def main(command, data):
         check_bad_second_frames(checks, command, folder)
         check_truncations(checks, command, data, folder)
         check_not_trajectories(checks, command, folder)
-        check_pipes(checks, command, folder)
+        check_pipes(checks, command, data, folder)
         check_files_that_lead_outside(checks, command, folder)
         check_compressed_h5md(checks, command, folder)
         check_expansion(checks, command, folder)
