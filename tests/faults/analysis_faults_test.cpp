@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is counted of contacts stays as it was if memory runs out, and what is made is made whole or not at all.
+// What is counted of contacts stays as it was if memory runs out, and what is made is made whole or not at
+// all.
 #include <cmath>
 #include <sstream>
 
@@ -19,7 +20,8 @@ namespace {
 using namespace necklace;  // NOLINT(google-build-using-namespace)
 
 const Necklace& necklace_of_two() {
-  static const Necklace chains(Chains::from_molecules(std::vector<std::int32_t>{1, 1, 1, 1, 1, 2, 2, 2, 2}), 0.5);
+  static const Necklace chains(Chains::from_molecules(std::vector<std::int32_t>{1, 1, 1, 1, 1, 2, 2, 2, 2}),
+                               0.5);
   return chains;
 }
 
@@ -31,8 +33,8 @@ Contact contact(std::int32_t i, std::int32_t j) {
 }
 
 const std::vector<Contact> kFirst{contact(0, 2), contact(0, 3), contact(1, 3), contact(5, 7)};
-const std::vector<Contact> kSecond{contact(0, 4), contact(1, 3), contact(1, 4), contact(2, 4),
-                                   contact(3, 6), contact(5, 8)};
+const std::vector<Contact> kSecond{contact(0, 4), contact(1, 3), contact(1, 4),
+                                   contact(2, 4), contact(3, 6), contact(5, 8)};
 
 std::string text_of(Span<const ContactEvent> events) {
   std::ostringstream text;
@@ -51,24 +53,26 @@ ContactEvents begun() {
 TEST(AnalysisFaults, EventsTakeAFrameOnceMore) {
   ContactEvents whole = begun();
   const std::string ended = text_of(whole.add(2, kSecond)), running = text_of(whole.finish());
-  expect_sound(sweep(begun, [](ContactEvents& events) { events.add(2, kSecond); },
-                     [&](ContactEvents& events, Ending ending) -> std::string {
-                       if (ending == Ending::threw) {
-                         if (events.frames() != 1 || events.running() != kFirst.size())
-                           return "a frame was taken in part";
-                         if (text_of(events.add(2, kSecond)) != ended) return "other contacts ended";
-                       }
-                       return text_of(events.finish()) == running ? "" : "other contacts are running";
-                     }),
+  expect_sound(sweep(
+                   begun, [](ContactEvents& events) { events.add(2, kSecond); },
+                   [&](ContactEvents& events, Ending ending) -> std::string {
+                     if (ending == Ending::threw) {
+                       if (events.frames() != 1 || events.running() != kFirst.size())
+                         return "a frame was taken in part";
+                       if (text_of(events.add(2, kSecond)) != ended) return "other contacts ended";
+                     }
+                     return text_of(events.finish()) == running ? "" : "other contacts are running";
+                   }),
                2);
 }
 
 TEST(AnalysisFaults, EventsThatEndTakeNoMemory) {
   const std::string expected = text_of(begun().finish());
-  expect_no_memory(sweep(begun, [](ContactEvents& events) { events.finish(); },
-                         [](ContactEvents& events, Ending) -> std::string {
-                           return events.frames() == 0 && events.running() == 0 ? "" : "it is not as new";
-                         }));
+  expect_no_memory(sweep(
+      begun, [](ContactEvents& events) { events.finish(); },
+      [](ContactEvents& events, Ending) -> std::string {
+        return events.frames() == 0 && events.running() == 0 ? "" : "it is not as new";
+      }));
   ASSERT_FALSE(expected.empty());
 }
 
@@ -110,10 +114,11 @@ TEST(AnalysisFaults, ProbabilitiesAreMadeOrNotAndCountWithoutMemory) {
                            return std::string(counted.frames() == 1 ? "" : "a frame is not counted");
                          }));
   const std::size_t ranges = with_a_frame().ranges(5).size();
-  expect_sound(sweep(with_a_frame, [](ContactProbability& counted) { counted.ranges(5); },
-                     [&](const ContactProbability& counted, Ending) {
-                       return std::string(counted.ranges(5).size() == ranges ? "" : "there are other ranges");
-                     }),
+  expect_sound(sweep(
+                   with_a_frame, [](ContactProbability& counted) { counted.ranges(5); },
+                   [&](const ContactProbability& counted, Ending) {
+                     return std::string(counted.ranges(5).size() == ranges ? "" : "there are other ranges");
+                   }),
                2);
 }
 
@@ -139,10 +144,10 @@ TEST(AnalysisFaults, AMeltIsMadeOrNot) {
   const Melt expected = make_melt(params);
   expect_sound(sweep([] { return Melt(); }, [&](Melt& melt) { melt = make_melt(params); },
                      [&](const Melt& melt, Ending ending) {
-                       const bool is_right = ending == Ending::threw
-                                                 ? melt.positions.empty() && melt.bonds.empty()
-                                                 : melt.positions == expected.positions &&
-                                                       melt.bonds == expected.bonds;
+                       const bool is_right =
+                           ending == Ending::threw
+                               ? melt.positions.empty() && melt.bonds.empty()
+                               : melt.positions == expected.positions && melt.bonds == expected.bonds;
                        return std::string(is_right ? "" : "it is made in part");
                      }),
                8);
@@ -162,7 +167,9 @@ TEST(AnalysisFaults, FeneForcesAreAddedWholeOrNot) {
                      [](int, Ending) { return std::string(); }),
                2);
   const FeneForces fene(types);
-  const auto add = [&](Pulled& pulled) { fene.add_forces(bonds, 1, positions, pulled.forces, pulled.too_long); };
+  const auto add = [&](Pulled& pulled) {
+    fene.add_forces(bonds, 1, positions, pulled.forces, pulled.too_long);
+  };
   Pulled expected;
   add(expected);
   ASSERT_EQ(expected.too_long, (std::vector<std::int32_t>{2}));

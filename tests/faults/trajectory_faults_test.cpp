@@ -42,10 +42,10 @@ Content content_of(const std::string& path, const std::string& format) {
 void sweep_reading(const std::string& path, const std::string& format, long least_failures) {
   const Content expected = content_of(path, format);
   ASSERT_GT(expected.frames, 0);
-  expect_sound(sweep([] { return Content(); },
-                     [&](Content& content) { content = content_of(path, format); },
+  expect_sound(sweep([] { return Content(); }, [&](Content& content) { content = content_of(path, format); },
                      [&](const Content& content, Ending ending) -> std::string {
-                       if (ending == Ending::returned && !(content == expected)) return "the frames are others";
+                       if (ending == Ending::returned && !(content == expected))
+                         return "the frames are others";
                        return content_of(path, format) == expected ? "" : "the next reader sees other frames";
                      }),
                least_failures);

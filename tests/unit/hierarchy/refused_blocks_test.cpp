@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that come apart may need more blocks than indices name, whatever is done to them. Here few are allowed.
+// Points that come apart may need more blocks than indices name, whatever is done to them. Here few are
+// allowed.
 #include <gtest/gtest.h>
 #include <vector>
 
