@@ -28,7 +28,7 @@ void DchSearch::update(Span<const Vec3> positions, const Box& box, Span<const st
     }
   } catch (...) {
     state_ = State::empty;
-    hierarchy_.build({}, Box::none());
+    hierarchy_.impl_->reset(Box());  // takes no memory, which may be what there is none of
     throw;
   }
   ++updates_;

@@ -194,7 +194,7 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
   // unfolds.
   if (h.free_ids.empty())
     index_count(static_cast<std::int64_t>(h.slot_of_id.size()) + 1, "points", "take fewer");
-  detail::block_count(static_cast<std::int64_t>(h.points.cluster.size() + h.lone.size()) + 1);
+  detail::block_count(static_cast<std::int64_t>(h.points.cluster.size() + h.lone.size()) + 1, h.points.most);
   h.repair_if_pending();
   std::int32_t id = kNone;
   h.change_or_empty([&] {

@@ -20,7 +20,7 @@ void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::PointBlocks& b
   std::int64_t most = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
     most += detail::blocks_for(members.first[k + 1] - members.first[k]);
-  blocks.reserve(detail::block_count(most));
+  blocks.reserve(detail::block_count(most, blocks.most));
   std::vector<detail::LocalPoint> local;
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     local.clear();

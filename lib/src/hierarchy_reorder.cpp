@@ -99,6 +99,7 @@ void Hierarchy::Impl::reorder_points() {
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
     for_each_child(1, k, [&](std::int32_t slot) { cluster_of[slot] = k; });
   detail::PointBlocks fresh;
+  fresh.most = points.most;
   with_metric(box, [&](const auto& metric) {
     fill_clusters(
         metric, fresh, cluster_of, [&](std::size_t slot) { return points.id[slot]; },

@@ -201,8 +201,7 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
   if (is_lone_point(point)) {
     forget_lone(lowest.level, node);
   } else if (up(0, slot_of_id[point]) == kNone) {
-    take_point(slot_of_id[point]);
-    trim_top();
+    take_point(slot_of_id[point]);  // the levels above know nothing of it
     return;
   }
   for (int level = lowest.level; node != kNone; ++level) {
@@ -213,11 +212,7 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
     });
     if (level > 1)
       while (at.first_child[node] != kNone) detach(level - 1, at.first_child[node]);
-    if (!at.edges.row(node).empty()) {
-      hint[level] = {level, at.edges.row(node)[0]};
-    } else if (at.up[node] == kNone && at.parent[node] != kNone) {
-      hint[level] = {level + 1, at.parent[node]};
-    }
+    if (!at.edges.row(node).empty()) hint[level] = {level, at.edges.row(node)[0]};
     detach(level, node);
     disconnect(level, node);
     if (level == 1) {

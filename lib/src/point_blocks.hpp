@@ -17,10 +17,11 @@ namespace dch::detail {
 inline constexpr std::int64_t kMostBlocks = kMaxIndexCount / kBlock;
 
 /// The same number.
-/// @throws InvalidParameter for more blocks than kMostBlocks.
-inline std::int32_t block_count(std::int64_t blocks) {
+/// @param most fewer than kMostBlocks in tests alone
+/// @throws InvalidParameter for more blocks than that.
+inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMostBlocks) {
   return index_count(blocks, "blocks of eight points (one or more for each cluster)",
-                     "take fewer points, or a larger base_radius for fewer clusters", kMostBlocks);
+                     "take fewer points, or a larger base_radius for fewer clusters", most);
 }
 
 /// Level S_0: the points, in blocks of kBlock slots. The points of one cluster (a node of level 1, their
@@ -34,6 +35,7 @@ struct PointBlocks {
   std::vector<std::int32_t> count;    ///< by block: points in it
   std::vector<std::int32_t> free;     ///< blocks not in use
   std::int32_t alive = 0;             ///< number of points
+  std::int64_t most = kMostBlocks;    ///< blocks; fewer in tests, which refuse some without 2^28 of them
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
   std::int32_t parent(std::int32_t slot) const { return cluster[slot / kBlock]; }
@@ -47,11 +49,11 @@ struct PointBlocks {
   }
 
   /// A block with no points yet, for a cluster whose chain has continued with `rest`.
-  /// @throws InvalidParameter for more blocks than kMostBlocks.
+  /// @throws InvalidParameter for more blocks than `most`.
   std::int32_t add_block(std::int32_t owner, std::int32_t rest) {
     std::int32_t block;
     if (free.empty()) {
-      block = block_count(static_cast<std::int64_t>(cluster.size()) + 1) - 1;
+      block = block_count(static_cast<std::int64_t>(cluster.size()) + 1, most) - 1;
       cluster.push_back(kNone);
       next.push_back(kNone);
       count.push_back(0);

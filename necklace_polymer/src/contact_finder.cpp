@@ -57,7 +57,7 @@ void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
 
 bool ContactFinder::any_contact(const ContactQuery& query) {
   std::vector<Contact> found;
-  if (!measures_now()) return by_dch(query, true, found);
+  if (!measures_now() || !wrapped_takes()) return by_dch(query, true, found);
   ContactStats stats;
   const bool any = necklace::any_contact(wrapped_now(), query, &stats, params_.executor);
   if (!any) measured(stats);
@@ -66,7 +66,7 @@ bool ContactFinder::any_contact(const ContactQuery& query) {
 
 std::vector<Contact> ContactFinder::find_contacts(const ContactQuery& query) {
   std::vector<Contact> found;
-  if (!measures_now()) {
+  if (!measures_now() || !wrapped_takes()) {
     by_dch(query, false, found);
     return found;
   }
@@ -87,6 +87,17 @@ const WrappedHierarchy& ContactFinder::wrapped_now() {
   if (!wrapped_is_new_) wrapped_.update(given_, box_);
   wrapped_is_new_ = true;
   return wrapped_;
+}
+
+/// Whether the wrapped hierarchy can be asked; if not, there is nothing to measure now.
+bool ContactFinder::wrapped_takes() {
+  try {
+    wrapped_now();
+    return true;
+  } catch (const Undetermined&) {
+    since_measured_ = 0;
+    return false;
+  }
 }
 
 /// Chooses anew, with hysteresis: between the two thresholds nothing changes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdio>
 #include <exception>
 #include <gtest/gtest.h>
 #include <new>
@@ -59,11 +60,31 @@ SweepResult sweep(const Make& make, const Call& call, const FaultOf& fault_of) {
   return result;
 }
 
-/// Has a test fail if something was wrong, or if so few calls failed that the sweep shows little.
-inline void expect_sound(const SweepResult& result, long least_failures) {
+/// Says what was wrong, and how many failures were injected by this test so far.
+inline void report(const SweepResult& result) {
+  static const ::testing::TestInfo* test = nullptr;
+  static long failures = 0;
+  const auto* const now = ::testing::UnitTest::GetInstance()->current_test_info();
+  if (test != now) failures = 0;
+  test = now;
+  failures += result.failures;
   for (const std::string& fault : result.faults) ADD_FAILURE() << fault;
+  std::printf("%ld failures injected so far\n", failures);
+  ::testing::Test::RecordProperty("failures", std::to_string(failures));
+}
+
+/// Has a test fail if something was wrong, or if so few calls failed that the sweep shows little.
+/// @param least_failures at least 1; see expect_no_memory()
+inline void expect_sound(const SweepResult& result, long least_failures) {
+  report(result);
+  ASSERT_GE(least_failures, 1);
   EXPECT_GE(result.failures, least_failures);
-  ::testing::Test::RecordProperty("failures", std::to_string(result.failures));
+}
+
+/// Has a test fail if something was wrong, or if the call takes memory at all.
+inline void expect_no_memory(const SweepResult& result) {
+  report(result);
+  EXPECT_EQ(result.failures, 0) << "it takes memory";
 }
 
 }  // namespace dch::faults

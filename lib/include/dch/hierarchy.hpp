@@ -95,7 +95,8 @@ struct LevelInfo {
 ///
 /// What is thrown for arguments that do not fit is thrown before anything changes, but build() and update()
 /// check positions when the old ones are given up. If anything else is thrown (std::bad_alloc, what a
-/// PairTest or an Executor throws), build(), update(), repair(), insert() and remove() leave the hierarchy
+/// PairTest or an Executor throws, InvalidParameter where points that come apart need more blocks than 32-bit
+/// numbers name), build(), update(), repair(), insert() and remove() leave the hierarchy
 /// empty, without points until the next build(); renumber() leaves it as it was. list(), lists() and
 /// cluster_pairs() leave it as it was too (empty only where they had to repair it first, since points
 /// inserted since update() lie much farther out than all others), and what they were to write is empty or as

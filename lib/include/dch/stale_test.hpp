@@ -21,6 +21,11 @@ namespace dch {
 /// 2 (cutoff + skin), the images of two wrapped particles that come within the cutoff differ by at most one
 /// vector of each. Changes of the origin and of open axes move no pair. Another periodicity and another
 /// number of particles are always stale.
+///
+/// In a periodic box displacements and distances round: 1e-12 of the box or less for particles near it, and
+/// about 1e-14 of the coordinates of boxes and particles far from the origin. A bound on that is taken from
+/// the skin, so that what cannot be told is stale. Without a skin all but the very same positions and box
+/// are.
 class StaleTest {
  public:
   /// @throws InvalidParameter for a negative or non-finite skin [length].
@@ -35,12 +40,15 @@ class StaleTest {
   void forget() { valid_ = false; }
 
  private:
+  void wrap_reference();
   std::array<Vec3, 3> periods(const Box& box) const;
   double strain(const Box& box) const;
 
   double skin_;
-  std::vector<Vec3> reference_;  ///< wrapped positions
+  std::vector<Vec3> reference_;  ///< positions, wrapped unless there is no skin
   Box reference_box_;
+  Vec3 low_, high_;             ///< corners of the box around them
+  double reference_error_ = 0;  ///< how far distances of the wrapped positions may be off [length]
   /// Reduced periodic vectors of the reference box as integer combinations of its cell vectors.
   std::array<std::array<double, 3>, 3> combinations_{};
   bool valid_ = false;

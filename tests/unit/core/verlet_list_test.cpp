@@ -48,11 +48,11 @@ TEST(VerletList, StaleBeyondHalfTheSkin) {
   EXPECT_FALSE(verlet.update(points, box));
   EXPECT_EQ(verlet.rebuilds(), 1);
 
-  points[1] = {9.25, 9, 9};
-  EXPECT_FALSE(verlet.is_stale(points, box)) << "exactly half the skin";
+  points[1] = {9.25 - 1e-9, 9, 9};
+  EXPECT_FALSE(verlet.is_stale(points, box)) << "half the skin but for rounding";
   points[1] = {9.25 + 1e-9, 9, 9};
   EXPECT_TRUE(verlet.is_stale(points, box));
-  points[1] = {9.25 - 30, 9, 19};
+  points[1] = {9.25 - 1e-9 - 30, 9, 19};
   EXPECT_FALSE(verlet.is_stale(points, box)) << "images are the same point";
   points[1] = {9, 9, 9.3};
   EXPECT_TRUE(verlet.update(points, box));
@@ -66,6 +66,10 @@ TEST(VerletList, WithoutSkinAnyMotionIsStale) {
   verlet.update(points, Box::none());
   EXPECT_FALSE(verlet.is_stale(points, Box::none()));
   EXPECT_TRUE(verlet.is_stale(std::vector<Vec3>{{1, 1, 1}, {2, 2, 2.0000001}}, Box::none()));
+  const Box box = Box::orthorhombic({10, 10, 10});
+  verlet.update(points, box);
+  EXPECT_FALSE(verlet.is_stale(points, box));
+  EXPECT_TRUE(verlet.is_stale(points, Box::orthorhombic({10, 10, std::nextafter(10, 11)})));
 }
 
 TEST(VerletList, BoxChangeTakesFromTheSkin) {
@@ -73,14 +77,14 @@ TEST(VerletList, BoxChangeTakesFromTheSkin) {
   auto verlet = verlet_list(2, 0.5);
   const auto box = [](double x) { return Box::orthorhombic({x, 10, 10}); };
   verlet.update(points, box(10));
-  EXPECT_FALSE(verlet.is_stale(points, box(10.5))) << "the whole skin";
-  EXPECT_FALSE(verlet.is_stale(points, box(9.5)));
+  EXPECT_FALSE(verlet.is_stale(points, box(10.5 - 1e-9))) << "the whole skin";
+  EXPECT_FALSE(verlet.is_stale(points, box(9.5 + 1e-9)));
   EXPECT_TRUE(verlet.is_stale(points, box(10.5 + 1e-9)));
   EXPECT_TRUE(verlet.is_stale(points, box(9.5 - 1e-9)));
 
   std::vector<Vec3> moved = points;
   moved[0].y += 0.125;
-  EXPECT_FALSE(verlet.is_stale(moved, box(10.25)));
+  EXPECT_FALSE(verlet.is_stale(moved, box(10.25 - 1e-9)));
   EXPECT_TRUE(verlet.is_stale(moved, box(10.25 + 1e-9)));
 
   moved = points;
@@ -100,7 +104,7 @@ TEST(VerletList, ChangesOfCellVectorsAddUpInTheWorstWay) {
         const auto box = [&](double more) {
           return Box::triclinic({10 + a * more, 0, 0}, {b, 10, 0}, {c, 0, 10});
         };
-        EXPECT_FALSE(verlet.is_stale(points, box(1)));
+        EXPECT_FALSE(verlet.is_stale(points, box(1 - 1e-8)));
         EXPECT_TRUE(verlet.is_stale(points, box(1 + 1e-8)));
       }
     }
@@ -113,7 +117,7 @@ TEST(VerletList, StrainIsThatOfTheReducedCell) {
   const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
   auto verlet = verlet_list(2, 0.5);
   verlet.update(points, skewed(10));
-  EXPECT_FALSE(verlet.is_stale(points, skewed(10.5)));
+  EXPECT_FALSE(verlet.is_stale(points, skewed(10.5 - 1e-9)));
   EXPECT_TRUE(verlet.is_stale(points, skewed(10.5 + 1e-9)));
 }
 
@@ -244,8 +248,8 @@ TEST(VerletList, NeverMissesAPairThatClosesInHeadOn) {
       auto verlet = verlet_list(cutoff, skin);
       verlet.update(start, box);
       ASSERT_EQ(verlet.list().pairs(), 0);
-      const std::vector<Vec3> still_good{start[0] + (0.5 * skin - 1e-12) * unit,
-                                         start[1] - (0.5 * skin - 1e-12) * unit};
+      const std::vector<Vec3> still_good{start[0] + (0.5 * skin - 1e-9) * unit,
+                                         start[1] - (0.5 * skin - 1e-9) * unit};
       ASSERT_FALSE(verlet.is_stale(still_good, box)) << name;
       ASSERT_EQ(all_pairs(still_good, box, with_skin(cutoff, 0)).pairs(), 0) << name;
       const std::vector<Vec3> in_reach{start[0] + (0.5 * skin + 1e-9) * unit,
@@ -253,6 +257,88 @@ TEST(VerletList, NeverMissesAPairThatClosesInHeadOn) {
       ASSERT_EQ(all_pairs(in_reach, box, with_skin(cutoff, 0)).pairs(), 1) << name;
       ASSERT_TRUE(verlet.is_stale(in_reach, box)) << name;
     }
+  }
+}
+
+/// A pair of points some images of the box away, just outside the list, and where it has come within the
+/// cutoff.
+struct ClosingPair {
+  std::vector<Vec3> before, after;
+};
+
+/// How many images of the box away points are at most, before and after.
+struct Images {
+  double before, after;
+};
+
+/// @param step the motion of each point, along the line that joins their nearest images [length]
+ClosingPair closing_pair(const Box& box, Images images, double cutoff, double step, scenes::Random& random) {
+  const auto image = [&](double most) {
+    Vec3 shift;
+    for (int k = 0; k < box.rank(); ++k)
+      shift = shift + std::nearbyint(random.uniform(-most, most)) * box.reduced()[k];
+    return shift;
+  };
+  const Vec3 p = box.origin() + random.in_cube(5), outward = random.in_ball(1);
+  const Vec3 unit = (1 / std::sqrt(norm2(outward))) * outward;
+  const Vec3 q = p + (cutoff + random.uniform(1.6, 2) * step) * unit;
+  if (images.before == images.after) {
+    const Vec3 far_p = p + image(images.before), far_q = q + image(images.before);
+    return {{far_p, far_q}, {far_p + step * unit, far_q - step * unit}};
+  }
+  return {{p + image(images.before), q + image(images.before)},
+          {p + step * unit + image(images.after), q - step * unit + image(images.after)}};
+}
+
+void expect_no_pair_missed(const Box& box, Images images, scenes::Random& random) {
+  const double cutoff = 1.2;
+  // About the spacing of coordinates.
+  const double unit = 1e-16 * (10 * std::max(images.before, images.after) + std::abs(box.origin().x));
+  for (int trial = 0; trial < 500; ++trial) {
+    const double step = random.uniform(1, 5) * unit, skin = random.uniform(1.4, 2.2) * step;
+    const ClosingPair pair = closing_pair(box, images, cutoff, step, random);
+    auto verlet = verlet_list(cutoff, skin);
+    verlet.update(pair.before, box);
+    if (verlet.is_stale(pair.after, box)) continue;
+    ASSERT_EQ(missing_pair(verlet, pair.after, box, cutoff), "")
+        << images.before << " boxes away, then " << images.after << ", corner at " << box.origin().x
+        << ", trial " << trial;
+  }
+}
+
+// Where coordinates are so large that displacements round, what cannot be told is stale.
+TEST(VerletList, NeverMissesAPairFarAwayWhereDisplacementsRound) {
+  scenes::Random random(19);
+  for (const double away : {1.0, 1e9, 1e11, 1e12, 3e12}) {
+    for (const double corner : {0.0, 1e9, 1e12}) {
+      for (const Images images : {Images{away, away}, Images{away, 1}, Images{1, away}}) {
+        const Vec3 origin{corner, -corner, corner};
+        const Vec3 a{10.1, 0, 0}, b{3.1, 9.3, 0}, c{-2.3, 4.7, 11.7};
+        expect_no_pair_missed(Box::orthorhombic({10.1, 9.3, 11.7}, {true, true, true}, origin), images,
+                              random);
+        expect_no_pair_missed(Box::orthorhombic({10.1, 9.3, 11.7}, {true, true, false}, origin), images,
+                              random);
+        expect_no_pair_missed(Box::triclinic(a, b, c, {true, true, true}, origin), images, random);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+// What rounding takes from the skin is little: far from the origin lists are kept as long as elsewhere.
+TEST(VerletList, IsKeptFarAwayWhereRoundingIsLittleBesideTheSkin) {
+  for (const double images : {1.0, 1e6, 1e9}) {
+    const Box box = Box::orthorhombic({10, 10, 10}, {true, true, true}, {0, 0, 1e5});
+    const Vec3 shift{-10 * images, 10 * images, 20 * images};
+    std::vector<Vec3> points{Vec3{1, 1, 1} + shift, {9, 9, 9}};
+    auto verlet = verlet_list(2, 0.5);
+    verlet.update(points, box);
+    EXPECT_FALSE(verlet.is_stale(points, box)) << images;
+    points[0].x += 0.245;
+    points[1] = points[1] + shift;
+    EXPECT_FALSE(verlet.is_stale(points, box)) << images;
+    points[0].x += 0.01;
+    EXPECT_TRUE(verlet.is_stale(points, box)) << images;
   }
 }
 

@@ -84,6 +84,30 @@ TEST(FarBoxes, OpenSpaceIsTheSameAnywhere) {
     }
 }
 
+// Beyond 2^53 cells from the origin the product of a coordinate and the cells' density rounds to more than a
+// cell, but the difference of two coordinates is exact.
+TEST(FarBoxes, CellsFinerThanTheSpacingOfCoordinatesMissNoPair) {
+  for (const double far : {1e9, 1.9e9, 1e15, -1.1e15}) {
+    const double spacing = std::nextafter(std::abs(far), INFINITY) - std::abs(far);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Vec3> points(200);
+      for (std::size_t k = 0; k < points.size(); ++k)
+        points[k][axis] = far + static_cast<double>(k) * spacing;
+      for (const double steps : {1.0, 2.0}) {
+        ListParams params;
+        params.cutoffs = TypeCutoffs(steps * spacing);
+        const NeighborList expected = all_pairs(points, Box::none(), params);
+        ASSERT_EQ(expected.pairs(), steps == 1 ? 199 : 199 + 198);
+        for (const int divisions : {1, 2, 3}) {
+          const auto cells = make_cell_search(steps * spacing, divisions);
+          cells->update(points, Box::none());
+          EXPECT_EQ(first_difference(cells->list(params), expected), "") << far << ", " << divisions;
+        }
+      }
+    }
+  }
+}
+
 TEST(FarBoxes, WhereRoundingLosesTheBoxTheRemedyIsToShiftIt) {
   const Box box = Box::orthorhombic({10, 10, 10}, {true, true, true}, {1e17, 0, 0});
   const auto cells = make_cell_search(1);

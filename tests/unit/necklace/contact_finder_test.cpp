@@ -206,6 +206,56 @@ TEST(ContactFinder, FollowsWhateverChanges) {
   EXPECT_EQ(finder.choice().structure, Structure::dch);
 }
 
+/// What the finder says in the wrapped hierarchy's turn and in the DCH's.
+template <class Ask>
+void ask_in_both_turns(const Necklace& necklace, const std::vector<Vec3>& positions, const Box& box,
+                       const Ask& ask) {
+  for (const bool is_dch : {false, true}) {
+    SCOPED_TRACE(is_dch ? "the DCH's turn" : "the wrapped hierarchy's turn");
+    ContactFinder finder(necklace, always_dch());
+    const std::vector<Vec3> stretched(positions.size(), Vec3{1, 1, 1});
+    if (is_dch) measure(finder, stretched, box);
+    ASSERT_EQ(finder.choice().structure, is_dch ? Structure::dch : Structure::wrapped);
+    finder.update(positions, box);
+    ask(finder);
+    finder.update(stretched, box);
+    EXPECT_NO_THROW(finder.find_contacts({})) << "in the next frame";
+  }
+}
+
+// The wrapped hierarchy needs whole chains; contacts do not.
+TEST(ContactFinder, BondsThatLeaveImagesUndeterminedDoNotHideContacts) {
+  const Box box = Box::orthorhombic({9, 9, 9});
+  const std::vector<double> radii(5, 0.6);
+  const std::vector<Vec3> broken{{1, 1, 1}, {1, 1, 2.1}, {1, 1, 6.9}, {1.5, 1.5, 1}, {8, 8, 6.9}};
+  const std::vector<Vec3> winding{{0, 1, 1}, {2, 1, 1}, {4, 1, 1}, {6, 1, 1}, {8, 1, 1}};
+  std::vector<dch::IndexPair> path{{0, 1}, {1, 2}, {2, 3}, {3, 4}}, ring = path;
+  ring.push_back({4, 0});
+  for (const auto& [bonds, positions] : {std::pair{path, broken}, std::pair{ring, winding}}) {
+    const Necklace necklace(Chains::from_bonds(5, bonds), radii);
+    WrappedHierarchy wrapped(necklace);
+    EXPECT_THROW(wrapped.build(positions, box), dch::necklace::Undetermined);
+    const ContactQuery query{0.9, 0, true, true};
+    const auto expected = dch::test::contact_oracle(necklace, positions, box, query);
+    ASSERT_GE(expected.size(), 2u);
+    ask_in_both_turns(necklace, positions, box, [&](ContactFinder& finder) {
+      EXPECT_EQ(dch::test::pairs_of(finder.find_contacts(query)), expected);
+      EXPECT_TRUE(finder.any_contact(query));
+      EXPECT_FALSE(finder.any_contact({-1.1, 1, true, true}));
+      EXPECT_THROW(finder.find_contacts({NAN, 1, true, true}), InvalidParameter);
+    });
+  }
+}
+
+TEST(ContactFinder, WhatNeitherStructureTakesIsRefusedInBothTurns) {
+  const Necklace points = Necklace::chain({0, 0, 0});  // the DCH takes no points that are to coincide
+  const std::vector<Vec3> broken{{1, 1, 1}, {5, 5, 5}, {1, 1, 1}};
+  ask_in_both_turns(points, broken, Box::orthorhombic({9, 9, 9}), [](ContactFinder& finder) {
+    EXPECT_THROW(finder.find_contacts({0, 1, true, true}), dch::necklace::Undetermined);
+    EXPECT_THROW(finder.any_contact({0, 1, true, true}), dch::necklace::Undetermined);
+  });
+}
+
 TEST(ContactFinder, RefusesBadInput) {
   const Necklace necklace = Necklace::chain({0.5, 0.5, 0.5});
   ContactFinderParams params;

@@ -45,7 +45,10 @@ struct ContactFinderParams {
 /// Contacts by the structure that suits the scene: a figure for how packed the chains are, visited pairs for
 /// each bead, decides between the wrapped hierarchy and the DCH. Both give the same contacts. What the DCH
 /// does not take (beads and gaps that reach less than kMinListRadius or more than kMaxListRadius, positions
-/// that rounding makes uncertain in a periodic box) the wrapped hierarchy answers in its turn too.
+/// that rounding makes uncertain in a periodic box) the wrapped hierarchy answers in its turn too, and what
+/// the wrapped hierarchy does not take (bonds that leave images undetermined, as unwrap() says) the DCH does:
+/// contacts go by the positions as given, whatever the bonds. So the outcome does not depend on whose turn it
+/// is.
 ///
 /// A search that ends at its first contact does not measure, as it costs little. Periodic boxes as for
 /// either structure. Not thread-safe; distinct objects are independent.
@@ -61,7 +64,7 @@ class ContactFinder {
 
   /// As the functions of these names in contacts.hpp, which say what a contact is and in which order they
   /// come.
-  /// @throws as these do, and Undetermined as WrappedHierarchy::update().
+  /// @throws as these do, and Undetermined where neither structure takes the positions.
   bool any_contact(const ContactQuery& query);
   std::vector<Contact> find_contacts(const ContactQuery& query);
 
@@ -72,6 +75,7 @@ class ContactFinder {
  private:
   bool measures_now();
   const WrappedHierarchy& wrapped_now();
+  bool wrapped_takes();
   void measured(const ContactStats& stats);
   bool list_near(const ContactQuery& query);
   bool is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const;
