@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The limits of the integers that lists are made with: they leave no pair out, and are as near to the cutoff as what
-// is rounded on the way allows. What that is, list_kernels.hpp says.
+// The limits of the integers that lists are made with: they leave no pair out, and are as near to the cutoff
+// as what is rounded on the way allows. What that is, list_kernels.hpp says.
 #include "list_limits.hpp"
 
 #include <algorithm>
@@ -16,16 +16,16 @@ namespace {
 constexpr double kScale = 32768;  ///< of squares
 constexpr double kDigits = 2e-6;  ///< what the last digits of these sums may matter
 
-/// How far a distance by integers may be off [units]: two points and a shift along each axis, floats, and twice the
-/// error of distances, once of the pair and once in the largest distance that a filter looks at.
+/// How far a distance by integers may be off [units]: two points and a shift along each axis, floats, and
+/// twice the error of distances, once of the pair and once in the largest distance that a filter looks at.
 double off_of(double unit, double error) { return 1.5 * std::sqrt(3.0) + 0.03 + 2 * error / unit; }
 /// The same of a sum of squares, of which three are rounded, for distances up to `length` [units].
 double band_of(double length, double off) { return (2 * off * length + off * off) / kScale + 1.5; }
 double square_of(double length) { return length * length / kScale; }
 double in_range(double limit) { return std::clamp(limit, 0.0, 32767.0); }
 
-/// That pairs below `in` are within `length`, all within it below `out`, and neither limit is farther from that than
-/// one step of the integers.
+/// That pairs below `in` are within `length`, all within it below `out`, and neither limit is farther from
+/// that than one step of the integers.
 void expect_limits(std::int16_t in, std::int16_t out, double length, double off) {
   const double inside = square_of(length) - band_of(length, off);
   const double outside = square_of(length) + band_of(length, off);
@@ -107,7 +107,8 @@ TEST(ListLimits, OfTypes) {
         const double reach = (params.cutoffs(s, t) + params.skin) / unit;
         expect_limits(in, out, reach, off);
         EXPECT_NEAR(limits.type_cutoff[s][t], reach, 1e-9 * reach);
-        EXPECT_NEAR(limits.near.type_in[s].limit[t], in_range(square_of(reach - 0.05 * length)), 0.5 + kDigits);
+        EXPECT_NEAR(limits.near.type_in[s].limit[t], in_range(square_of(reach - 0.05 * length)),
+                    0.5 + kDigits);
         farthest = std::max(farthest, out);
         margin = std::max(margin, off + std::sqrt((out + 0.5) * kScale) - reach);
       }

@@ -115,8 +115,9 @@ TEST(ClusterPoints, MeasuresThemAndTakesNewPositions) {
   for (const Box& box : boxes()) {
     ClusterPoints points;
     for (const std::uint64_t seed : {1, 2, 3}) {  // more clusters, then fewer, in the same object
-      Scene scene(box, seed == 2 ? std::vector<std::int32_t>{3, 8, 0, 19, 2, 30, 9, 16}
-                                 : std::vector<std::int32_t>{5, 0, 21},
+      Scene scene(box,
+                  seed == 2 ? std::vector<std::int32_t>{3, 8, 0, 19, 2, 30, 9, 16}
+                            : std::vector<std::int32_t>{5, 0, 21},
                   seed);
       points.forget_layout();
       with_metric(box, [&](const auto& metric) {
@@ -151,7 +152,8 @@ class ClusterPointsNamed : public ::testing::Test {
     points_.measure(OpenMetric(scene.box), scene.centers, scene.blocks, kCovered2, nullptr);
   }
   void name(const ListParams& params, std::uint64_t version, Span<const std::int32_t> particles = {}) {
-    points_.name(scene_.blocks, {particles, version}, PairFilter(scene_.positions, scene_.box, params, 0), nullptr);
+    points_.name(scene_.blocks, {particles, version}, PairFilter(scene_.positions, scene_.box, params, 0),
+                 nullptr);
   }
   /// Whether name() does anything.
   bool names_anew(const ListParams& params, std::uint64_t version) {
