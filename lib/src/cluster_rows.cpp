@@ -175,6 +175,12 @@ void ClusterRows::find_by_distance(const Metric& metric, const ListSource& sourc
   }
 }
 
+RowFinder::Work ClusterRows::work() const {
+  RowFinder::Work work;
+  for (const Part& part : parts_) work += part.finder.work();
+  return work;
+}
+
 std::size_t ClusterRows::memory_bytes() const {
   std::size_t bytes = 0;
   for (const Part& part : parts_) {

@@ -44,6 +44,8 @@ class ClusterRows {
   template <class Metric>
   void find(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
             const std::vector<NeighborList*>& out);
+  /// Of all searches so far, with the present number of threads.
+  RowFinder::Work work() const;
   std::size_t memory_bytes() const;
 
  private:

@@ -21,6 +21,7 @@ class ListFinder {
   /// @param positions of all particles as given, not wrapped
   void find(const ListScene& scene, Span<const Vec3> positions, Span<const ListParams> requests,
             const std::vector<NeighborList*>& out);
+  RowFinder::Work work() const { return cluster_rows_.work(); }
   std::size_t memory_bytes() const;
 
  private:

@@ -29,9 +29,9 @@ class Rounding {
   std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
   /// Without regard to rounding.
   std::int16_t nearest(double reach) const { return clamped(std::round(limit(std::max(reach, 0.0)))); }
-  /// How far beyond `reach` a pair with a square below limit(reach) + `above` may be [length].
-  double margin(double reach, double above) const {
-    return std::sqrt((limit(reach) + above + band(reach)) * kSquareScale) * unit_ - reach;
+  /// How far beyond `reach` a pair may be whose sum of squares does not exceed `sum` [length].
+  double margin(double reach, double sum) const {
+    return (std::sqrt((sum + 1.5 + 1e-6) * kSquareScale) + off_) * unit_ - reach;
   }
 
  private:
@@ -46,8 +46,8 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
   const ListParams& params = filter.params();
   has_shell = params.shell > 0;
   const double largest = std::sqrt(filter.largest_distance2());
-  const auto widen = [&](double pair_reach, double above) {
-    margin = std::max(margin, rounding.margin(pair_reach, above));
+  const auto widen = [&](double pair_reach, double sum) {
+    margin = std::max(margin, rounding.margin(pair_reach, sum));
   };
   switch (by) {
     case PairFilter::By::one_cutoff:
@@ -56,7 +56,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       near.in = near.out = rounding.nearest(largest - params.shell);
       cutoff = largest / point_unit;
       off = rounding.off();
-      widen(largest, rounding.band(largest) + 1);
+      widen(largest, all.out - 1);
       return;
     case PairFilter::By::radii: {
       // The kernels round two radii and the skin, hence their sum by up to 3/2 (rounding in float adds 0.01
@@ -69,7 +69,8 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       all.band = clamped(whole);
       all.skin = clamped(std::round(params.skin / point_unit));
       near.skin = clamped(std::round((params.skin - params.shell) / point_unit));
-      widen(2 * filter.least_radius() + params.skin, whole + sizes);
+      const double least = 2 * filter.least_radius() + params.skin;  // the smaller, the more room
+      widen(least, rounding.limit(least + kOff * point_unit) + 0.5 + all.band);
       return;
     }
     case PairFilter::By::types:
@@ -98,7 +99,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       all.type_out[a].limit[b] = rounding.out(far);
       near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
       farthest.limit[b] = std::max(farthest.limit[b], all.type_out[a].limit[b]);
-      widen(far, rounding.band(far) + 1);
+      widen(far, all.type_out[a].limit[b] - 1);
     }
   }
   near.type_out = near.type_in;

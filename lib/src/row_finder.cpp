@@ -104,6 +104,7 @@ std::int32_t RowFinder::collect(const Scene<Metric>& scene, const Part& part) {
   std::int32_t count = 0;
   for (std::size_t s = 0; s < scene.near.size(); ++s) {
     const std::int32_t collected = collect_from(scene.near[s], ranges_[s], box, part.owned, count);
+    work_.gathered += std::int64_t{kBlock} * collected;
     count += filter(scene.requests[0].limits, part.span, part.size, around_part_.at(count), valid_.data(),
                     collected * kBlock, around_part_.at(count));
   }
@@ -225,6 +226,7 @@ void RowFinder::make_room_for_tests(std::int32_t count) {
 void RowFinder::test_block(const Request& request, const ClusterPoints& points, std::int32_t block,
                            BlockTest& test) {
   test.chunks = rounded_up(test.count, kChunk) / kChunk;
+  work_.tested += std::int64_t{kBlock} * test.count;
   // First, since unsettled_ has to be left as the other test leaves it.
   if (request.limits.has_shell)
     test_against(request.limits, request.limits.near, points, block, test, test.near_mask.data());

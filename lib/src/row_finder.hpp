@@ -36,6 +36,18 @@ class RowFinder {
     const ListSource& rows() const { return *near.front().source; }
   };
 
+  /// What has been looked at for all rows so far: the work, counted alike on every machine.
+  struct Work {
+    std::int64_t gathered = 0;  ///< points of blocks near the box of a part of a cluster
+    std::int64_t tested = 0;    ///< pairs of a block's lanes and points near the block
+
+    void operator+=(const Work& more) {
+      gathered += more.gathered;
+      tested += more.tested;
+    }
+  };
+  const Work& work() const { return work_; }
+
   /// To be called before the first rows of a list.
   void use(InstructionSet set) { kernels_ = &list_kernels(set); }
 
@@ -114,6 +126,7 @@ class RowFinder {
                             std::int32_t count) const;
 
   const ListKernels* kernels_ = nullptr;
+  Work work_;
   std::vector<std::vector<BlockRange>> ranges_;  ///< by source: blocks of clusters near the cluster
   std::vector<std::int32_t> block_, range_end_;
   std::size_t block_room_ = 0;  ///< blocks that block_ and valid_ have room for

@@ -143,7 +143,7 @@ class Mutator:
                 if match.group(1) != token.strip():
                     continue
                 stops_here = [stop.strip() if stop.strip() in ("&&", "||") else stop for stop in stops]
-                bare = self.source.bare
+                bare = self.source.bare.replace("\n", " ")  # stops may stand at the end of a line
                 spans = [trimmed(bare, operand(bare, match.start(), -1, stops_here), match.start()),
                          trimmed(bare, match.end(), operand(bare, match.end(), 1, stops_here))]
                 for first, last in spans:

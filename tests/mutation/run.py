@@ -28,7 +28,8 @@ ROOT = HERE.parent.parent
 SOURCES = ROOT / "lib" / "src"
 # What is reported of memory, and the choice between repair and build, which has tests of its own and changes what is
 # done, never what comes of it.
-SKIPPED_FUNCTIONS = {"memory_bytes", "repair_pays", "count_orphans"}
+SKIPPED_FUNCTIONS = {"memory_bytes", "repair_pays", "work_ahead", "count_uncovered", "count_demoted", "standing_work",
+                     "exchange_pays"}
 # What is only measured and counted; tests of the counts alone see it.
 SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
 
@@ -41,6 +42,17 @@ HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierar
               "*/HierarchySparse.*/none",
               "*/HierarchyChurn.*/orthorhombic_ppf:*/HierarchyMotion.*/orthorhombic_ppf:*/ListSizes.UnderMotion/none"])
 STALE_TEST = (["unit/core/dch_unit_core"], ["*StaleTest*:*VerletList*"])
+LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
+PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
+LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
+               ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
+CLUSTER_POINTS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
+                  ["ClusterPoints*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
+CLUSTER_PAIRS = (["property/dch_property_clusters"],
+                 ["ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
+                  "*PartsName*/orthorhombic_ppf",
+                  "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
+                  "*ClusterPairsScenes.*/triclinic_ppp"])
 FILES = {
     "hierarchy_refresh.cpp": HIERARCHY,
     "hierarchy_repair.cpp": HIERARCHY,
@@ -48,6 +60,13 @@ FILES = {
     "hierarchy_links.cpp": HIERARCHY,
     "hierarchy_lone.cpp": HIERARCHY,
     "stale_test.cpp": STALE_TEST,
+    "simd/list_kernels_loops.hpp": LIST_KERNELS,
+    "pair_filter.cpp": PAIR_FILTER,
+    "list_limits.cpp": LIST_LIMITS,
+    "cluster_points.cpp": CLUSTER_POINTS,
+    "cluster_pair_finder.cpp": CLUSTER_PAIRS,
+    "cluster_pair_cuts.cpp": CLUSTER_PAIRS,
+    "cluster_pair_masks.cpp": CLUSTER_PAIRS,
 }
 SLACK_SECONDS = 10
 MEMORY_BYTES = 4 << 30

@@ -141,5 +141,61 @@ TEST(PairFilter, TypesExclusionsAndGhosts) {
   expect_agreement(points, box, params, "types, exclusions, ghosts");
 }
 
+TEST(PairFilter, Radii) {
+  const Box box = Box::orthorhombic({5, 5, 5});
+  auto points = scenes::uniform_in(box, 120, 8);
+  points[3] = points[2];  // coincident, neither has a size
+  std::vector<double> radii(points.size());
+  for (std::size_t i = 4; i < radii.size(); ++i) radii[i] = 0.2 + 0.1 * static_cast<double>(i % 9);
+  for (const double skin : {0.0, 0.3}) {
+    ListParams params;
+    params.radii = radii;
+    params.skin = skin;
+    expect_agreement(points, box, params, "skin " + std::to_string(skin));
+    EXPECT_EQ(PairFilter(points, box, params, 0).least_radius(), 0);
+    params.radii = Span<const double>(radii.data() + 4, radii.size() - 4);
+    const Span<const Vec3> others(points.data() + 4, points.size() - 4);
+    const PairFilter filter(others, box, params, 0.01);
+    EXPECT_EQ(filter.least_radius(), 0.2);
+    EXPECT_NEAR(filter.largest_distance2(), (2 + skin + 0.01) * (2 + skin + 0.01), 1e-12);
+  }
+}
+
+/// Takes all pairs or none.
+class Always : public PairTest {
+ public:
+  Always(double error, bool answer) : PairTest(error), answer_(answer) {}
+  bool accepts(std::int32_t, std::int32_t) const override { return answer_; }
+
+ private:
+  bool answer_;
+};
+
+TEST(PairFilter, TheHostDecidesNearTheCutoffAlone) {
+  const std::vector<Vec3> points{{0, 0, 0}, {0.9, 0, 0}, {2, 0, 0}, {0.9, 0, 0}};
+  const std::vector<std::int32_t> types{0, 1, 0, 1};
+  for (const bool answer : {false, true}) {
+    const Always host(0.2, answer);
+    ListParams params;
+    params.near_cutoff = &host;
+    params.types = types;
+    params.cutoffs = TypeCutoffs(2, {1, 1, 1, 0});
+    const PairFilter filter(points, Box::none(), params, params.cutoff_error());
+    for (const double distance : {0.81, 1.0, 1.19}) {
+      EXPECT_EQ(filter.accept(0, 1, distance * distance), answer) << distance;
+      EXPECT_FALSE(filter.accept(1, 3, distance * distance)) << "types without a cutoff";
+    }
+    EXPECT_TRUE(filter.accept(0, 1, 0.79 * 0.79));
+    EXPECT_FALSE(filter.accept(0, 1, 1.21 * 1.21));
+    EXPECT_EQ(filter.accept(0, 1), answer);
+    EXPECT_FALSE(filter.accept(1, 3)) << "types without a cutoff";
+
+    const std::vector<double> radii{1, 0, 1, 0};
+    params.radii = radii;
+    const PairFilter by_radii(points, Box::none(), params, params.cutoff_error());
+    EXPECT_EQ(by_radii.accept(1, 3), answer) << "points without a size at one place are at their cutoff";
+  }
+}
+
 }  // namespace
 }  // namespace dch::detail

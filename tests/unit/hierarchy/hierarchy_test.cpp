@@ -82,6 +82,19 @@ TEST(HierarchyTest, RefusesRadiiBeyondHalfTheBox) {
   EXPECT_THROW(h.update(points, Box::orthorhombic({5, 5, 4})), CutoffTooLarge);
 }
 
+TEST(HierarchyTest, RefusesBaseRadiiFarBeyondTheBoxInUpdatesToo) {
+  const std::vector<Vec3> points = scenes::uniform(50, {2, 2, 2}, 1);
+  const Box flat = Box::orthorhombic({2.1, 2.1, 100});
+  HierarchyParams params;
+  params.radius = 1;
+  params.base_radius = 40;
+  Hierarchy h(params);
+  EXPECT_THROW(h.build(points, flat), InvalidParameter);
+  h.build(points, Box::none());
+  EXPECT_THROW(h.update(points, flat), InvalidParameter);
+  EXPECT_EQ(h.size(), 0u);
+}
+
 TEST(HierarchyTest, RefusesUnknownPointsAndLevels) {
   Hierarchy h(with_radius(1));
   h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
@@ -362,6 +375,14 @@ TEST_F(AutomaticPolicyTest, RebuildsWhenMostLostTheirParents) {
   hierarchy_.update(scenes::uniform(20000, {24, 24, 24}, 7), Box::none());
   EXPECT_EQ(hierarchy_.stats().repairs, 0);
   EXPECT_EQ(hierarchy_.stats().builds, 2);
+}
+
+TEST_F(AutomaticPolicyTest, RepairsWherePointsHaveBeenRemovedWhichABuildWouldBringBack) {
+  hierarchy_.remove(5);
+  hierarchy_.update(scenes::uniform(20000, {24, 24, 24}, 7), Box::none());
+  EXPECT_EQ(hierarchy_.stats().builds, 1);
+  EXPECT_EQ(hierarchy_.size(), 19999u);
+  EXPECT_FALSE(hierarchy_.contains(5));
 }
 
 // All keep their parents, but half of the centers are demoted.

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+//
+// What lists are made from: each number of it beside its definition, in small scenes that hold every case.
+#include "cluster_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <utility>
+#include <vector>
+
+#include "metric.hpp"
+#include "scenes.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// Clusters of given sizes, their points at random around the centers, in chains of blocks.
+struct Scene {
+  Scene(const Box& scene_box, const std::vector<std::int32_t>& sizes, std::uint64_t seed) : box(scene_box) {
+    scenes::Random random(seed);
+    for (const std::int32_t size : sizes) {
+      Vec3 center = random.in_cube(9);
+      center = box.wrap({std::round(center.x), std::round(center.y), std::round(center.z)});
+      const std::int32_t k = centers.add(0, center);
+      if (size == 0) centers.retire(k);
+      for (std::int32_t n = 0; n < size; ++n) {
+        if (n % kBlock == 0) centers.first_child[k] = blocks.add_block(k, centers.first_child[k]);
+        const auto id = static_cast<std::int32_t>(positions.size());
+        positions.push_back(center + (n == 1 ? Vec3{0, 3, -4} : random.in_ball(7)));
+        blocks.push(centers.first_child[k], id, box.wrap(positions.back()));
+      }
+    }
+  }
+  void move(std::uint64_t seed) {
+    scenes::Random random(seed);
+    for (Vec3& p : positions) p = p + random.in_cube(1);
+    if (box.periodic(0)) positions[2] = positions[2] + 5.0 * box.vector(0);  // more than a cell away
+  }
+  template <class F>
+  void for_each_block(const F& f) const {  // f(cluster, number in the cluster, block)
+    for (std::int32_t k = 0; k < centers.size(); ++k)
+      for (std::int32_t n = 0, block = centers.first_child[k]; block != kNone; block = blocks.next[block])
+        f(k, n++, block);
+  }
+  std::int32_t id(std::int32_t block, std::int32_t lane) const { return blocks.id[block * kBlock + lane]; }
+
+  Box box;
+  Level centers;
+  PointBlocks blocks;
+  std::vector<Vec3> positions;
+};
+
+constexpr double kCovered2 = 25;  // a point of each cluster is exactly there at first
+
+void expect_measured(const ClusterPoints& points, const Scene& scene) {
+  const std::size_t clusters = scene.centers.position.size();
+  std::vector<ClusterPoints::Cluster> expected(clusters);
+  std::vector<Vec3> low(clusters), high(clusters);
+  std::int32_t blocks = 0;
+  scene.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t block) {
+    ClusterPoints::Cluster& cluster = expected[static_cast<std::size_t>(k)];
+    const std::int32_t b = points.clusters[k].first_block + n, count = scene.blocks.count[block];
+    ASSERT_EQ(b, blocks++) << "blocks of clusters side by side";
+    ASSERT_EQ(points.source[b], block);
+    ASSERT_EQ(points.count[b], count);
+    ASSERT_EQ(points.lanes[b], (1 << count) - 1);
+    ++cluster.blocks;
+    Vec3 least{1e9, 1e9, 1e9}, most{-1e9, -1e9, -1e9};
+    for (std::int32_t lane = 0; lane < count; ++lane) {
+      const Vec3 at = scene.box.wrap(scene.positions[scene.id(block, lane)]);
+      ASSERT_EQ(scene.blocks.position[block * kBlock + lane], at);
+      const Vec3 offset = scene.box.nearest_image(at - scene.centers.position[k]);
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_NEAR(points.offsets[b].axis[axis][lane], offset[axis], 1e-6);
+        least[axis] = std::min(least[axis], offset[axis]);
+        most[axis] = std::max(most[axis], offset[axis]);
+      }
+      cluster.extent = std::max(cluster.extent, std::sqrt(norm2(offset)));
+      cluster.uncovered += norm2(offset) > kCovered2;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_NEAR(points.corners[b].low[axis], least[axis], 1e-6);
+      ASSERT_NEAR(points.corners[b].high[axis], most[axis], 1e-6);
+      low[k][axis] = std::min(low[k][axis], least[axis]);
+      high[k][axis] = std::max(high[k][axis], most[axis]);
+      cluster.block_width = std::max(cluster.block_width, most[axis] - least[axis]);
+      cluster.width = std::max(cluster.width, high[k][axis] - low[k][axis]);
+    }
+  });
+  EXPECT_EQ(points.blocks, blocks);
+  double extent = 0, width = 0, block_width = 0;
+  for (std::size_t k = 0; k < clusters; ++k) {
+    EXPECT_EQ(points.clusters[k].blocks, expected[k].blocks);
+    EXPECT_NEAR(points.clusters[k].extent, expected[k].extent, 1e-12);
+    EXPECT_NEAR(points.clusters[k].width, expected[k].width, 1e-12);
+    EXPECT_NEAR(points.clusters[k].block_width, expected[k].block_width, 1e-12);
+    EXPECT_EQ(points.clusters[k].uncovered, expected[k].uncovered);
+    extent = std::max(extent, expected[k].extent);
+    width = std::max(width, expected[k].width);
+    block_width = std::max(block_width, expected[k].block_width);
+  }
+  EXPECT_NEAR(points.largest_extent, extent, 1e-12);
+  EXPECT_NEAR(points.largest_width, width, 1e-12);
+  EXPECT_NEAR(points.largest_block_width, block_width, 1e-12);
+}
+
+const std::vector<Box>& boxes() {
+  static const std::vector<Box> all{Box::none(), Box::orthorhombic({32, 64, 32}, {true, true, false}),
+                                    Box::triclinic({32, 0, 0}, {8, 32, 0}, {-8, 4, 32})};
+  return all;
+}
+
+TEST(ClusterPoints, MeasuresThemAndTakesNewPositions) {
+  for (const Box& box : boxes()) {
+    ClusterPoints points;
+    for (const std::uint64_t seed : {1, 2, 3}) {  // more clusters, then fewer, in the same object
+      Scene scene(box,
+                  seed == 2 ? std::vector<std::int32_t>{3, 8, 0, 19, 2, 30, 9, 16}
+                            : std::vector<std::int32_t>{5, 0, 21},
+                  seed);
+      points.forget_layout();
+      with_metric(box, [&](const auto& metric) {
+        points.measure(metric, scene.centers, scene.blocks, kCovered2, nullptr);
+        ASSERT_NO_FATAL_FAILURE(expect_measured(points, scene)) << box.description();
+        for (const std::uint64_t step : {4, 5}) {
+          scene.move(step);
+          points.refresh(metric, scene.centers, scene.positions, scene.blocks, kCovered2, nullptr);
+          ASSERT_NO_FATAL_FAILURE(expect_measured(points, scene)) << box.description();
+        }
+      });
+    }
+  }
+}
+
+/// Points that have been measured, and filters for them.
+class ClusterPointsNamed : public ::testing::Test {
+ protected:
+  ClusterPointsNamed() {
+    for (std::size_t i = 0; i < 100; ++i) {
+      radii_.push_back(0.1 + 0.05 * static_cast<double>(i));
+      types_.push_back(static_cast<std::int32_t>(i % 20));
+    }
+    for (std::size_t i = scene_.positions.size(); i-- > 0;) reversed_.push_back(static_cast<std::int32_t>(i));
+    measure(scene_);
+    by_radii_.radii = radii_;
+    by_types_.types = types_;
+    by_types_.cutoffs = TypeCutoffs(20, std::vector<double>(400, 1.0));
+  }
+  void measure(Scene& scene) {
+    points_.forget_layout();
+    points_.measure(OpenMetric(scene.box), scene.centers, scene.blocks, kCovered2, nullptr);
+  }
+  void name(const ListParams& params, std::uint64_t version, Span<const std::int32_t> particles = {}) {
+    points_.name(scene_.blocks, {particles, version}, PairFilter(scene_.positions, scene_.box, params, 0),
+                 nullptr);
+  }
+  /// Whether name() does anything.
+  bool names_anew(const ListParams& params, std::uint64_t version) {
+    const std::int32_t before = std::exchange(points_.ids[0][0], -7);
+    name(params, version);
+    return std::exchange(points_.ids[0][0], before) != -7;
+  }
+  void expect_named(const ListParams& params, bool reversed = false) const {
+    const bool by_types = params.cutoffs.types() > 1;
+    ASSERT_EQ(points_.radii.empty(), params.radii.empty());
+    ASSERT_EQ(points_.tags.empty(), params.radii.empty() && !by_types);
+    std::vector<bool> owned(points_.clusters.size());
+    scene_.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t block) {
+      const std::int32_t b = points_.clusters[k].first_block + n;
+      bool block_owned = false;
+      for (std::int32_t lane = 0; lane < kBlock; ++lane) {
+        const bool is_point = lane < points_.count[b];
+        const std::int32_t id = scene_.id(block, lane), particle = reversed && is_point ? reversed_[id] : id;
+        ASSERT_EQ(points_.ids[b][lane], particle);
+        if (!points_.radii.empty()) {
+          ASSERT_EQ(points_.radii[b][lane], is_point ? static_cast<float>(radii_[particle]) : 0.0f);
+        } else if (by_types) {
+          ASSERT_EQ(points_.tags[b][lane], is_point ? types_[particle] % kKernelTypes : 0);
+        }
+        block_owned |= is_point && (params.first_ghost < 0 || particle < params.first_ghost);
+      }
+      EXPECT_EQ(points_.owned[b] != 0, block_owned);
+      if (block_owned) owned[static_cast<std::size_t>(k)] = true;
+    });
+    for (std::size_t k = 0; k < owned.size(); ++k)
+      EXPECT_TRUE(points_.clusters[k].blocks == 0 || points_.clusters[k].owned == owned[k]) << k;
+  }
+
+  Scene scene_{Box::none(), {3, 8, 0, 19, 2, 30}, 1};
+  ClusterPoints points_;
+  std::vector<double> radii_;
+  std::vector<std::int32_t> types_, reversed_;
+  ListParams one_, by_radii_, by_types_;
+};
+
+TEST_F(ClusterPointsNamed, ByWhatTheirCutoffsDependOn) {
+  for (ListParams params : {one_, by_radii_, by_types_, one_})
+    for (const std::int32_t first_ghost : {-1, 0, 4, 17, 40})
+      for (const bool reversed : {false, true}) {
+        params.first_ghost = first_ghost;
+        measure(scene_);
+        name(params, 0, reversed ? Span<const std::int32_t>(reversed_) : Span<const std::int32_t>());
+        ASSERT_NO_FATAL_FAILURE(expect_named(params, reversed)) << first_ghost;
+      }
+}
+
+TEST_F(ClusterPointsNamed, NothingIsLeftOfFullerBlocks) {
+  Scene full(Box::none(), std::vector<std::int32_t>(12, kBlock), 2);
+  for (const ListParams& params : {by_radii_, by_types_}) {
+    measure(full);
+    points_.name(full.blocks, {{}, 0}, PairFilter(full.positions, full.box, params, 0), nullptr);
+    measure(scene_);
+    name(params, 0);
+    ASSERT_NO_FATAL_FAILURE(expect_named(params));
+  }
+}
+
+TEST_F(ClusterPointsNamed, AnewIfAnythingHasChanged) {
+  name(one_, 0);
+  EXPECT_FALSE(names_anew(one_, 0));
+  ListParams ghosts = one_;
+  ghosts.first_ghost = 9;
+  EXPECT_TRUE(names_anew(ghosts, 0));
+  EXPECT_FALSE(names_anew(ghosts, 0));
+  EXPECT_TRUE(names_anew(one_, 3)) << "other names";
+  measure(scene_);
+  EXPECT_TRUE(names_anew(one_, 3)) << "other places";
+  EXPECT_TRUE(names_anew(by_radii_, 3));
+  EXPECT_FALSE(names_anew(by_radii_, 3));
+  EXPECT_TRUE(names_anew(by_radii_, 4));
+  EXPECT_TRUE(names_anew(by_radii_, 0)) << "nobody knows what the sizes are";
+  EXPECT_TRUE(names_anew(by_radii_, 0));
+  EXPECT_TRUE(names_anew(by_types_, 4));
+  EXPECT_FALSE(names_anew(by_types_, 4));
+  EXPECT_TRUE(names_anew(by_types_, 0));
+  EXPECT_TRUE(names_anew(by_types_, 0));
+}
+
+/// A box of blocks as `center` and `half_width` [units] beside the lengths that it has to hold.
+void expect_box(double center, double half_width, float low, float high, double unit) {
+  EXPECT_NEAR(center, 0.5 * (low + high) / unit, 0.51);
+  EXPECT_NEAR(half_width, 0.5 * (high - low) / unit + 2, 0.51);
+}
+
+TEST_F(ClusterPointsNamed, RoundedToUnits) {
+  for (const ListParams& params : {by_radii_, by_types_, one_}) {
+    name(params, 0);
+    const ListUnits units{0.00231, 0.0173};
+    points_.quantize(units, nullptr);
+    EXPECT_EQ(points_.units.point, units.point);
+    EXPECT_DOUBLE_EQ(points_.per_unit.point * units.point, 1);
+    EXPECT_DOUBLE_EQ(points_.per_unit.box * units.box, 1);
+    const BlockSpans boxes = points_.boxes();
+    for (std::int32_t b = 0; b < points_.blocks + kChunk; ++b) ASSERT_EQ(boxes.number[b], b);
+    for (std::int32_t b = 0; b < points_.blocks; ++b) {
+      const std::int16_t* const at[] = {points_.points[b].x, points_.points[b].y, points_.points[b].z};
+      for (int axis = 0; axis < 3; ++axis) {
+        const float low = points_.corners[b].low[axis], high = points_.corners[b].high[axis];
+        const BlockSpan& span = points_.spans[b];
+        expect_box(span.center[axis], span.half_width[axis], low, high, units.point);
+        expect_box(boxes.center[axis][b], boxes.half_width[axis][b], low, high, units.box);
+        for (int lane = 0; lane < points_.count[b]; ++lane) {
+          ASSERT_NEAR(at[axis][lane], points_.offsets[b].axis[axis][lane] / units.point, 0.51);
+          ASSERT_LE(std::abs(at[axis][lane] - span.center[axis]), span.half_width[axis]);
+        }
+      }
+      for (int lane = 0; lane < points_.count[b] && !params.radii.empty(); ++lane)
+        ASSERT_NEAR(points_.tags[b][lane], points_.radii[b][lane] / units.point, 0.51);
+    }
+  }
+}
+
+/// That a box holds others along an axis, with no more room than halves of integers need.
+template <class BoxOf>
+void expect_around(const BlockSpan& around, std::int32_t first, std::int32_t last, const BoxOf& box_of) {
+  for (int axis = 0; axis < 3; ++axis) {
+    int least = 40000, most = -40000;
+    for (std::int32_t b = first; b < last; ++b) {
+      const auto [center, half_width] = box_of(b, axis);
+      least = std::min(least, center - half_width);
+      most = std::max(most, center + half_width);
+    }
+    const int low = around.center[axis] - around.half_width[axis];
+    const int high = around.center[axis] + around.half_width[axis];
+    ASSERT_LE(low, least);
+    ASSERT_GE(high, most);
+    ASSERT_LE(high - low, most - least + 1);
+  }
+}
+
+TEST_F(ClusterPointsNamed, BoxesAndTagsOfSeveralBlocks) {
+  name(by_radii_, 0);
+  points_.quantize({0.00231, 0.0173}, nullptr);
+  const BlockSpans boxes = points_.boxes();
+  for (std::int32_t first = 0; first < points_.blocks; ++first)
+    for (std::int32_t last = first + 1; last <= points_.blocks; ++last) {
+      expect_around(points_.span_of(first, last), first, last, [&](std::int32_t b, int axis) {
+        return std::pair<int, int>(points_.spans[b].center[axis], points_.spans[b].half_width[axis]);
+      });
+      expect_around(points_.box_of(first, last), first, last, [&](std::int32_t b, int axis) {
+        return std::pair<int, int>(boxes.center[axis][b], boxes.half_width[axis][b]);
+      });
+      std::int16_t largest = 0;
+      for (std::int32_t b = first; b < last; ++b)
+        for (const std::int16_t tag : points_.tags[b]) largest = std::max(largest, tag);
+      EXPECT_EQ(points_.largest_tag(first, last), largest);
+    }
+}
+
+}  // namespace
+}  // namespace dch::detail
