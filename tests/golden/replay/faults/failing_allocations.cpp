@@ -114,8 +114,8 @@ int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*f
                       void* stack_end) {
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
   real_main = main;
-  return reinterpret_cast<Start>(::dlsym(RTLD_NEXT, "__libc_start_main"))(counted_main, argc, argv, init, fini,
-                                                                          rtld_fini, stack_end);
+  return reinterpret_cast<Start>(::dlsym(RTLD_NEXT, "__libc_start_main"))(counted_main, argc, argv, init,
+                                                                          fini, rtld_fini, stack_end);
 }
 
 }  // extern "C"
