@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 #include <dch/necklace/necklace.hpp>
 
 #include "contact_report.hpp"
-#include "output_file.hpp"
+#include "hdf5_file.hpp"
 
 namespace dch::cli {
 
@@ -32,9 +31,6 @@ class ContactFile {
   /// @throws trajectory::FileError if the file cannot be created.
   ContactFile(const std::string& path, const ContactFileHeader& header, const necklace::Necklace& necklace,
               const std::vector<std::int64_t>& ids);
-  ~ContactFile();
-  ContactFile(const ContactFile&) = delete;
-  ContactFile& operator=(const ContactFile&) = delete;
 
   /// @throws trajectory::FileError, the disk being full, say.
   void append(const ContactFrame& frame);
@@ -44,10 +40,8 @@ class ContactFile {
   void finish(const necklace::ContactMap& map, const necklace::ContactProbability& probability);
 
  private:
-  struct Datasets;
-  OutputFile file_;
+  Hdf5File file_;
   std::vector<std::int64_t> ids_;
-  std::unique_ptr<Datasets> datasets_;
 };
 
 }  // namespace dch::cli

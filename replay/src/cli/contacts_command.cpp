@@ -41,8 +41,7 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
           "Radius of the beads, or one for each type of atom as in 1=0.5,2=0.7. Default 0: the gap is "
           "the distance of the centers")
       ->type_name("R");
-  command
-      .add_option("--topology", words.topology,
+  add_file_option(command, "--topology", words.topology,
                   "Where the chains are: a LAMMPS data file (.data), a list of bonds (.bonds) or of chains "
                   "(.chains). Default: the dump's mol column, each molecule a chain in order of atom id")
       ->type_name("FILE");
@@ -83,11 +82,11 @@ void declare_options(CLI::App& command, ContactWords& words) {
                   "Default: all")
       ->type_name("A:B:S");
   command.add_option("--threads", words.threads, "Threads to find contacts with. Default 1")->type_name("N");
-  command.add_option("--out", words.data, "Write events, contact map and P(s) to this HDF5 file")
+  add_file_option(command, "--out", words.data, "Write events, contact map and P(s) to this HDF5 file")
       ->type_name("CONTACTS.h5");
-  command.add_option("--report", words.report, "Write what was found to this JSON file")
+  add_file_option(command, "--report", words.report, "Write what was found to this JSON file")
       ->type_name("REPORT.json");
-  command.add_option("--plot,--html", words.plot, "Write contact map, P(s) and more to this page")
+  add_file_option(command, "--plot,--html", words.plot, "Write contact map, P(s) and more to this page")
       ->type_name("PAGE.html");
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }

@@ -7,7 +7,6 @@
 #include <dch/all_pairs.hpp>
 #include <dch/error.hpp>
 
-#include "interrupt.hpp"
 #include "stopwatch.hpp"
 
 namespace dch::cli {
@@ -114,14 +113,14 @@ std::string to_string(MaintenancePolicy policy) {
   return "auto";
 }
 
-Engine make_engine(const EngineOptions& options, double radius) {
+Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<Executor> threads) {
   Engine engine;
   if (options.kind == EngineKind::cell) {
     engine.search = make_cell_search(radius);
   } else if (options.kind == EngineKind::allpairs) {
     engine.search = std::make_unique<AllPairsSearch>();
   } else {
-    if (options.threads > 1) engine.threads = make_threads(options.threads);
+    engine.threads = std::move(threads);
     HierarchyParams params;
     params.radius = radius;
     params.c = options.c;

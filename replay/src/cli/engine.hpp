@@ -18,7 +18,6 @@ struct EngineOptions {
   EngineKind kind = EngineKind::dch;
   double c = 1.05;                                          ///< parameter of the hierarchy (dch only)
   MaintenancePolicy policy = MaintenancePolicy::automatic;  ///< repair or rebuild (dch only)
-  int threads = 1;                                          ///< lists do not depend on it (dch only)
 };
 
 std::string to_string(EngineKind kind);           ///< as on the command line: "dch", "cell", "allpairs"
@@ -32,8 +31,9 @@ struct Engine {
 };
 
 /// @param radius cutoff + skin of the lists to come [length]
+/// @param threads to work with; null for one (dch only)
 /// @throws InvalidParameter for a radius or c out of range.
-Engine make_engine(const EngineOptions& options, double radius);
+Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<Executor> threads = nullptr);
 
 /// Lets lists that come and go, as atoms do, use one engine that stays.
 /// @param keys name the atoms to every update() (see PairSearch); empty: by their index

@@ -57,7 +57,7 @@ void add_melt_command(CLI::App& generate, int& exit_code) {
   command->add_option("--beads", words->beads, "Beads of each chain")->required()->type_name("N");
   command->add_option("--density", words->density, "Beads per volume. Default 0.8442")->type_name("R");
   command->add_option("--seed", words->seed, "Seed of the random numbers. Default 1")->type_name("S");
-  command->add_option("OUT", words->output, "File to write, for example melt.data")
+  add_file_option(*command, "OUT", words->output, "File to write, for example melt.data")
       ->required()
       ->type_name("");
   command->add_flag("--quiet", words->quiet, "No message");

@@ -3,17 +3,13 @@
 
 #include <cstdint>
 #include <hdf5.h>
+#include <map>
 #include <string>
 #include <utility>
 
-#include <dch/trajectory/file_error.hpp>
-
-#include "output_file.hpp"
+#include "hdf5_file.hpp"
 
 namespace dch::cli {
-
-/// Turns HDF5's own messages off: ours name file and remedy.
-void silence_hdf5();
 
 /// An HDF5 identifier with the function that closes it.
 class Hdf5Id {
@@ -30,9 +26,6 @@ class Hdf5Id {
     return *this;
   }
   operator hid_t() const { return id_; }
-  /// HDF5 writes much of what it was given only now.
-  /// @throws trajectory::FileError if that fails, of which the destructor would say nothing.
-  void finish();
   herr_t reset() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
 
  private:
@@ -40,33 +33,26 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
-/// An HDF5 file under an output's temporary name.
-Hdf5Id create_hdf5(const OutputFile& output);
-Hdf5Id create_group(hid_t parent, const char* name);
+/// What an Hdf5File's child does with HDF5; see there. All functions throw trajectory::FileError, which names
+/// the remedy and not the file.
+class Hdf5Output {
+ public:
+  /// Replaces the file.
+  explicit Hdf5Output(const std::string& path);
 
-void write_attribute(hid_t object, const char* name, const std::string& value);
-void write_attribute(hid_t object, const char* name, double value);
-void write_attribute(hid_t object, const char* name, std::int64_t value);
+  void create_group(const std::string& name);
+  void write_attribute(const std::string& name, const std::string& value);
+  void write_attribute(const std::string& name, double value);
+  void write_attribute(const std::string& name, std::int64_t value);
+  void create_dataset(const std::string& name, Hdf5Type type, std::int64_t columns, std::int64_t chunk_rows);
+  void append(const std::string& name, Hdf5Type memory_type, std::int64_t rows, std::int64_t columns,
+              const void* values);
+  /// HDF5 writes much of what it was given only now.
+  void close();
 
-/// Entries a chunk: of 4 or 8 bytes about a megabyte, the size that HDF5 caches by default.
-constexpr hsize_t kChunkEntries = 1 << 18;
-
-/// A compressed dataset that grows along its first axis; `columns` is 0 for one of a single axis.
-Hdf5Id create_growing(hid_t parent, const char* name, hid_t type, hsize_t columns, hsize_t chunk_rows);
-
-/// Appends `rows` rows; `columns` as in create_growing.
-/// @throws trajectory::FileError
-void append_rows(hid_t data, hid_t memory_type, hsize_t rows, hsize_t columns, const void* values);
-
-/// Names the file in errors of the HDF5 layer above.
-template <class Action>
-auto named(const OutputFile& file, Action action) {
-  try {
-    return action();
-  } catch (const trajectory::FileError& error) {
-    throw trajectory::FileError(file.path() + ": " + error.what() +
-                                "; check the free space and the folder's permissions");
-  }
-}
+ private:
+  Hdf5Id file_;
+  std::map<std::string, Hdf5Id> datasets_;
+};
 
 }  // namespace dch::cli

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <dch/neighbor_list.hpp>
 #include <dch/trajectory/frame.hpp>
 
-#include "output_file.hpp"
+#include "hdf5_file.hpp"
 
 namespace dch::cli {
 
@@ -35,9 +34,6 @@ class ListFile {
  public:
   /// @throws trajectory::FileError if the file cannot be created.
   ListFile(const std::string& path, const ListFileHeader& header);
-  ~ListFile();
-  ListFile(const ListFile&) = delete;
-  ListFile& operator=(const ListFile&) = delete;
 
   /// @param index number of the frame in the file
   /// @param is_new false if `list` is the list of the frame before
@@ -48,10 +44,8 @@ class ListFile {
   void commit();
 
  private:
-  struct Datasets;
-  OutputFile file_;
+  Hdf5File file_;
   std::size_t most_atoms_;
-  std::unique_ptr<Datasets> datasets_;
   std::vector<std::int64_t> first_;  ///< of the frame last written
   std::int64_t entries_ = 0;         ///< in dataset j
 };

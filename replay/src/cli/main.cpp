@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The dch command: sorts out which subcommand is meant and turns exceptions into exit statuses.
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <new>
 #include <sstream>
 #include <string_view>
+#include <unistd.h>
 
 #include <dch/trajectory/file_error.hpp>
+#include <dch/trajectory/output_file.hpp>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -21,9 +23,25 @@
 namespace dch::cli {
 namespace {
 
+constexpr std::string_view kNoMemory = "not enough memory; choose a smaller cutoff or a smaller input";
+
 int fail(int exit_code, std::string_view message) {
-  print_message("dch: {}\n", message);
+  write_message({"dch: ", message, "\n"});
   return exit_code;
+}
+
+/// A destructor that needs memory (nlohmann's JSON has one) cannot throw what it does not get: the process
+/// ends here instead.
+[[noreturn]] void end_after_lost_exception() {
+  trajectory::remove_unfinished_files();
+  try {
+    if (const std::exception_ptr lost = std::current_exception()) std::rethrow_exception(lost);
+  } catch (const std::bad_alloc&) {
+    ::_exit(fail(kUsage, kNoMemory));
+  } catch (...) {
+    fail(kBadFile, "an exception came where none is expected; unfinished output files are removed");
+  }
+  std::abort();
 }
 
 void declare(CLI::App& app, int& exit_code) {
@@ -72,6 +90,7 @@ int parse_and_run(int argc, char** argv) {
 int run(int argc, char** argv) {
   try {
     catch_interrupts();
+    std::set_terminate(end_after_lost_exception);
     return parse_and_run(argc, argv);
   } catch (const UsageError& error) {
     return fail(kUsage, error.what());
@@ -80,7 +99,7 @@ int run(int argc, char** argv) {
   } catch (const Error& error) {  // the library refuses a parameter
     return fail(kUsage, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kUsage, "not enough memory; choose a smaller cutoff or a smaller input");
+    return fail(kUsage, kNoMemory);
   } catch (const std::exception& error) {
     return fail(kBadFile, error.what());
   }
@@ -91,7 +110,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace dch;
-  H5dont_atexit();  // a file on a full disk cannot be closed, and HDF5's exit handler would crash on it
   cli::prepare_standard_streams();
   return cli::finish_output(cli::run(argc, argv));
 }

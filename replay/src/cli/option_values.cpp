@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "option_values.hpp"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -118,6 +119,14 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
 int parse_threads(const std::string& text) {
   constexpr std::int64_t kMostThreads = 1024;
   return static_cast<int>(parse_whole_number("--threads", text, 1, kMostThreads, "the number of threads"));
+}
+
+CLI::Option* add_file_option(CLI::App& command, const std::string& option, std::string& path,
+                             const std::string& help) {
+  const auto refuse_nothing = [](const std::string& name) {
+    return name.empty() ? "the name of the file is empty; give one, or leave the option out" : "";
+  };
+  return command.add_option(option, path, help)->check(refuse_nothing, "");
 }
 
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {

@@ -9,6 +9,11 @@
 
 #include "exit_code.hpp"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace dch::cli {
 
 /// Frames begin, begin + step, ... below end, counted from 0 (as Python slices).
@@ -64,6 +69,11 @@ struct NamedPath {
   std::string option;  ///< "--out", "FILE", ...
   std::string path;    ///< empty if not given
 };
+
+/// Declares an option or argument that names a file. An empty name, which a variable of a script may have
+/// turned out to be, is refused: it would mean that none was given.
+CLI::Option* add_file_option(CLI::App& command, const std::string& option, std::string& path,
+                             const std::string& help);
 
 /// @throws UsageError if two outputs, or an output and an input, are the same file, and for an output "-".
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);

@@ -48,7 +48,7 @@ void ProgressBar::advance(std::int64_t done) {
 void ProgressBar::clear() {
   if (!drawn_) return;
   drawn_ = false;
-  write_message("\r\x1b[K");
+  write_message({"\r\x1b[K"});
 }
 
 }  // namespace dch::cli

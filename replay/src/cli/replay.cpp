@@ -14,6 +14,7 @@
 
 #include "exit_code.hpp"
 #include "frame_stream.hpp"
+#include "interrupt.hpp"
 #include "list_file.hpp"
 #include "list_statistics.hpp"
 #include "stopwatch.hpp"
@@ -71,7 +72,8 @@ class Replay {
 Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
     : options_(options),
       progress_(progress),
-      engine_(make_engine(options.engine, options.cutoff + options.skin)) {
+      engine_(make_engine(options.engine, options.cutoff + options.skin,
+                          options.threads > 1 ? make_threads(options.threads) : nullptr)) {
   params_.cutoffs = TypeCutoffs(options.cutoff);
   params_.skin = options.skin;
   params_.kind = options.kind;
@@ -79,6 +81,7 @@ Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
   report_.skin = options.skin;
   report_.list_kind = options.kind;
   report_.engine = options.engine;
+  if (engine_.threads) report_.threads = engine_.threads->threads();
 }
 
 ReplayReport Replay::run() {

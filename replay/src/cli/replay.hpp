@@ -22,6 +22,7 @@ struct ReplayOptions {
   double cutoff = 0;     ///< > 0 [length]
   double skin = 0;       ///< >= 0 [length]
   EngineOptions engine;
+  int threads = 1;  ///< to keep the structure and make the lists with (dch only)
   FrameRange frames;
   VerifyMode verify = VerifyMode::none;
   ListKind kind = ListKind::half;

@@ -50,8 +50,7 @@ void declare_list_options(CLI::App& command, ReplayWords& words) {
           "--exclude", words.exclude,
           "Leave out pairs joined by bonds: bonded or 1-2 (one bond), 1-3 (up to two), 1-4 (up to three)")
       ->type_name("WHAT");
-  command
-      .add_option("--topology", words.topology,
+  add_file_option(command, "--topology", words.topology,
                   "Where the bonds are: a LAMMPS data file (.data), a list of bonds (.bonds) or of chains "
                   "(.chains). Default: the dump's mol column, each molecule a chain in order of atom id")
       ->type_name("FILE");
@@ -95,11 +94,11 @@ void declare_options(CLI::App& command, ReplayWords& words) {
           "--verify", words.verify,
           "Compare the lists with all pairs: none (default), sample (10 frames, 1,000 atoms each) or all")
       ->type_name("HOW");
-  command.add_option("--out", words.lists, "Write the neighbor lists to this HDF5 file")
+  add_file_option(command, "--out", words.lists, "Write the neighbor lists to this HDF5 file")
       ->type_name("LISTS.h5");
-  command.add_option("--report", words.report, "Write what was found to this JSON file")
+  add_file_option(command, "--report", words.report, "Write what was found to this JSON file")
       ->type_name("REPORT.json");
-  command.add_option("--plot", words.plot, "Write what was found to this page, with plots")
+  add_file_option(command, "--plot", words.plot, "Write what was found to this page, with plots")
       ->type_name("REPORT.html");
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }
@@ -127,7 +126,6 @@ EngineOptions engine_options(const ReplayWords& words) {
                                                {"repair", MaintenancePolicy::always_repair},
                                                {"rebuild", MaintenancePolicy::always_rebuild}});
   }
-  if (!words.threads.empty()) engine.threads = parse_threads(words.threads);
   return engine;
 }
 
@@ -139,6 +137,7 @@ ReplayOptions replay_options(const ReplayWords& words) {
   options.skin =
       parse_number("--skin", words.skin, {0, kMaxCoordinate, false, "the skin, a length in the file's unit"});
   options.engine = engine_options(words);
+  if (!words.threads.empty()) options.threads = parse_threads(words.threads);
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
   options.verify = choose<VerifyMode>(
       "--verify", words.verify,

@@ -27,7 +27,7 @@ Json input_json(const ReplayReport& report) {
   if (report.engine.kind == EngineKind::dch) {
     json["c"] = report.engine.c;
     json["policy"] = to_string(report.engine.policy);
-    json["threads"] = report.engine.threads;
+    json["threads"] = report.threads;
   }
   json["list"] = to_string(report.list_kind);
   json["cutoff"] = report.cutoff;

@@ -53,7 +53,8 @@ std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
 
 }  // namespace
 
-std::string engine_text(const EngineOptions& engine) {
+std::string engine_text(const ReplayReport& report) {
+  const EngineOptions& engine = report.engine;
   switch (engine.kind) {
     case EngineKind::cell:
       return "cell list, built at every update";
@@ -62,7 +63,7 @@ std::string engine_text(const EngineOptions& engine) {
     case EngineKind::dch:
       break;
   }
-  const std::string threads = engine.threads > 1 ? fmt::format(", {} threads", engine.threads) : "";
+  const std::string threads = report.threads > 1 ? fmt::format(", {} threads", report.threads) : "";
   return fmt::format("dch, c = {}, policy {}{}", engine.c, to_string(engine.policy), threads);
 }
 
@@ -75,7 +76,7 @@ std::vector<Row> report_rows(const ReplayReport& report) {
   const ReplayTotals totals = report.totals();
   std::vector<Row> rows{{"file", fmt::format("{} ({})", report.file, report.format)},
                         {"unit of length", report.unit},
-                        {"engine", engine_text(report.engine)},
+                        {"engine", engine_text(report)},
                         {"list", list_text(report)},
                         {"frames", grouped(static_cast<std::int64_t>(report.frames.size()))},
                         {"atoms", count_text(report.fewest_atoms, report.most_atoms)},

@@ -36,9 +36,9 @@ void write_output(std::string_view text) {
   note_output(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
 }
 
-void write_message(std::string_view text) {
+void write_message(std::initializer_list<std::string_view> parts) noexcept {
   note_output(std::fflush(stdout) == 0);  // what came before stays before where both go to one place
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  for (const std::string_view part : parts) std::fwrite(part.data(), 1, part.size(), stderr);
   std::fflush(stderr);
 }
 
@@ -46,8 +46,8 @@ int finish_output(int exit_code) {
   note_output(std::fflush(stdout) == 0);
   if (output_error == 0) return exit_code;
   if (output_error != EPIPE) {
-    print_message("dch: standard output: cannot be written: {}; check the free space of where it leads\n",
-                  std::strerror(output_error));
+    write_message({"dch: standard output: cannot be written: ", std::strerror(output_error),
+                   "; check the free space of where it leads\n"});
   }
   if (exit_code != kOk) return exit_code;
   return output_error == EPIPE ? kBrokenPipe : kBadFile;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -15,8 +16,9 @@ void prepare_standard_streams();
 /// Prints results. A failure is kept for finish_output(), so that what has been asked for gets done first.
 void write_output(std::string_view text);
 
-/// Prints a message on standard error. One that cannot be shown is lost: it changes nothing else.
-void write_message(std::string_view text);
+/// Prints a message on standard error. One that cannot be shown is lost: it changes nothing else. Its parts
+/// are not put together first, which takes memory: a message may be about that.
+void write_message(std::initializer_list<std::string_view> parts) noexcept;
 
 template <class... Values>
 void print_output(fmt::format_string<Values...> format, Values&&... values) {
@@ -25,7 +27,7 @@ void print_output(fmt::format_string<Values...> format, Values&&... values) {
 
 template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
-  write_message(fmt::format(format, std::forward<Values>(values)...));
+  write_message({fmt::format(format, std::forward<Values>(values)...)});
 }
 
 /// Brings all results out and returns the exit status: `exit_code`, but if that is kOk and results could not

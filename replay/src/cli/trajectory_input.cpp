@@ -120,7 +120,7 @@ void require_format(const InputWords& words) {
 
 void add_input_options(CLI::App& command, InputWords& words, const std::string& argument,
                        const std::string& help) {
-  command.add_option(argument, words.file, help + "; - for standard input")->required()->type_name("");
+  add_file_option(command, argument, words.file, help + "; - for standard input")->required()->type_name("");
   command
       .add_option("--format", words.format,
                   "Format of the trajectory, by the ending that names of such files have: lammpstrj, dcd, "

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <mutex>
@@ -41,7 +42,8 @@ class Descriptor {
 
 /// A handler of the host, run in the child, would do the host's work twice (remove its temporary files, say).
 /// Signals that a terminal sends to both are for the host to answer: the child ends when the host hangs up.
-void reset_signal_handlers() {
+void reset_handlers() {
+  std::set_terminate(std::abort);
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
 }
@@ -59,7 +61,7 @@ void redirect_streams(int messages) {
 }
 
 [[noreturn]] void run_child(const std::function<void(int)>& body, int socket, int messages) {
-  reset_signal_handlers();
+  reset_handlers();
   skip_exit_handlers_of_host();
   redirect_streams(messages);
   const rlimit no_core_file{0, 0};

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <limits>
-#include <sys/socket.h>
 #include <type_traits>
-#include <unistd.h>
 #include <vector>
 
+#include "byte_channel.hpp"
 #include "cell.hpp"
 
 namespace dch::trajectory {
@@ -74,16 +72,7 @@ bool FrameSender::send_kind(Message kind) { return send(&kind, sizeof kind); }
 bool FrameSender::send_error(const std::string& what) { return send_kind(Message::error) && send_text(what); }
 
 bool FrameSender::send(const void* data, std::size_t size) const {
-  const char* bytes = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t done = ::send(descriptor_, bytes, size, MSG_NOSIGNAL);
-    if (done < 0 && errno != EINTR) return false;
-    if (done > 0) {
-      bytes += done;
-      size -= static_cast<std::size_t>(done);
-    }
-  }
-  return true;
+  return send_bytes(descriptor_, data, size);
 }
 
 bool FrameSender::send_text(const std::string& text) {
@@ -126,16 +115,7 @@ bool FrameReceiver::receive_text(std::string& text) {
 }
 
 bool FrameReceiver::receive(void* data, std::size_t size) const {
-  char* bytes = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t done = ::read(descriptor_, bytes, size);
-    if (done == 0 || (done < 0 && errno != EINTR)) return false;
-    if (done > 0) {
-      bytes += done;
-      size -= static_cast<std::size_t>(done);
-    }
-  }
-  return true;
+  return receive_bytes(descriptor_, data, size);
 }
 
 template <class T>

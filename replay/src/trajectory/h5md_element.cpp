@@ -44,8 +44,9 @@ bool is_number(hid_t dataset) {
 std::optional<H5mdElement> H5mdElement::find(hid_t group, const std::string& name, const std::string& place) {
   H5mdElement element;
   element.place_ = place;
-  if (hdf5_leads_outside(group, name)) element.fail_here("is a link to another file, which is not read");
-  if (!hdf5_exists(group, name)) return std::nullopt;
+  const Hdf5Lead lead = hdf5_lead(group, name);
+  if (lead == Hdf5Lead::outside) element.fail_here("is a link to another file, which is not read");
+  if (lead == Hdf5Lead::nowhere) return std::nullopt;
   H5O_info_t info{};
   if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) {
     element.fail_here(hdf5_reason());
@@ -78,10 +79,11 @@ void H5mdElement::open_group(hid_t parent, const std::string& name) {
   const Hdf5Handle group(H5Gopen2(parent, name.c_str(), H5P_DEFAULT));
   if (!group.valid()) fail_here("cannot be opened; " + hdf5_reason());
   const auto open = [&](const char* part) {
-    if (hdf5_leads_outside(group.get(), part)) {
+    const Hdf5Lead lead = hdf5_lead(group.get(), part);
+    if (lead == Hdf5Lead::outside) {
       fail_here(fmt::format("its '{}' is a link to another file, which is not read", part));
     }
-    if (!hdf5_exists(group.get(), part)) return Hdf5Handle();
+    if (lead == Hdf5Lead::nowhere) return Hdf5Handle();
     Hdf5Handle dataset(H5Dopen2(group.get(), part, H5P_DEFAULT));
     if (!dataset.valid()) fail_here(fmt::format("its '{}' cannot be opened; {}", part, hdf5_reason()));
     refuse_outside(dataset, part);
@@ -146,7 +148,9 @@ T H5mdElement::read_series(const Hdf5Handle& series, const char* what, std::int6
   T value{};
   if (dimensions.empty()) {
     T offset{};
-    if (H5Aexists(series.get(), "offset") > 0) {
+    const htri_t has_offset = H5Aexists(series.get(), "offset");
+    if (has_offset < 0) fail_here(std::string("its offset of ") + what + " cannot be read");
+    if (has_offset > 0) {
       const Hdf5Handle attribute(H5Aopen(series.get(), "offset", H5P_DEFAULT));
       if (H5Aread(attribute.get(), native_type<T>(), &offset) < 0)
         fail_here(std::string("its offset of ") + what + " cannot be read");
@@ -190,8 +194,12 @@ std::optional<std::string> H5mdElement::time_attribute(const std::string& name) 
 void H5mdElement::fail_here(const std::string& what) const { throw FileError(place_ + ": " + what); }
 
 std::vector<std::string> read_string_attribute(hid_t object, const std::string& name) {
-  if (H5Aexists(object, name.c_str()) <= 0) return {};
+  const std::string here = "the attribute '" + name + "'";
+  const htri_t exists = H5Aexists(object, name.c_str());
+  hdf5_require(exists >= 0, here);
+  if (exists == 0) return {};
   const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  hdf5_require(attribute.valid(), here);
   const Hdf5Handle type(H5Aget_type(attribute.get()));
   const Hdf5Handle space(H5Aget_space(attribute.get()));
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
@@ -201,7 +209,7 @@ std::vector<std::string> read_string_attribute(hid_t object, const std::string& 
   std::vector<std::string> strings;
   if (H5Tis_variable_str(type.get()) > 0) {
     std::vector<char*> raw(static_cast<std::size_t>(count), nullptr);
-    if (H5Aread(attribute.get(), type.get(), raw.data()) < 0) return {};
+    hdf5_require(H5Aread(attribute.get(), type.get(), raw.data()) >= 0, here);
     for (char* text : raw) strings.emplace_back(text != nullptr ? text : "");
     H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, raw.data());
     return strings;
@@ -210,7 +218,7 @@ std::vector<std::string> read_string_attribute(hid_t object, const std::string& 
   constexpr std::size_t kLongest = 4096;
   if (length > kLongest) return {};
   std::string raw(length * static_cast<std::size_t>(count), '\0');
-  if (H5Aread(attribute.get(), type.get(), raw.data()) < 0) return {};
+  hdf5_require(H5Aread(attribute.get(), type.get(), raw.data()) >= 0, here);
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     std::string text = raw.substr(k * length, length);
     text.resize(std::min(text.find('\0'), text.size()));

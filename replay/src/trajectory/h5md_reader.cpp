@@ -64,11 +64,9 @@ H5mdReader::H5mdReader(std::shared_ptr<const InputFile> input, const ReadLimits&
 }
 
 void H5mdReader::open_group() {
-  if (hdf5_leads_outside(file_.get(), "particles")) {
-    fail(path_, "'particles' is a link to another file, which is not read");
-  }
-  if (!hdf5_exists(file_.get(), "particles"))
-    fail(path_, "has no group 'particles': it is not an H5MD trajectory");
+  const Hdf5Lead lead = hdf5_lead(file_.get(), "particles");
+  if (lead == Hdf5Lead::outside) fail(path_, "'particles' is a link to another file, which is not read");
+  if (lead == Hdf5Lead::nowhere) fail(path_, "has no group 'particles': it is not an H5MD trajectory");
   const Hdf5Handle particles(H5Gopen2(file_.get(), "particles", H5P_DEFAULT));
   if (!particles.valid()) fail(path_, "'particles' cannot be opened; " + hdf5_reason());
   group_name_ = choose_group(particles.get());
@@ -78,13 +76,14 @@ void H5mdReader::open_group() {
 }
 
 std::string H5mdReader::choose_group(hid_t particles) const {
-  std::vector<std::string> names = names_in(particles);
-  for (const std::string& name : names) {
-    if (hdf5_leads_outside(particles, name + "/position")) {
+  std::vector<std::string> names;
+  for (const std::string& name : names_in(particles)) {
+    const Hdf5Lead lead = hdf5_lead(particles, name + "/position");
+    if (lead == Hdf5Lead::outside) {
       fail(path_, fmt::format("'particles/{}/position' leads to another file, which is not read", name));
     }
+    if (lead == Hdf5Lead::object) names.push_back(name);
   }
-  std::erase_if(names, [=](const std::string& name) { return !hdf5_exists(particles, name + "/position"); });
   if (names.empty()) fail(path_, "no group in 'particles' has positions");
   if (names.size() == 1) return names.front();
   for (const char* usual : {"trajectory", "all"}) {
@@ -140,10 +139,11 @@ void H5mdReader::check_size(const ReadLimits& limits) const {
 }
 
 void H5mdReader::open_box() {
-  if (hdf5_leads_outside(group_.get(), "box")) {
+  const Hdf5Lead lead = hdf5_lead(group_.get(), "box");
+  if (lead == Hdf5Lead::outside) {
     fail(path_, fmt::format("'particles/{}/box' is a link to another file, which is not read", group_name_));
   }
-  if (!hdf5_exists(group_.get(), "box")) return;
+  if (lead == Hdf5Lead::nowhere) return;
   const Hdf5Handle box(H5Gopen2(group_.get(), "box", H5P_DEFAULT));
   if (!box.valid())
     fail(path_, fmt::format("'particles/{}/box' cannot be opened; {}", group_name_, hdf5_reason()));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hdf5_handle.hpp"
 
+#include <stdexcept>
+
 namespace dch::trajectory {
 namespace {
 
@@ -18,18 +20,26 @@ std::string hdf5_reason() {
   return reason.empty() ? "HDF5 gives no reason" : "HDF5: " + reason;
 }
 
-bool hdf5_exists(hid_t parent, const std::string& name) {
-  return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0 &&
-         H5Oexists_by_name(parent, name.c_str(), H5P_DEFAULT) > 0;
+void hdf5_require(bool good, const std::string& what) {
+  if (!good) throw std::runtime_error(what + " cannot be read; " + hdf5_reason());
 }
 
-bool hdf5_leads_outside(hid_t parent, const std::string& name) {
+Hdf5Lead hdf5_lead(hid_t parent, const std::string& name) {
   for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
-    const std::string part = name.substr(0, end);
-    H5L_info_t info{};
-    if (H5Lget_info(parent, part.c_str(), &info, H5P_DEFAULT) < 0) return false;
-    if (info.type == H5L_TYPE_EXTERNAL) return true;
-    if (end == std::string::npos) return false;
+    const std::string part = name.substr(0, end), here = "'" + part + "'";
+    const htri_t linked = H5Lexists(parent, part.c_str(), H5P_DEFAULT);
+    hdf5_require(linked >= 0, here);
+    if (linked == 0) return Hdf5Lead::nowhere;
+    H5L_info_t link{};
+    hdf5_require(H5Lget_info(parent, part.c_str(), &link, H5P_DEFAULT) >= 0, here);
+    if (link.type == H5L_TYPE_EXTERNAL) return Hdf5Lead::outside;
+    const htri_t leads = H5Oexists_by_name(parent, part.c_str(), H5P_DEFAULT);
+    hdf5_require(leads >= 0, here);
+    if (leads == 0) return Hdf5Lead::nowhere;
+    if (end == std::string::npos) return Hdf5Lead::object;
+    H5O_info_t object{};
+    hdf5_require(H5Oget_info_by_name2(parent, part.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT) >= 0, here);
+    if (object.type != H5O_TYPE_GROUP) return Hdf5Lead::nowhere;
   }
 }
 

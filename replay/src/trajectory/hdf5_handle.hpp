@@ -53,10 +53,13 @@ class Hdf5Silence {
 /// What HDF5 says about its last error: the description nearest to the cause.
 std::string hdf5_reason();
 
-/// True if `parent` has a link of that name and it leads to an object.
-bool hdf5_exists(hid_t parent, const std::string& name);
+/// @throws std::runtime_error, with HDF5's reason, if what is named could not be read.
+void hdf5_require(bool good, const std::string& what);
 
-/// True if a part of the path `name` is a link to another file.
-bool hdf5_leads_outside(hid_t parent, const std::string& name);
+enum class Hdf5Lead { nowhere, object, outside };
+
+/// Where the path `name` leads from `parent`: to an object, to another file, or nowhere.
+/// @throws std::runtime_error if that cannot be found out: what cannot be read is not absent.
+Hdf5Lead hdf5_lead(hid_t parent, const std::string& name);
 
 }  // namespace dch::trajectory

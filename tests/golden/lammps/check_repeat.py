@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The same script five times, while other programs keep the processors more or less busy: the same bits each time."""
 
-import contextlib
 import hashlib
+import os
 import re
-import subprocess
 import sys
 import unittest
 
 from lammps_run import thermo_tables
 from script_tests import host, main
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
+from busy_processors import load  # noqa: E402
 
 REPEATS = 5
 # Fast atoms, so that the structure often has to be repaired or built anew.
@@ -40,19 +42,6 @@ SCENES = {
     "gas": {"lattice": "sc 0.1", "cells": 14, "tilt": 4, "temperature": 10, "skin": 1.5, "steps": 120},
     "melt": {"lattice": "fcc 0.8442", "cells": 7, "tilt": 2, "temperature": 20, "skin": 1.0, "steps": 60},
 }
-
-
-@contextlib.contextmanager
-def load(programs):
-    """So many other programs use the processors meanwhile; they end by themselves if this one cannot end them."""
-    code = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
-    running = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(programs)]
-    try:
-        yield
-    finally:
-        for program in running:
-            program.kill()
-            program.wait()
 
 
 def outcome(scene, words, ranks, threads):

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The same simulation five times, while other programs keep the processors busy: the same bits each time."""
 
-import contextlib
 import hashlib
-import subprocess
+import os
 import sys
 import unittest
 
@@ -14,20 +13,10 @@ import openmm
 import openmm_dch
 from openmm_systems import energy_and_forces, lennard_jones_fluid
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
+from busy_processors import load  # noqa: E402
+
 REPEATS = 5
-
-
-@contextlib.contextmanager
-def load(programs):
-    """So many other programs use the processors meanwhile; they end by themselves if this one cannot end them."""
-    code = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
-    running = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(programs)]
-    try:
-        yield
-    finally:
-        for program in running:
-            program.kill()
-            program.wait()
 
 
 def outcome(platform, threads):

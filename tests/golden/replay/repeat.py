@@ -5,10 +5,8 @@ and the same lists.
     repeat.py DCH FOLDER_OF_TRAJECTORIES
 """
 
-import contextlib
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -16,21 +14,11 @@ import h5py
 
 from dch_command import Checks, run
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
+from busy_processors import load  # noqa: E402
+
 REPEATS = 5
 TIMED = ("_ms", "_ns", "seconds", "speed", "per_second")
-
-
-@contextlib.contextmanager
-def load(programs):
-    """So many other programs use the processors meanwhile; they end by themselves if this one cannot end them."""
-    code = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
-    running = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(programs)]
-    try:
-        yield
-    finally:
-        for program in running:
-            program.kill()
-            program.wait()
 
 
 def without_times(value):

@@ -84,31 +84,42 @@ def write_to(path, content):
 
 def check_standard_input(checks, command, data):
     """A pipe, packed or not, and a file on standard input say what the file itself does."""
-    for name, frmt in (("polymer.lammpstrj", "lammpstrj"), ("nacl.lammpstrj", "dump"), ("nopbc.dcd", "dcd")):
-        path = os.path.join(data, name)
-        with open(path, "rb") as file:
-            content = file.read()
-        expected = json.loads(run(command, "info", "--json", path).stdout)
-        lines = ['cat "$1" | "$0" info --json - --format ' + frmt, '"$0" info --json - --format ' + frmt + ' < "$1"',
-                 '"$0" info --json --format ' + frmt + ' <(cat "$1")']
-        if frmt != "dcd":
-            lines.append('gzip -c "$1" | "$0" info --json - --format ' + frmt)
-        for line in lines:
-            result = shell(command, line, path)
-            found = json.loads(result.stdout or "{}")
-            if "<(" not in line:
-                checks.that(found.get("file") == "standard input", f"{line}: named {found.get('file')}")
-            checks.that({**found, "file": path} == expected, f"{line}: {result.stderr} {found}")
-        with tempfile.TemporaryDirectory() as folder:
-            for pipe, packed in (("pipe." + frmt, content), ("PIPE.DUMP.gz", gzip.compress(content))):
-                if frmt == "dcd" and packed is not content:
-                    continue
-                pipe = os.path.join(folder, pipe)
-                os.mkfifo(pipe)
-                writer = write_to(pipe, packed)
-                result = run(command, "info", "--json", pipe)
-                writer.join()
-                checks.that({**json.loads(result.stdout or "{}"), "file": path} == expected, f"{pipe}: {result.stderr}")
+    for name, frmt in (("polymer.lammpstrj", "lammpstrj"), ("nacl.lammpstrj", "dump"), ("nopbc.dcd", "dcd"),
+                       ("cell_shapes.xtc", "xtc"), ("water.trr", "trr")):
+        check_pipes_of(checks, command, os.path.join(data, name), frmt)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "three.gro")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("three atoms\n3\n" + "".join(f"    1SOL     OW{i:5d}{i:8.3f}{i:8.3f}{i:8.3f}\n" for i in (1, 2, 3)) +
+                       "   5.00000   5.00000   5.00000\n")
+        check_pipes_of(checks, command, path, "gro")
+
+
+def check_pipes_of(checks, command, path, frmt):
+    is_packable = frmt in ("lammpstrj", "dump")
+    with open(path, "rb") as file:
+        content = file.read()
+    expected = json.loads(run(command, "info", "--json", path).stdout)
+    lines = ['cat "$1" | "$0" info --json - --format ' + frmt, '"$0" info --json - --format ' + frmt + ' < "$1"',
+             '"$0" info --json --format ' + frmt + ' <(cat "$1")']
+    if is_packable:
+        lines.append('gzip -c "$1" | "$0" info --json - --format ' + frmt)
+    for line in lines:
+        result = shell(command, line, path)
+        found = json.loads(result.stdout or "{}")
+        if "<(" not in line:
+            checks.that(found.get("file") == "standard input", f"{line}: named {found.get('file')}")
+        checks.that({**found, "file": path} == expected, f"{line}: {result.stderr} {found}")
+    with tempfile.TemporaryDirectory() as folder:
+        for pipe, packed in (("pipe." + frmt, content), ("PIPE.DUMP.gz", gzip.compress(content))):
+            if not is_packable and packed is not content:
+                continue
+            pipe = os.path.join(folder, pipe)
+            os.mkfifo(pipe)
+            writer = write_to(pipe, packed)
+            result = run(command, "info", "--json", pipe)
+            writer.join()
+            checks.that({**json.loads(result.stdout or "{}"), "file": path} == expected, f"{pipe}: {result.stderr}")
 
 
 def check_replay_from_pipe(checks, command, data):

@@ -39,6 +39,13 @@ def wrong_commands(data):
         (["replay", water, "--cutoff", "0.4", "--report", "-"], ["--report -", "standard output", "./-"]),
         (["convert", water, "-"], ["OUT -", "standard output"]),
         (["generate", "melt", "--chains", "10", "--beads", "10", "-"], ["OUT -", "standard output"]),
+        *[(["replay", water, "--cutoff", "0.4", option, ""], [f"{option}: the name of the file is empty"])
+          for option in ("--out", "--report", "--plot", "--topology")],
+        *[(["contacts", polymer, "--gap", "1", option, ""], [f"{option}: the name of the file is empty"])
+          for option in ("--out", "--report", "--plot", "--topology")],
+        (["info", ""], ["FILE: the name of the file is empty"]),
+        (["convert", water, ""], ["OUT: the name of the file is empty"]),
+        (["generate", "melt", "--chains", "10", "--beads", "10", ""], ["OUT: the name of the file is empty"]),
         (replay("--engine", "cell", "--threads", "2"), ["--threads", "engine cell"]),
         (["replay"], ["FILE is required"]),
         (["replay", water], ["--cutoff is required"]),

@@ -44,6 +44,34 @@ TEST_P(Engines, FollowMotionAndGiveTheOraclesLists) {
   EXPECT_GT(stats.maintain_seconds, 0);
 }
 
+/// Two threads by name; it counts the tasks that it is given, and calls their parts one by one.
+class CountingExecutor final : public Executor {
+ public:
+  explicit CountingExecutor(int& runs) : runs_(runs) {}
+  int threads() const override { return 2; }
+  void run(int parts, const std::function<void(int)>& task) override {
+    ++runs_;
+    for (int part = 0; part < parts; ++part) task(part);
+  }
+
+ private:
+  int& runs_;
+};
+
+TEST(DchEngine, WorksWithTheThreadsItIsGiven) {
+  int runs = 0;
+  const Engine engine = make_engine(EngineOptions(), 2.5, std::make_unique<CountingExecutor>(runs));
+  const trajectory::Frame frame = random_frame(3000);
+  engine.search->update(frame.positions, frame.box);
+  ListParams params;
+  params.cutoffs = TypeCutoffs(2.5);
+  const NeighborList list = engine.search->list(params);
+  EXPECT_GT(runs, 0);
+  EXPECT_EQ(first_difference(list, all_pairs(frame.positions, frame.box, params)), "");
+  ASSERT_NE(engine.threads, nullptr);
+  EXPECT_EQ(engine.threads->threads(), 2);
+}
+
 TEST_P(Engines, TakeAnotherNumberOfAtomsAndNoneAtAll) {
   const Engine engine = this->engine(1);
   for (const std::size_t n : {20, 50, 0, 10}) {

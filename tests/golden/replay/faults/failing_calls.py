@@ -36,20 +36,10 @@ class Bench:
 
     def run(self, subcommand, fault=None, before=""):
         """`before` is a line of a shell that comes first, in the same process: $$ is the number the command will have."""
-        with open(self.log, "wb") as file:
-            file.truncate(LOG_BYTES)
         variables = {"DCH_CALLS_FOLDER": self.work, "DCH_CALLS_LOG": self.log}
         if fault is not None:
             variables["DCH_CALLS_FAULT"] = fault
-        # The shell itself is not to be disturbed
-        settings = ["env", f"LD_PRELOAD={self.library}", *(f"{key}={value}" for key, value in variables.items())]
-        arguments = [*settings, self.command, *subcommand.in_folder(self.work)]
-        if before:
-            arguments = ["sh", "-c", before + '\nexec "$@"', "sh", *arguments]
-        try:
-            result = subprocess.run(arguments, capture_output=True, text=True, timeout=60, cwd=self.folder)
-        except subprocess.TimeoutExpired:
-            result = subprocess.CompletedProcess(arguments, "no end in 60 s", "", "")
+        result = self.execute(subcommand, LOG_BYTES, variables, before)
         calls, struck = [], None
         with open(self.log, "rb") as file:
             lines = file.read()[8:].replace(b"\0", b"").decode().splitlines()
@@ -57,6 +47,20 @@ class Bench:
             calls.append(Call(int(line[1]), int(line[2]), line[3], line[4]))
             struck = calls[-1] if line[5] else struck
         return Outcome(result.returncode, result.stderr, calls, struck)
+
+    def execute(self, subcommand, log_bytes, variables, before=""):
+        """The command beside the library, with an empty log."""
+        with open(self.log, "wb") as file:
+            file.truncate(log_bytes)
+        # The shell itself is not to be disturbed
+        settings = ["env", f"LD_PRELOAD={self.library}", *(f"{key}={value}" for key, value in variables.items())]
+        arguments = [*settings, self.command, *subcommand.in_folder(self.work)]
+        if before:
+            arguments = ["sh", "-c", before + '\nexec "$@"', "sh", *arguments]
+        try:
+            return subprocess.run(arguments, capture_output=True, text=True, timeout=60, cwd=self.folder)
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(arguments, "no end in 60 s", "", "")
 
     def states(self, subcommand, reference):
         """Each output's state: absent, old, whole or broken; and the names of files that should not be there."""
