@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cluster pairs in small scenes, each at the edge of one thing: the last digits of the cutoff, ghosts alone, the order of
-// points that is kept from search to search.
+// Cluster pairs in small scenes, each at the edge of one thing: the last digits of the cutoff, ghosts alone,
+// the order of points that is kept from search to search.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ ListParams request_for(double cutoff) {
   return request;
 }
 
-Hierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius, double base_radius = 0) {
+Hierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
+                       double base_radius = 0) {
   HierarchyParams params;
   params.radius = radius;
   params.base_radius = base_radius;
