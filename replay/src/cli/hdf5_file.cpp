@@ -41,7 +41,7 @@ struct Hdf5File::Request {
 Hdf5File::Hdf5File(const std::string& path) : file_(path) {
   try {
     child_ = std::make_unique<trajectory::ChildProcess>(
-        [this](int socket) { answer_all(socket, file_.temporary_path()); });
+        [this](int socket) { answer_all(socket, file_.descriptor_path()); });
   } catch (const std::system_error& error) {
     fail(std::string("no process to write it in: ") + error.what());
   }

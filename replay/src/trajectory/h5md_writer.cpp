@@ -48,7 +48,7 @@ void H5mdWriter::start(const std::string& length_unit) try {
   child_ = std::make_unique<ChildProcess>([&](int socket) {
     FrameReceiver receiver(socket);
     FrameSender sender(socket);
-    write_all_frames(target_.temporary_path(), target_.path(), length_unit, receiver, sender);
+    write_all_frames(target_.descriptor_path(), target_.path(), length_unit, receiver, sender);
   });
 } catch (const std::system_error& error) {
   fail(target_.path(), std::string("no process to write it in: ") + error.what());

@@ -139,6 +139,8 @@ void OutputFile::create(bool replaces_file) {
       kAttempts, folder.string(), stem));
 }
 
+std::string OutputFile::descriptor_path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
 void OutputFile::write(std::string_view bytes) {
   assert(descriptor_ >= 0);
   while (!bytes.empty()) {

@@ -27,8 +27,12 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return path_; }  ///< as it was given
-  /// Where to write to for those who open files themselves (HDF5); they must have closed it before commit().
+  /// Where the content is until commit().
   const std::string& temporary_path() const { return temporary_; }
+  /// What to open for those who open files themselves (HDF5), in this process or a child of it: it leads to
+  /// the temporary file and to no new one, even if a signal has had that removed. They must have closed it
+  /// before commit().
+  std::string descriptor_path() const;
 
   /// Appends bytes, not buffered. @throws FileError, the disk being full, say.
   void write(std::string_view bytes);

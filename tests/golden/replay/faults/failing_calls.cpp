@@ -102,8 +102,10 @@ void set_name(int descriptor, const char* name) {
   std::snprintf(names[static_cast<std::size_t>(descriptor)].data(), kNameBytes, "%s", name);
 }
 
-/// The last part of a path in the folder; null for others.
+/// The last part of a path in the folder, or what an open descriptor leads to; null for others.
 const char* name_in_folder(const char* path) {
+  int descriptor = -1;
+  if (std::sscanf(path, "/proc/self/fd/%d", &descriptor) == 1) return name_of(descriptor);
   if (folder.empty() || std::strncmp(path, folder.data(), folder.size()) != 0) return nullptr;
   const char* const slash = std::strrchr(path, '/');
   return slash[1] == '\0' ? "folder" : slash + 1;
