@@ -26,12 +26,14 @@ constexpr std::uint32_t kArchitecture = 0;
 #endif
 
 /// System calls that reading and sending take. Memory may be mapped, but not as code: see kMemoryCalls.
+/// Builds under the address sanitizer ask for the stack of signal handlers (sigaltstack) whenever an
+/// exception is thrown.
 constexpr int kAllowedCalls[] = {
     __NR_read,         __NR_pread64,      __NR_lseek,        __NR_write,          __NR_writev,    __NR_sendto,
     __NR_recvfrom,     __NR_ftruncate,    __NR_munmap,       __NR_mremap,         __NR_madvise,   __NR_brk,
     __NR_futex,        __NR_sched_yield,  __NR_setitimer,    __NR_clock_gettime,  __NR_getpid,    __NR_gettid,
     __NR_gettimeofday, __NR_rt_sigreturn, __NR_rt_sigaction, __NR_rt_sigprocmask, __NR_getrandom, __NR_close,
-    __NR_exit,         __NR_exit_group};
+    __NR_exit,         __NR_exit_group,   __NR_sigaltstack};
 
 constexpr int kMemoryCalls[] = {__NR_mmap, __NR_mprotect};  ///< the third argument is the protection
 
