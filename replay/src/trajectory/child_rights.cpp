@@ -25,15 +25,26 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;
 #endif
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1
+#endif
+#endif
+
 /// System calls that reading and sending take. Memory may be mapped, but not as code: see kMemoryCalls.
-/// Builds under the address sanitizer ask for the stack of signal handlers (sigaltstack) whenever an
-/// exception is thrown.
 constexpr int kAllowedCalls[] = {
+#if defined(__SANITIZE_ADDRESS__)
+    // The sanitizers look at the stack when an exception is thrown, and at memory by way of a pipe.
+    __NR_sigaltstack,  __NR_pipe2,
+#if defined(__NR_pipe)
+    __NR_pipe,
+#endif
+#endif
     __NR_read,         __NR_pread64,      __NR_lseek,        __NR_write,          __NR_writev,    __NR_sendto,
     __NR_recvfrom,     __NR_ftruncate,    __NR_munmap,       __NR_mremap,         __NR_madvise,   __NR_brk,
     __NR_futex,        __NR_sched_yield,  __NR_setitimer,    __NR_clock_gettime,  __NR_getpid,    __NR_gettid,
     __NR_gettimeofday, __NR_rt_sigreturn, __NR_rt_sigaction, __NR_rt_sigprocmask, __NR_getrandom, __NR_close,
-    __NR_exit,         __NR_exit_group,   __NR_sigaltstack};
+    __NR_exit,         __NR_exit_group};
 
 constexpr int kMemoryCalls[] = {__NR_mmap, __NR_mprotect};  ///< the third argument is the protection
 
@@ -99,7 +110,9 @@ bool give_up_rights(const ChildRights& rights) {
   constexpr std::int64_t kMessages = 64 * 1024;  // what the child may leave on stderr, which is a file
   set_limit(RLIMIT_AS, address_space_in_use() + rights.memory);
   close_others(rights.descriptors);
+#if !defined(__SANITIZE_ADDRESS__)
   set_limit(RLIMIT_NOFILE, 0);
+#endif
   set_limit(RLIMIT_NPROC, 0);
   set_limit(RLIMIT_FSIZE, kMessages);
   if (kArchitecture == 0) return false;
