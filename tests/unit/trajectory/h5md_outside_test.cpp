@@ -78,7 +78,9 @@ TEST_F(H5mdOutside, TheChildHasGivenUpItsRights) {
   const std::string status = read_file("/proc/" + std::to_string(id) + "/status");
   EXPECT_THAT(status, AllOf(HasSubstr("Seccomp:\t2"), HasSubstr("NoNewPrivs:\t1")));
   const std::string limits = read_file("/proc/" + std::to_string(id) + "/limits");
+#if !defined(__SANITIZE_ADDRESS__)  // whose builds leave the sanitizers their pipes, see child_rights.cpp
   EXPECT_THAT(limits, testing::ContainsRegex("Max open files +0 +0 "));
+#endif
   EXPECT_THAT(limits, testing::Not(testing::ContainsRegex("Max address space +unlimited")));
   Frame frame;
   EXPECT_TRUE(reader->read(frame));
