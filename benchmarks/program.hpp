@@ -5,7 +5,7 @@
 #include <exception>
 #include <fmt/format.h>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 namespace dch::bench {
 

@@ -4,7 +4,7 @@
 #include <sched.h>
 #include <string>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 namespace dch::bench {
 

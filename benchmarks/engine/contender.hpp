@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/neighbor_list.hpp>
-#include <dch/pair_search.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/neighbor_list.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "scene.hpp"
 #include "simd_grid.hpp"

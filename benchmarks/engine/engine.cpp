@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <random>
 
-#include <dch/all_pairs.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "simd_grid.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include <dch/span.hpp>
+#include <dch/base/span.hpp>
 
 #include "simd/list_kernels.hpp"
 

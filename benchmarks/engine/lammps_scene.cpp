@@ -8,7 +8,7 @@
 #include <library.h>
 #include <string>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "dch_register.h"
 

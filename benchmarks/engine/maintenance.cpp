@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// By what the weights of lib/src/maintenance_cost.hpp were found: the same displacements repaired and built
+// By what the weights of lib/src/hierarchy/maintenance_cost.hpp were found: the same displacements repaired and built
 // anew, scene by scene and step by step, beside what the automatic policy does.
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "affinity.hpp"
 #include "program.hpp"

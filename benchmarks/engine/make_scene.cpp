@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 #include <dch/trajectory/reader.hpp>
 #include <dch/trajectory/topology.hpp>
 

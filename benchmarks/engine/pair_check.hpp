@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <dch/neighbor_list.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 #include "scene.hpp"
 

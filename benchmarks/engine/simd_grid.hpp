@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/exclusions.hpp>
-#include <dch/neighbor_list.hpp>
-#include <dch/span.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/lists/exclusions.hpp>
+#include <dch/lists/neighbor_list.hpp>
+#include <dch/base/span.hpp>
 
-#include "aligned_vector.hpp"
+#include "base/aligned_vector.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::bench {

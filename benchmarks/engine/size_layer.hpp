@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/span.hpp>
-#include <dch/vec3.hpp>
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::bench {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "affinity.hpp"
 #include "list_check.hpp"

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <dch/error.hpp>
-#include <dch/instruction_set.hpp>
+#include <dch/base/error.hpp>
+#include <dch/base/instruction_set.hpp>
 
 namespace dch::bench {
 namespace {

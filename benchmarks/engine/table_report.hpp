@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <dch/pair_search.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace dch::bench {
 

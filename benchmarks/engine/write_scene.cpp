@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "pair_check.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include <dch/error.hpp>
-#include <dch/pair_search.hpp>
+#include <dch/base/error.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "affinity.hpp"
 #include "error_report.hpp"

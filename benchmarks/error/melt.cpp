@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include <dch/pair_search.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "scene.hpp"
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/cluster_pairs.hpp>
-#include <dch/neighbor_list.hpp>
-#include <dch/vec3.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/lists/neighbor_list.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::bench {
 

@@ -3,8 +3,8 @@
 
 #include <charconv>
 
-#include <dch/error.hpp>
-#include <dch/stale_test.hpp>
+#include <dch/base/error.hpp>
+#include <dch/lists/stale_test.hpp>
 
 namespace dch::bench {
 namespace {

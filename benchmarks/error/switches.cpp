@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "stopwatch.hpp"
 #include "trial.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "rebuild_rules.hpp"
 #include "stopwatch.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <dch/lennard_jones.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "melt.hpp"
 

@@ -11,9 +11,9 @@
 #include <map>
 #include <random>
 
-#include <dch/hierarchy.hpp>
-#include <dch/instruction_set.hpp>
-#include <dch/lennard_jones.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/base/instruction_set.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 namespace {
 

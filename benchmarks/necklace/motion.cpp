@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 #include <dch/trajectory/reader.hpp>
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fstream>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 #include <dch/necklace/melt.hpp>
 #include <dch/necklace/walks.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 namespace dch::bench {
 

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/lennard_jones.hpp>
-#include <dch/pair_search.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/forces/lennard_jones.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace dch::bench {
 namespace {

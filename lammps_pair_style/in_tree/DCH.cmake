@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The package DCH, whose sources in src/DCH stand on the libraries in lib/dch.
 add_subdirectory(${LAMMPS_LIB_SOURCE_DIR}/dch ${CMAKE_CURRENT_BINARY_DIR}/dch EXCLUDE_FROM_ALL)
-target_link_libraries(lammps PRIVATE dch::necklace)
+target_link_libraries(lammps PRIVATE dch::necklace dch::forces)
 if(NOT BUILD_SHARED_LIBS)
-  install(TARGETS dch_core dch_necklace EXPORT LAMMPS_Targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS dch_core dch_necklace dch_forces EXPORT LAMMPS_Targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endif()
 
 # Headers of styles are C++17. Positions are compared bit by bit: no contraction of multiplications and additions.

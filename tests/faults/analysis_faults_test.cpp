@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <dch/fene.hpp>
+#include <dch/forces/fene.hpp>
 #include <dch/necklace/contact_events.hpp>
 #include <dch/necklace/contact_map.hpp>
 #include <dch/necklace/contact_probability.hpp>

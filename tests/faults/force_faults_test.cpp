@@ -2,9 +2,9 @@
 //
 // What forces are made from: pairs that memory did not suffice for are empty or can be taken once more, and
 // forces are added whole or not at all.
-#include <dch/cluster_pairs.hpp>
-#include <dch/lennard_jones.hpp>
-#include <dch/pair_list.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/forces/lennard_jones.hpp>
+#include <dch/lists/pair_list.hpp>
 
 #include "cluster_pair_check.hpp"
 #include "scene.hpp"

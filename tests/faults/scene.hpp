@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "list_compare.hpp"
 #include "random.hpp"

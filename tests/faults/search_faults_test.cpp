@@ -5,9 +5,9 @@
 #include <functional>
 #include <numeric>
 
-#include <dch/pair_search.hpp>
-#include <dch/stale_test.hpp>
-#include <dch/verlet_list.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/lists/stale_test.hpp>
+#include <dch/engines/verlet_list.hpp>
 
 #include "scene.hpp"
 

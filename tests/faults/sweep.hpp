@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "failing_memory.hpp"
 

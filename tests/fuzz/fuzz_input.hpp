@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include <dch/vec3.hpp>
+#include <dch/base/vec3.hpp>
 
 /// What a fuzzer calls with each input (the interface of LLVM's libFuzzer); returns 0.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

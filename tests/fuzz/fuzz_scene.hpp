@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/exclusions.hpp>
-#include <dch/neighbor_list.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/lists/exclusions.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 #include "fuzz_input.hpp"
 #include "scenes.hpp"

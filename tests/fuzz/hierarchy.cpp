@@ -2,9 +2,9 @@
 //
 // The hierarchy under any sequence of its operations: every invariant holds after each of them, and lists are
 // those of all pairs.
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "fuzz_scene.hpp"
 #include "list_compare.hpp"

@@ -5,11 +5,11 @@
 // within the cutoff.
 #include <memory>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/pair_search.hpp>
-#include <dch/verlet_list.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/engines/verlet_list.hpp>
 
 #include "cluster_pair_check.hpp"
 #include "fuzz_scene.hpp"

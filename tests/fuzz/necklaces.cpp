@@ -2,7 +2,7 @@
 //
 // Contacts of chains: the same from every structure and by brute force, under motion, with a certificate that
 // holds.
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/layered_hierarchy.hpp>

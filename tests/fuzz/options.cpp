@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fuzz_input.hpp"
-#include "option_values.hpp"
+#include "options/option_values.hpp"
 
 namespace dch::fuzz {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "cluster_pair_check.hpp"
 #include "scenes.hpp"

@@ -3,9 +3,9 @@
 // Cluster pairs hold every pair once, with the right image, in every kind of box, and still do after motion.
 #include <gtest/gtest.h>
 
-#include <dch/error.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "cluster_pair_check.hpp"
 #include "instruction_sets.hpp"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include <dch/error.hpp>
-#include <dch/fene.hpp>
+#include <dch/base/error.hpp>
+#include <dch/forces/fene.hpp>
 
 #include "instruction_sets.hpp"
 #include "lj_oracle.hpp"

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/lennard_jones.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "random.hpp"
 #include "scenes.hpp"

@@ -3,10 +3,10 @@
 // Every kind of point set in every kind of box: the structure is valid and its lists equal the oracle's.
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/instruction_set.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/base/instruction_set.hpp>
 
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"

@@ -4,8 +4,8 @@
 // in most levels, and are in memory in the others only.
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/lennard_jones.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "instruction_sets.hpp"
 #include "lj_oracle.hpp"

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/instruction_set.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/base/instruction_set.hpp>
 
 #include "effort.hpp"
 #include "instruction_sets.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <dch/executor.hpp>
+#include <dch/base/executor.hpp>
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/layered_hierarchy.hpp>

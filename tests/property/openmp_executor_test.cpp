@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

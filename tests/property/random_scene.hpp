@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/instruction_set.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/base/instruction_set.hpp>
 
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "instruction_sets.hpp"
 #include "scenes.hpp"

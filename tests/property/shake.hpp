@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "effort.hpp"
 #include "list_compare.hpp"

@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/lennard_jones.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "effort.hpp"
 #include "list_compare.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
+#include <dch/lists/all_pairs.hpp>
 #include <dch/necklace/contacts.hpp>
 
 namespace dch::test {

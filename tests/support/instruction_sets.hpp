@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <dch/instruction_set.hpp>
+#include <dch/base/instruction_set.hpp>
 
 namespace dch {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <dch/neighbor_list.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 namespace dch {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <dch/vec3.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::scenes {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "peer_lists.hpp"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Builds libdch_core.a and libdch_necklace.a in this folder by CMake. The traditional make calls this: make lib-dch args="for CMake"."""
+"""Builds libdch_core.a, libdch_forces.a and libdch_necklace.a in this folder by CMake. The traditional make calls this: make lib-dch args="for CMake"."""
 
 import os
 import shutil
@@ -14,7 +14,7 @@ BUILD = os.path.join(FOLDER, "build")
 def main():
     subprocess.check_call(["cmake", "-S", FOLDER, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release", *sys.argv[1:]])
     subprocess.check_call(["cmake", "--build", BUILD, "--parallel", str(os.cpu_count() or 1)])
-    for name in ("core", "necklace"):
+    for name in ("core", "forces", "necklace"):
         shutil.copy(os.path.join(BUILD, name, f"libdch_{name}.a"), FOLDER)
 
 

@@ -7,8 +7,8 @@
 #   sh Install.sh 2    bring up to date what is in (make package-update)
 
 mode=$1
-words='PKG_INC=-I../../lib/dch/core/include PKG_INC=-I../../lib/dch/necklace/include PKG_PATH=-L../../lib/dch
-  PKG_LIB=-ldch_core PKG_LIB=-ldch_necklace PKG_SYSLIB=$(dch_SYSLIB)'
+words='PKG_INC=-I../../lib/dch/core/include PKG_INC=-I../../lib/dch/forces/include PKG_INC=-I../../lib/dch/necklace/include PKG_PATH=-L../../lib/dch
+  PKG_LIB=-ldch_core PKG_LIB=-ldch_forces PKG_LIB=-ldch_necklace PKG_SYSLIB=$(dch_SYSLIB)'
 settings='include ../../lib/dch/Makefile.lammps'
 
 put_in() {

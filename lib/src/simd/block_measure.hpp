@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-#include <dch/instruction_set.hpp>
+#include <dch/base/instruction_set.hpp>
 
-#include "list_kernels.hpp"
+#include "simd/list_kernels.hpp"
 
 namespace dch::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "block_measure_loops.hpp"
+#include "simd/block_measure_loops.hpp"
 
 namespace dch::detail {
 

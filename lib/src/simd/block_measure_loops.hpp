@@ -4,7 +4,7 @@
 // function of a library is called, since one compiled for a wider set could then be linked into all.
 #pragma once
 
-#include "block_measure.hpp"
+#include "simd/block_measure.hpp"
 
 namespace dch::detail {
 namespace {

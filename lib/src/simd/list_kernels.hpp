@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <dch/instruction_set.hpp>
+#include <dch/base/instruction_set.hpp>
 
 namespace dch::detail {
 

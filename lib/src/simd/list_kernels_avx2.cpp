@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "list_kernels_loops.hpp"
-#include "list_kernels_sets.hpp"
-#include "x86_blocks.hpp"
+#include "simd/list_kernels_loops.hpp"
+#include "simd/list_kernels_sets.hpp"
+#include "simd/x86_blocks.hpp"
 
 namespace dch::detail {
 namespace {

@@ -5,7 +5,7 @@
 // one set in the place of another's. For the same reason nothing of the standard library is used.
 #pragma once
 
-#include "list_kernels.hpp"
+#include "simd/list_kernels.hpp"
 
 namespace dch::detail {
 namespace {

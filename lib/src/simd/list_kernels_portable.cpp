@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "list_kernels_loops.hpp"
-#include "list_kernels_sets.hpp"
+#include "simd/list_kernels_loops.hpp"
+#include "simd/list_kernels_sets.hpp"
 
 namespace dch::detail {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "list_kernels.hpp"
+#include "simd/list_kernels.hpp"
 
 namespace dch::detail {
 

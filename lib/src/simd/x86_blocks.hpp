@@ -6,7 +6,7 @@
 
 #include <immintrin.h>
 
-#include "list_kernels.hpp"
+#include "simd/list_kernels.hpp"
 
 namespace dch::detail {
 namespace {

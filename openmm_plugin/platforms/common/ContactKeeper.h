@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include <dch/executor.hpp>
+#include <dch/base/executor.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
-#include <dch/stale_test.hpp>
+#include <dch/lists/stale_test.hpp>
 
 namespace OpenMMDCH {
 

@@ -7,7 +7,7 @@
 #include <openmm/internal/NonbondedForceImpl.h>
 #include <vector>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "internal/DCHNonbondedChecks.h"
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include <dch/exclusions.hpp>
-#include <dch/span.hpp>
+#include <dch/lists/exclusions.hpp>
+#include <dch/base/span.hpp>
 
 #include "DCHKernels.h"
 #include "HostState.h"

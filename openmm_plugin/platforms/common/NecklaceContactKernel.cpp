@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 #include "internal/DCHNonbondedChecks.h"
 

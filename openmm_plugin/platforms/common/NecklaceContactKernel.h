@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <dch/executor.hpp>
+#include <dch/base/executor.hpp>
 
 #include "ContactKeeper.h"
 #include "ContactPotential.h"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include <dch/cluster_pairs.hpp>
-#include <dch/executor.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/stale_test.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/stale_test.hpp>
 
 namespace OpenMMDCH {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <dch/lennard_jones.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "ClusterPairKeeper.h"
 #include "DCHNonbondedKernelBase.h"

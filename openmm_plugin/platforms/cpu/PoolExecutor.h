@@ -5,7 +5,7 @@
 #include <atomic>
 #include <openmm/internal/ThreadPool.h>
 
-#include <dch/executor.hpp>
+#include <dch/base/executor.hpp>
 
 namespace OpenMMDCH {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ReferenceDCHKernels.h"
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 namespace OpenMMDCH {
 namespace {

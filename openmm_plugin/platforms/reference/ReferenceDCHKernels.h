@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include <dch/verlet_list.hpp>
+#include <dch/engines/verlet_list.hpp>
 
 #include "DCHNonbondedKernelBase.h"
 

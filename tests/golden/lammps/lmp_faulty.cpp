@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "dch_command.h"
 #include "dch_register.h"

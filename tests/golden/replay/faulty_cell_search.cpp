@@ -3,8 +3,8 @@
 // invented.
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace dch {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/necklace/contact_finder.hpp>
-#include <dch/pair_list.hpp>
+#include <dch/lists/pair_list.hpp>
 
 #include "contact_oracle.hpp"
 #include "hard_case.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/neighbor_list.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 namespace dch::hard {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 
 #include "hard_case.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <dch/all_pairs.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "bead_radii.hpp"
+#include "input/bead_radii.hpp"
 
 #include <gmock/gmock.h>
 
-#include "exit_code.hpp"
+#include "base/exit_code.hpp"
 #include "expect_error.hpp"
 
 namespace dch::cli {

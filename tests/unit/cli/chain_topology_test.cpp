@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "chain_topology.hpp"
+#include "input/chain_topology.hpp"
 
 #include <gmock/gmock.h>
 
 #include <dch/trajectory/file_error.hpp>
 
-#include "exit_code.hpp"
+#include "base/exit_code.hpp"
 #include "expect_error.hpp"
 #include "temporary_folder.hpp"
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "axis.hpp"
-#include "svg_chart.hpp"
+#include "plot/axis.hpp"
+#include "plot/svg_chart.hpp"
 
 namespace dch::cli {
 namespace {

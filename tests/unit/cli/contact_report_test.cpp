@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "contact_report.hpp"
+#include "report/contact_report.hpp"
 
 #include <gmock/gmock.h>
 #include <hdf5.h>
@@ -7,7 +7,7 @@
 
 #include <dch/trajectory/file_error.hpp>
 
-#include "contact_file.hpp"
+#include "report/contact_file.hpp"
 #include "expect_error.hpp"
 #include "hdf5_read.hpp"
 #include "temporary_folder.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "engine.hpp"
+#include "engines/engine.hpp"
 
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
 
 #include "list_compare.hpp"
 #include "small_scene.hpp"

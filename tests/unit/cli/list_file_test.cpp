@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "list_file.hpp"
+#include "report/list_file.hpp"
 
 #include <gmock/gmock.h>
 #include <hdf5.h>

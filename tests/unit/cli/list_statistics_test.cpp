@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "list_statistics.hpp"
+#include "engines/list_statistics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "option_values.hpp"
+#include "options/option_values.hpp"
 
-#include "exit_code.hpp"
+#include "base/exit_code.hpp"
 #include "expect_error.hpp"
 #include "temporary_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "expect_error.hpp"
-#include "output_file.hpp"
+#include "report/output_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace dch::cli {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "replay_report.hpp"
+#include "report/replay_report.hpp"
 
 namespace dch::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include <dch/box.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/trajectory/frame.hpp>
 
 #include "random.hpp"

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "help_format.hpp"
-#include "number_text.hpp"
-#include "progress_bar.hpp"
+#include "commands/help_format.hpp"
+#include "base/number_text.hpp"
+#include "base/progress_bar.hpp"
 
 namespace dch::cli {
 namespace {

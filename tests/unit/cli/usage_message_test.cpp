@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "usage_message.hpp"
+#include "commands/usage_message.hpp"
 
 #include <gtest/gtest.h>
 

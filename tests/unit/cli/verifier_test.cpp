@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "verifier.hpp"
+#include "engines/verifier.hpp"
 
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <dch/all_pairs.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "small_scene.hpp"
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include <dch/box.hpp>
+#include <dch/geometry/box.hpp>
 
-#include "metric.hpp"
+#include "geometry/metric.hpp"
 #include "random.hpp"
 
 namespace dch::detail {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/error.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/base/error.hpp>
 
 #include "scenes.hpp"
 

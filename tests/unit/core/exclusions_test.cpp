@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include <dch/error.hpp>
-#include <dch/exclusions.hpp>
+#include <dch/base/error.hpp>
+#include <dch/lists/exclusions.hpp>
 
 namespace dch {
 namespace {

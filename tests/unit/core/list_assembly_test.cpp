@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "list_assembly.hpp"
+#include "lists/list_assembly.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 //
 // The limits of the integers that lists are made with: they leave no pair out, and are as near to the cutoff
 // as what is rounded on the way allows. What that is, list_kernels.hpp says.
-#include "list_limits.hpp"
+#include "lists/list_limits.hpp"
 
 #include <algorithm>
 #include <cmath>

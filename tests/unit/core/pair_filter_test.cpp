@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pair_filter.hpp"
+#include "lists/pair_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
+#include <dch/lists/all_pairs.hpp>
 
-#include "position_check.hpp"
+#include "geometry/position_check.hpp"
 #include "scenes.hpp"
 
 namespace dch::detail {

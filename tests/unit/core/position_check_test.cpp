@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "position_check.hpp"
+#include "geometry/position_check.hpp"
+#include "lists/list_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <vector>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 namespace dch::detail {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include <dch/error.hpp>
-#include <dch/executor.hpp>
+#include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
 
 #include "error_message.hpp"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include <dch/error.hpp>
-#include <dch/neighbor_list.hpp>
+#include <dch/base/error.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 namespace dch {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "effort.hpp"
 #include "error_message.hpp"

@@ -6,16 +6,16 @@
 #include <limits>
 #include <vector>
 
-#include <dch/hierarchy.hpp>
-#include <dch/index_count.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/base/index_count.hpp>
 #include <dch/necklace/chains.hpp>
 #include <dch/necklace/shapes.hpp>
-#include <dch/pair_list.hpp>
+#include <dch/lists/pair_list.hpp>
 
-#include "block_order.hpp"
-#include "cell_grid.hpp"
+#include "hierarchy/build/block_order.hpp"
+#include "grid/cell_grid.hpp"
 #include "error_message.hpp"
-#include "point_blocks.hpp"
+#include "hierarchy/leaf_blocks.hpp"
 
 namespace dch {
 namespace {

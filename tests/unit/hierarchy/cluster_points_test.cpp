@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What lists are made from: each number of it beside its definition, in small scenes that hold every case.
-#include "cluster_points.hpp"
+#include "hierarchy/leaf_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "metric.hpp"
+#include "geometry/metric.hpp"
 #include "scenes.hpp"
 
 namespace dch::detail {

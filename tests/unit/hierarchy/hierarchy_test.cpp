@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include <dch/all_pairs.hpp>
-#include <dch/error.hpp>
-#include <dch/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"

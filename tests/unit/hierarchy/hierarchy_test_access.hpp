@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
-#include "hierarchy_impl.hpp"
+#include "hierarchy/structure.hpp"
 
 namespace dch {
 

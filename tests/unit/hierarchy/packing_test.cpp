@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "exact_scene.hpp"
 #include "scenes.hpp"

@@ -4,7 +4,7 @@
 // in which every level changes at every step. Small, so that each is checked after each step.
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "exact_scene.hpp"
 #include "scenes.hpp"

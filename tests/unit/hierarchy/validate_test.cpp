@@ -3,7 +3,7 @@
 // A checker that cannot fail is worthless: every kind of fault is planted once and has to be reported.
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"

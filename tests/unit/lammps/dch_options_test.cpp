@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <dch/error.hpp>
+#include <dch/base/error.hpp>
 
 namespace dch::lammps {
 namespace {

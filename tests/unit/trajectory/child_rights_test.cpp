@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A child process that has given up its rights can read what it has open, and nothing else.
-#include "child_rights.hpp"
+#include "process/child_rights.hpp"
 
 #include <array>
 #include <cerrno>
@@ -13,7 +13,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "child_process.hpp"
+#include "process/child_process.hpp"
 #include "scratch_folder.hpp"
 
 namespace dch::trajectory::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "forked_reader.hpp"
+#include "process/forked_reader.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -5,7 +5,7 @@
 
 #include <dch/trajectory/topology.hpp>
 
-#include "cell.hpp"
+#include "frames/cell.hpp"
 #include "effort.hpp"
 #include "random.hpp"
 #include "reading.hpp"

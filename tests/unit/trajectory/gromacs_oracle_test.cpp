@@ -8,7 +8,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-#include "cell.hpp"
+#include "frames/cell.hpp"
 #include "random.hpp"
 #include "reading.hpp"
 #include "scratch_folder.hpp"

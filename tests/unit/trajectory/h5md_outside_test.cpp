@@ -7,7 +7,7 @@
 #include <hdf5.h>
 #include <sys/stat.h>
 
-#include "hdf5_handle.hpp"
+#include "h5md/hdf5_handle.hpp"
 #include "reading.hpp"
 #include "scratch_folder.hpp"
 

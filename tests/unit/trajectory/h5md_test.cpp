@@ -7,8 +7,8 @@
 
 #include <dch/trajectory/writer.hpp>
 
-#include "hdf5_attributes.hpp"
-#include "hdf5_handle.hpp"
+#include "h5md/hdf5_attributes.hpp"
+#include "h5md/hdf5_handle.hpp"
 #include "reading.hpp"
 #include "sample_frames.hpp"
 #include "scratch_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "line_reader.hpp"
+#include "files/line_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "scratch_folder.hpp"
-#include "text.hpp"
+#include "base/text.hpp"
 
 namespace dch::trajectory::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "unit_cell.hpp"
+#include "frames/unit_cell.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

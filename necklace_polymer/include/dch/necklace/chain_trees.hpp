@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <dch/necklace/necklace.hpp>
-#include <dch/span.hpp>
+#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

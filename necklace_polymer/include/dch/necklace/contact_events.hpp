@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <dch/necklace/contacts.hpp>
-#include <dch/span.hpp>
+#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

@@ -7,7 +7,7 @@
 
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/necklace.hpp>
-#include <dch/span.hpp>
+#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/executor.hpp>
+#include <dch/base/executor.hpp>
 #include <dch/necklace/cage_hierarchy.hpp>
-#include <dch/vec3.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::necklace {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include <dch/span.hpp>
-#include <dch/vec3.hpp>
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::necklace {
 

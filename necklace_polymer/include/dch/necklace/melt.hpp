@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/error.hpp>
-#include <dch/exclusions.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/base/error.hpp>
+#include <dch/lists/exclusions.hpp>
 
 namespace dch::necklace {
 

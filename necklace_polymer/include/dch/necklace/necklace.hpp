@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/box.hpp>
-#include <dch/error.hpp>
-#include <dch/exclusions.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/base/error.hpp>
+#include <dch/lists/exclusions.hpp>
 #include <dch/necklace/chains.hpp>
-#include <dch/span.hpp>
+#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

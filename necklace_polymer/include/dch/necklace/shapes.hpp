@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <dch/necklace/necklace.hpp>
-#include <dch/vec3.hpp>
+#include <dch/base/vec3.hpp>
 
 namespace dch::necklace {
 

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <vector>
 
-#include <dch/all_pairs.hpp>
-#include <dch/hierarchy.hpp>
-#include <dch/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 int main() {
   std::vector<dch::Vec3> positions;

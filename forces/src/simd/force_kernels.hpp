@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <dch/base/instruction_set.hpp>
+#include <dch/forces/fene.hpp>
+
+#include "simd/lj_task.hpp"
+
+namespace dch::detail {
+
+/// Bonds, and coefficients by type: k, 1/r0^2, sigma^2, 48 epsilon.
+struct FeneTask {
+  const BondOfType* bonds;
+  std::int64_t count;
+  std::int32_t first_type, types;
+  const double* table[4];
+  const Vec3* positions;
+  Vec3* forces;    ///< added to
+  double* virial;  ///< six sums of d f, added to; null if not wanted
+};
+
+/// The loops of forces, compiled for one instruction set. No function allocates.
+struct ForceKernels {
+  LjFunctions<LjTask<float>> mixed;
+  LjFunctions<LjTask<double>> full;
+  LjFunctions<LjPairTask> pairs;
+
+  /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
+  /// be room for all. Returns how many.
+  std::int32_t (*fene)(const FeneTask& task, std::int32_t* too_long);
+};
+
+/// The kernels of a set that is supported.
+const ForceKernels& force_kernels(InstructionSet set);
+
+}  // namespace dch::detail

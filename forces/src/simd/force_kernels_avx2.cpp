@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "clusters/simd/vectors_avx2.hpp"
+#include "simd/fene_kernels_loops.hpp"
+#include "simd/force_kernels_sets.hpp"
+#include "simd/lj_pair_kernels_loops.hpp"
+
+namespace dch::detail {
+
+const ForceKernels& force_kernels_avx2() {
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>, lj_functions_of<Avx2Double>,
+                                         lj_pair_functions_of<Avx2Double>, fene<Avx2Double>};
+  return kKernels;
+}
+
+}  // namespace dch::detail

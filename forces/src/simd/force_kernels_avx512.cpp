@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "clusters/simd/vectors_avx512.hpp"
+#include "simd/fene_kernels_loops.hpp"
+#include "simd/force_kernels_sets.hpp"
+#include "simd/lj_pair_kernels_loops.hpp"
+
+namespace dch::detail {
+
+const ForceKernels& force_kernels_avx512() {
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>, lj_functions_of<Avx512Double>,
+                                         lj_pair_functions_of<Avx512Double>, fene<Avx512Double>};
+  return kKernels;
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "clusters/simd/vectors_sse42.hpp"
+#include "simd/fene_kernels_loops.hpp"
+#include "simd/force_kernels_sets.hpp"
+#include "simd/lj_pair_kernels_loops.hpp"
+
+namespace dch::detail {
+
+const ForceKernels& force_kernels_sse42() {
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>, lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>, fene<SseDouble>};
+  return kKernels;
+}
+
+}  // namespace dch::detail

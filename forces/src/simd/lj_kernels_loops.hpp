@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+//
+// The loops of Lennard-Jones and Coulomb forces over vector types; see cluster_loops.hpp.
+#pragma once
+
+#include "simd/lj_terms_loops.hpp"
+
+/// All that a loop calls has to be part of it, since a call would spill every register; compilers do not see
+/// that where there are two places to call from. With a sanitizer's checks, or with arrays for registers,
+/// that would take minutes to compile.
+#if defined(__SSE4_2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define DCH_IN_ONE_PIECE [[gnu::flatten]]
+#else
+#define DCH_IN_ONE_PIECE
+#endif
+
+namespace dch::detail {
+namespace {
+
+/// Displacements, squared distances and their inverse of an entry's pairs; the latter are 0 where nothing
+/// acts.
+template <class S>
+struct Separations {
+  Coordinates<S> d;
+  typename S::V r2[S::kParts], s[S::kParts];
+};
+
+/// Charges of a row's cluster, for the pairs of each part.
+template <class S>
+struct RowCharges {
+  typename S::V of_i[S::kParts];
+};
+
+template <class S, LjParameters kParameters, ForceKind kKind>
+Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row,
+                       const Coordinates<S>& i, const ClusterPairs::Entry& entry,
+                       PairCoefficients<S, kParameters>& coefficient) {
+  using V = typename S::V;
+  const auto j = S::load_cluster(task.at[entry.cluster], task.shift[row.first_shift + entry.shift],
+                                 task.at[row.cluster]);
+  coefficient.choose_j(entry.cluster);
+  Separations<S> found;
+  for (int p = 0; p < S::kParts; ++p) {
+    const V dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
+    const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
+    found.d.x[p] = dx;
+    found.d.y[p] = dy;
+    found.d.z[p] = dz;
+    found.r2[p] = r2;
+    V reach2;
+    if constexpr (has_one_cutoff(kKind))
+      reach2 = coefficient.common_cutoff2();
+    else
+      reach2 = coefficient(kCutoff2, p);
+    if constexpr (has_two_cutoffs(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
+    found.s[p] = S::keep(S::less(r2, reach2, entry.mask, p), S::inverse(r2));
+  }
+  return found;
+}
+
+template <class S>
+struct RowSums {
+  Coordinates<S> force;
+  typename S::V energy, coulomb_energy, virial[6];
+};
+
+/// Whether forces on clusters J are kept lane by lane, in memory, while rows are computed. Where one register
+/// holds all 16 pairs this takes a fused operation for each axis; to sum up over cluster I, which is put off
+/// to the end, takes nine more, and shuffles among them.
+template <class S>
+constexpr bool kWantsLanes = S::kParts == 1;
+
+/// Adds force / r times displacements to an entry's lanes and to what the row has summed up.
+template <class S>
+void add_to_lanes(typename S::V force, const Coordinates<S>& d, Coordinates<S>& sum,
+                  typename S::Real* lanes) {
+  static_assert(S::kParts == 1);
+  sum.x[0] = S::madd(force, d.x[0], sum.x[0]);
+  sum.y[0] = S::madd(force, d.y[0], sum.y[0]);
+  sum.z[0] = S::madd(force, d.z[0], sum.z[0]);
+  S::store(lanes, S::madd(force, d.x[0], S::load(lanes)));
+  S::store(lanes + 16, S::madd(force, d.y[0], S::load(lanes + 16)));
+  S::store(lanes + 32, S::madd(force, d.z[0], S::load(lanes + 32)));
+}
+
+/// Sums up the lanes of clusters and leaves them 0.
+template <class S>
+void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range clusters) {
+  for (std::int32_t c = clusters.first; c < clusters.last; ++c) {
+    auto* const lanes = task.lanes + kNumbersOfLanes * c;
+    Coordinates<S> force;
+    force.x[0] = S::load(lanes);
+    force.y[0] = S::load(lanes + 16);
+    force.z[0] = S::load(lanes + 32);
+    S::add_over_i(force, task.force[c]);
+    for (int axis = 0; axis < 3; ++axis) S::store(lanes + 16 * axis, S::zero());
+  }
+}
+
+/// Whether two entries at a time fit into registers. Four parts do not: spilling costs more than waiting
+/// does.
+template <class S>
+constexpr bool kMeasuresAhead = S::kParts <= 2;
+
+/// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entry,
+           const Separations<S>& separation, PairCoefficients<S, kParameters>& coefficient,
+           const RowCharges<S>& charges, const Constants<S>& constants, RowSums<S>& sum) {
+  using V = typename S::V;
+  coefficient.choose_j(entry.cluster);
+  Coordinates<S> force;
+  for (int p = 0; p < S::kParts; ++p) {
+    const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
+    V charge = S::zero();
+    if constexpr (has_charges(kKind))
+      charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
+    const PairTerms<S> terms =
+        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, charge, constants);
+    // The force on J, which the displacement points to.
+    force.x[p] = S::mul(terms.force, dx);
+    force.y[p] = S::mul(terms.force, dy);
+    force.z[p] = S::mul(terms.force, dz);
+    if constexpr (kWantsLanes<S>) {
+      add_to_lanes<S>(terms.force, separation.d, sum.force, task.lanes + kNumbersOfLanes * entry.cluster);
+    } else {
+      sum.force.x[p] = S::add(sum.force.x[p], force.x[p]);
+      sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
+      sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
+    }
+    if constexpr (kSums) {
+      sum.energy = S::add(sum.energy, terms.energy);
+      if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+      sum.virial[0] = S::madd(dx, force.x[p], sum.virial[0]);
+      sum.virial[1] = S::madd(dy, force.y[p], sum.virial[1]);
+      sum.virial[2] = S::madd(dz, force.z[p], sum.virial[2]);
+      sum.virial[3] = S::madd(dx, force.y[p], sum.virial[3]);
+      sum.virial[4] = S::madd(dx, force.z[p], sum.virial[4]);
+      sum.virial[5] = S::madd(dy, force.z[p], sum.virial[5]);
+    }
+  }
+  if constexpr (!kWantsLanes<S>) S::add_over_i(force, task.force[entry.cluster]);
+}
+
+/// Separations are measured one entry ahead, if they take few registers: the chain of dependent operations
+/// through one entry is longer than what a processor can look ahead over.
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+DCH_IN_ONE_PIECE void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
+  PairCoefficients<S, kParameters> coefficient(task);
+  const Constants<S> constants(task.constants);
+  RowCharges<S> charges{};
+  for (std::int64_t r = 0; r < task.row_count; ++r) {
+    const ClusterPairs::Row row = task.rows[r];
+    const Coordinates<S> i = spread<S>(task.at[row.cluster]);
+    coefficient.choose_i(row.cluster);
+    if constexpr (has_charges(kKind))
+      for (int p = 0; p < S::kParts; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
+    RowSums<S> sum;
+    for (int p = 0; p < S::kParts; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
+    sum.energy = sum.coulomb_energy = S::zero();
+    for (auto& v : sum.virial) v = S::zero();
+    const ClusterPairs::Entry* entry = task.entries + row.first;
+    const ClusterPairs::Entry* const last = task.entries + task.rows[r + 1].first - 1;
+    Separations<S> separation = measure<S, kParameters, kKind>(task, row, i, *entry, coefficient);
+    for (; entry != last; ++entry) {
+      if constexpr (kMeasuresAhead<S>) {
+        const Separations<S> next = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
+        apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
+        separation = next;
+      } else {
+        apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
+        separation = measure<S, kParameters, kKind>(task, row, i, entry[1], coefficient);
+      }
+    }
+    apply<S, kParameters, kSums, kKind>(task, *entry, separation, coefficient, charges, constants, sum);
+    S::subtract_over_j(sum.force, task.force[row.cluster]);
+    if constexpr (kSums) {
+      sums.energy += S::sum(sum.energy);
+      if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+      for (int k = 0; k < 6; ++k) sums.virial[k] += S::sum(sum.virial[k]);
+    }
+  }
+  if constexpr (kWantsLanes<S>) {
+    fold_lanes<S>(task, task.own);
+    for (const ClusterPairs::Range& range : task.later) fold_lanes<S>(task, range);
+  }
+}
+
+template <class S, ForceKind kKind>
+constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_of_kind{
+    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
+      lennard_jones<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_type, false, kKind>,
+      lennard_jones<S, LjParameters::by_type, true, kKind>},
+     {nullptr, nullptr}}};
+
+/// With parameters by particle too.
+template <class S, ForceKind kKind>
+constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_that_mix{
+    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
+      lennard_jones<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_type, false, kKind>,
+      lennard_jones<S, LjParameters::by_type, true, kKind>},
+     {lennard_jones<S, LjParameters::by_particle, false, kKind>,
+      lennard_jones<S, LjParameters::by_particle, true, kKind>}}};
+
+template <class S>
+constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
+    {lj_functions_that_mix<S, ForceKind::lennard_jones>, lj_functions_of_kind<S, ForceKind::plain>,
+     lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
+     lj_functions_that_mix<S, ForceKind::switched>,
+     lj_functions_that_mix<S, ForceKind::switched_reaction_field>},
+    kWantsLanes<S>};
+
+}  // namespace
+}  // namespace dch::detail

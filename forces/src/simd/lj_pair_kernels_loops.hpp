@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// The loops of Lennard-Jones and Coulomb forces over pairs one by one; see cluster_loops.hpp.
+#pragma once
+
+#include "simd/lj_kernels_loops.hpp"
+#include "simd/pair_forces_loops.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// The coefficients of kLanes pairs; those of one type are the same for all.
+template <class S, LjParameters kParameters>
+struct LaneCoefficients;
+
+template <class S>
+struct LaneCoefficients<S, LjParameters::one_type> : PairCoefficients<S, LjParameters::one_type> {
+  using PairCoefficients<S, LjParameters::one_type>::PairCoefficients;
+  void choose(const LjPairTask&, const std::int32_t*, const std::int32_t*) {}
+};
+
+template <class S>
+struct LaneCoefficients<S, LjParameters::by_type> {
+  static constexpr bool kMixes = false;
+  using V = typename S::V;
+  explicit LaneCoefficients(const LjCoefficients<double>& c)
+      : table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift, c.coulomb_cutoff2} {}
+  void choose(const LjPairTask& task, const std::int32_t* i, const std::int32_t* j) {
+    for (int k = 0; k < S::kLanes; ++k) at[k] = task.type[i[k]] * task.types + task.type[j[k]];
+  }
+  V operator()(int k, int) const { return S::gather(table[k], at); }
+
+  const double* table[kCoefficients];
+  alignas(32) std::int32_t at[S::kLanes]{};
+};
+
+template <class S>
+struct LaneSums {
+  typename S::V energy, coulomb_energy, virial[6];
+};
+
+/// kLanes pairs of which only those in `mask` act.
+template <class S, bool kSums, ForceKind kKind, class Coefficients>
+void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t* j, std::uint32_t mask,
+               const Coordinates<S>& shift, const Constants<S>& constants, Coefficients& coefficient,
+               LaneSums<S>& sum) {
+  using V = typename S::V;
+  const double* const positions = &task.positions->x;
+  V xi, yi, zi, xj, yj, zj;
+  S::gather_xyz(positions, i, xi, yi, zi);
+  S::gather_xyz(positions, j, xj, yj, zj);
+  const V dx = S::add(S::sub(xj, xi), shift.x[0]), dy = S::add(S::sub(yj, yi), shift.y[0]),
+          dz = S::add(S::sub(zj, zi), shift.z[0]);
+  const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
+  coefficient.choose(task, i, j);
+  V reach2 = coefficient(kCutoff2, 0);
+  if constexpr (has_charges(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
+  const auto near = S::less(r2, reach2, mask, 0);
+  const std::uint32_t lanes = S::bits(near);
+  if (lanes == 0) return;
+  const V s = S::keep(near, S::inverse(r2));
+  V charge = S::zero();
+  if constexpr (has_charges(kKind))
+    charge = S::mul(S::mul(S::gather(task.charge, i), S::gather(task.charge, j)),
+                    S::set1(task.charge_unit * task.charge_unit));
+  const PairTerms<S> terms = pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, charge, constants);
+  const V fx = S::mul(terms.force, dx), fy = S::mul(terms.force, dy), fz = S::mul(terms.force, dz);
+  if constexpr (kSums) {
+    sum.energy = S::add(sum.energy, terms.energy);
+    if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+    sum.virial[0] = S::madd(dx, fx, sum.virial[0]);
+    sum.virial[1] = S::madd(dy, fy, sum.virial[1]);
+    sum.virial[2] = S::madd(dz, fz, sum.virial[2]);
+    sum.virial[3] = S::madd(dx, fy, sum.virial[3]);
+    sum.virial[4] = S::madd(dx, fz, sum.virial[4]);
+    sum.virial[5] = S::madd(dy, fz, sum.virial[5]);
+  }
+  add_to_both<S>(lanes, i, j, fx, fy, fz, task.forces);
+}
+
+template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+DCH_IN_ONE_PIECE void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
+  LaneCoefficients<S, kParameters> coefficient(task.coefficients);
+  const Constants<S> constants(task.constants);
+  Coordinates<S> shift;
+  shift.x[0] = S::set1(task.shift.x);
+  shift.y[0] = S::set1(task.shift.y);
+  shift.z[0] = S::set1(task.shift.z);
+  LaneSums<S> sum;
+  sum.energy = sum.coulomb_energy = S::zero();
+  for (auto& v : sum.virial) v = S::zero();
+  constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
+  std::int64_t k = task.first;
+  for (; k + S::kLanes <= task.last; k += S::kLanes)
+    add_pairs<S, kSums, kKind>(task, task.i + k, task.j + k, kAll, shift, constants, coefficient, sum);
+  if (k < task.last) {
+    // Lanes without a pair repeat the first one, whose mask bit they lack.
+    std::int32_t i[S::kLanes], j[S::kLanes];
+    for (int lane = 0; lane < S::kLanes; ++lane) {
+      const std::int64_t from = k + lane < task.last ? k + lane : k;
+      i[lane] = task.i[from];
+      j[lane] = task.j[from];
+    }
+    const auto mask = kAll >> (S::kLanes - (task.last - k));
+    add_pairs<S, kSums, kKind>(task, i, j, mask, shift, constants, coefficient, sum);
+  }
+  if constexpr (kSums) {
+    sums.energy += S::sum(sum.energy);
+    if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+    for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
+  }
+}
+
+template <class S, ForceKind kKind>
+constexpr LjFunctions<LjPairTask>::OfKind lj_pair_functions_of_kind{
+    {{lennard_jones_of_pairs<S, LjParameters::one_type, false, kKind>,
+      lennard_jones_of_pairs<S, LjParameters::one_type, true, kKind>},
+     {lennard_jones_of_pairs<S, LjParameters::by_type, false, kKind>,
+      lennard_jones_of_pairs<S, LjParameters::by_type, true, kKind>},
+     {nullptr, nullptr}}};
+
+template <class S>
+constexpr LjFunctions<LjPairTask> lj_pair_functions_of{
+    {lj_pair_functions_of_kind<S, ForceKind::lennard_jones>,
+     lj_pair_functions_of_kind<S, ForceKind::plain>,
+     lj_pair_functions_of_kind<S, ForceKind::ewald>,
+     {},
+     {},
+     {}}};
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/base/span.hpp>
+
+#include "clusters/simd/few_types.hpp"
+
+namespace dch::detail {
+
+/// Coefficients of the pairs of types, each array types x types, row-major, with room for kFewTypes at least:
+/// with s = 1/r^2,
+///   force / r = s^4 (force12 s^3 - force6),   energy = s^3 (energy12 s^3 - energy6) - energy_shift
+/// where r^2 < cutoff2. Charges act where r^2 < coulomb_cutoff2.
+template <class Real>
+struct LjCoefficients {
+  const Real *cutoff2, *force12, *force6, *energy12, *energy6, *energy_shift, *coulomb_cutoff2;
+};
+
+/// Which terms act: Lennard-Jones alone; with charges, whose energy is q_i q_j / r, what an Ewald sum leaves
+/// of that, q_i q_j erfc(splitting r) / r, or that with a reaction field, q_i q_j (1/r + quadratic r^2 -
+/// offset); and Lennard-Jones multiplied by a switching function, alone or with charges and their reaction
+/// field. Where there is a reaction field or a switch, all pairs have one cutoff.
+enum class ForceKind { lennard_jones, plain, ewald, reaction_field, switched, switched_reaction_field };
+inline constexpr int kForceKinds = 6;
+
+constexpr bool has_reaction_field(ForceKind kind) {
+  return kind == ForceKind::reaction_field || kind == ForceKind::switched_reaction_field;
+}
+constexpr bool has_charges(ForceKind kind) {
+  return kind == ForceKind::plain || kind == ForceKind::ewald || has_reaction_field(kind);
+}
+constexpr bool is_switched(ForceKind kind) {
+  return kind == ForceKind::switched || kind == ForceKind::switched_reaction_field;
+}
+/// Whether all pairs and charges have the same cutoff.
+constexpr bool has_one_cutoff(ForceKind kind) { return has_reaction_field(kind) || is_switched(kind); }
+/// Whether charges may have a cutoff of their own.
+constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_reaction_field(kind); }
+
+/// Where sigma and epsilon come from: they are the same for all pairs, stand in a table of pairs of types, or
+/// are mixed from those of the particles.
+enum class LjParameters { one_type, by_type, by_particle };
+
+/// What is the same for all pairs.
+template <class Real>
+struct LjConstants {
+  Real splitting = 0;                    ///< of an Ewald sum [1/length]
+  Real quadratic = 0, offset = 0;        ///< of a reaction field [1/length^3, 1/length]
+  Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
+};
+
+/// Lennard-Jones and Coulomb forces of cluster pairs.
+template <class Real>
+struct LjTask {
+  const ClusterPairs::Row* rows;  ///< and one more
+  std::int64_t row_count;
+  const ClusterPairs::Entry* entries;
+  const ClusterOfFour<Real>* at;
+  const ClusterShift<Real>* shift;
+  const std::int32_t* type;  ///< by slot
+  std::int32_t types;
+  LjCoefficients<Real> coefficients;
+  const Real* half_sigma;    ///< by slot, aligned; null unless parameters are mixed
+  const Real* root_epsilon;  ///< the same: the product of two is 4 epsilon of the pair
+  const Real* charge;        ///< by slot, aligned; null without charges
+  LjConstants<Real> constants;
+  ClusterOfFour<Real>* force;  ///< by cluster; added to
+  Real* lanes;              ///< kNumbersOfLanes by cluster, aligned, 0 before and after; null unless wanted
+  ClusterPairs::Range own;  ///< clusters of the rows
+  Span<const ClusterPairs::Range> later;  ///< others that the rows name
+};
+
+/// Forces of the 16 pairs of two clusters, not yet summed up to those of a cluster's four slots: x, y, z.
+inline constexpr std::ptrdiff_t kNumbersOfLanes = 48;
+
+/// The same forces of pairs one by one, in double precision.
+struct LjPairTask {
+  const std::int32_t *i, *j;
+  std::int64_t first, last;  ///< of the pairs to compute
+  const Vec3* positions;
+  Vec3 shift;                ///< added to second particles
+  const std::int32_t* type;  ///< by particle; null if there is one type
+  std::int32_t types;
+  LjCoefficients<double> coefficients;
+  const double* charge;  ///< by particle; null without charges
+  double charge_unit;    ///< what charges are multiplied by
+  LjConstants<double> constants;
+  Vec3* forces;  ///< by particle; added to
+};
+
+/// Energies, and the virial sum of d f over pairs: xx, yy, zz, xy, xz, yz.
+struct LjSums {
+  double energy = 0, coulomb_energy = 0;
+  double virial[6]{};
+};
+
+/// Which sums are made, whose parameters and which terms, is decided when this is compiled. Functions that
+/// nobody asks for are null: an Ewald sum with parameters by particle, and for pairs one by one all but the
+/// first three kinds and parameters by particle.
+template <class Task>
+struct LjFunctions {
+  using Function = void (*)(const Task&, LjSums&);
+  struct OfKind {
+    Function of_parameters[3][2];  ///< without sums and with them
+  };
+  OfKind of_kind[kForceKinds];
+  bool wants_lanes = false;  ///< whether they use LjTask::lanes
+
+  Function choose(ForceKind kind, LjParameters parameters, bool sums) const {
+    return of_kind[static_cast<int>(kind)].of_parameters[static_cast<int>(parameters)][sums ? 1 : 0];
+  }
+};
+
+}  // namespace dch::detail

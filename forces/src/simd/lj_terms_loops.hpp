@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+//
+// What a pair adds to Lennard-Jones and Coulomb forces, over vector types; see cluster_loops.hpp.
+#pragma once
+
+#include "clusters/simd/cluster_loops.hpp"
+#include "simd/lj_task.hpp"
+
+namespace dch::detail {
+namespace {
+
+enum Coefficient {
+  kCutoff2,
+  kForce12,
+  kForce6,
+  kEnergy12,
+  kEnergy6,
+  kEnergyShift,
+  kCoulombCutoff2,
+  kCoefficients
+};
+
+/// The coefficients of 16 pairs, part by part; those of one type are the same for all.
+template <class S, LjParameters kParameters>
+struct PairCoefficients;
+
+template <class S>
+struct PairCoefficients<S, LjParameters::one_type> {
+  static constexpr bool kMixes = false;
+  using V = typename S::V;
+  using Real = typename S::Real;
+  explicit PairCoefficients(const LjTask<Real>& task) : PairCoefficients(task.coefficients) {}
+  explicit PairCoefficients(const LjCoefficients<Real>& c) {
+    const Real* const from[kCoefficients] = {c.cutoff2, c.force12,      c.force6,         c.energy12,
+                                             c.energy6, c.energy_shift, c.coulomb_cutoff2};
+    for (int k = 0; k < kCoefficients; ++k) value[k] = S::set1(*from[k]);
+  }
+  void choose_i(std::int32_t) {}
+  void choose_j(std::int32_t) {}
+  V operator()(int k, int) const { return value[k]; }
+  V common_cutoff2() const { return value[kCutoff2]; }
+
+  V value[kCoefficients];
+};
+
+template <class S>
+struct PairCoefficients<S, LjParameters::by_type> {
+  static constexpr bool kMixes = false;
+  using V = typename S::V;
+  using Real = typename S::Real;
+  explicit PairCoefficients(const LjTask<Real>& task)
+      : type(task.type),
+        types(task.types),
+        c(task.coefficients),
+        table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift, c.coulomb_cutoff2},
+        cutoff2(S::set1(*c.cutoff2)) {}
+  void choose_i(std::int32_t cluster) {
+    for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
+  }
+  void choose_j(std::int32_t cluster) { of_j = type + 4 * cluster; }
+  V operator()(int k, int part) const { return S::lookup(table[k], types, row, of_j, part); }
+  V common_cutoff2() const { return cutoff2; }
+
+  const std::int32_t* type;
+  std::int32_t types;
+  LjCoefficients<Real> c;
+  const Real* table[kCoefficients];
+  V cutoff2;
+  std::int32_t row[4]{};
+  const std::int32_t* of_j = nullptr;
+};
+
+/// Mixed by the rules of Lorentz and Berthelot: mean sigma, geometric mean of epsilon. One cutoff for all.
+template <class S>
+struct PairCoefficients<S, LjParameters::by_particle> {
+  static constexpr bool kMixes = true;
+  using V = typename S::V;
+  using Real = typename S::Real;
+  explicit PairCoefficients(const LjTask<Real>& task)
+      : half_sigma(task.half_sigma),
+        root_epsilon(task.root_epsilon),
+        cutoff2(S::set1(*task.coefficients.cutoff2)) {}
+  void choose_i(std::int32_t cluster) {
+    for (int p = 0; p < S::kParts; ++p) {
+      sigma_of_i[p] = S::spread(half_sigma + 4 * cluster, p);
+      epsilon_of_i[p] = S::spread(root_epsilon + 4 * cluster, p);
+    }
+  }
+  void choose_j(std::int32_t cluster) { of_j = 4 * cluster; }
+  V operator()(int, int) const { return cutoff2; }
+  V common_cutoff2() const { return cutoff2; }
+  V sigma(int p) const { return S::add(sigma_of_i[p], S::repeat(half_sigma + of_j)); }
+  V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], S::repeat(root_epsilon + of_j)); }
+
+  const Real *half_sigma, *root_epsilon;
+  V cutoff2, sigma_of_i[S::kParts], epsilon_of_i[S::kParts];
+  std::int32_t of_j = 0;
+};
+
+/// e^y for y <= 0, to a unit in the last place or two; not less than the least normal number.
+template <class S>
+typename S::V exp_of_negative(typename S::V y) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  constexpr bool kSingle = sizeof(Real) == 4;
+  // Added to a small integer, this leaves it in the last bits.
+  constexpr Real kInteger = kSingle ? Real(0x1.8p23) : Real(0x1.8p52);
+  constexpr Real kLog2OfE = Real(1.4426950408889634);
+  // ln 2 in two parts, the first so short that integers times it are exact.
+  constexpr Real kLn2High = kSingle ? Real(0x1.62ep-1) : Real(0x1.62e42feep-1);
+  constexpr Real kLn2Low = kSingle ? Real(0x1.0bfbe8p-15) : Real(0x1.a39ef35793c76p-33);
+  constexpr Real kLeast = kSingle ? Real(-87) : Real(-708);
+  // 1/k!, highest first: the remainder is below 0.35^8/8! (single) or 0.35^14/14! (double).
+  constexpr double kSeries[] = {
+      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040,
+      1.0 / 720,        1.0 / 120,       1.0 / 24,       1.0 / 6,       0.5,          1.0,         1.0};
+  y = S::max(y, S::set1(kLeast));
+  const V shifted = S::madd(y, S::set1(kLog2OfE), S::set1(kInteger));
+  const V n = S::sub(shifted, S::set1(kInteger));
+  const V rest = S::madd(n, S::set1(-kLn2Low), S::madd(n, S::set1(-kLn2High), y));
+  constexpr int kFirst = kSingle ? 6 : 0;
+  V sum = S::set1(Real(kSeries[kFirst]));
+  for (int k = kFirst + 1; k < 14; ++k) sum = S::madd(sum, rest, S::set1(Real(kSeries[k])));
+  return S::mul(sum, S::power_of_two(n));
+}
+
+/// What an Ewald sum leaves to a pair, relative to the bare Coulomb term.
+template <class S>
+struct EwaldFactors {
+  typename S::V energy, force;
+};
+
+/// erfc(x) and erfc(x) + 2 x e^(-x^2) / sqrt(pi), by formula 7.1.26 of Abramowitz and Stegun, Handbook of
+/// Mathematical Functions (1964), which is within 1.5e-7. The digits are those of LAMMPS's pair styles, with
+/// which the results have to agree.
+template <class S>
+EwaldFactors<S> ewald_factors(typename S::V x) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  const V expm2 = exp_of_negative<S>(S::mul(S::sub(S::zero(), x), x));
+  const V t = S::inverse(S::madd(S::set1(Real(0.3275911)), x, S::set1(1)));
+  V poly = S::madd(t, S::set1(Real(1.061405429)), S::set1(Real(-1.453152027)));
+  poly = S::madd(t, poly, S::set1(Real(1.421413741)));
+  poly = S::madd(t, poly, S::set1(Real(-0.284496736)));
+  poly = S::madd(t, poly, S::set1(Real(0.254829592)));
+  const V erfc = S::mul(S::mul(t, poly), expm2);
+  return {erfc, S::madd(S::mul(S::set1(Real(1.12837917)), x), expm2, erfc)};
+}
+
+/// LjConstants in all lanes.
+template <class S>
+struct Constants {
+  explicit Constants(const LjConstants<typename S::Real>& c)
+      : splitting(S::set1(c.splitting)),
+        quadratic(S::set1(c.quadratic)),
+        offset(S::set1(c.offset)),
+        switch_from(S::set1(c.switch_from)),
+        over_width(S::set1(c.over_width)) {}
+  typename S::V splitting, quadratic, offset, switch_from, over_width;
+};
+
+/// What a part's pairs add: force / r, energies.
+template <class S>
+struct PairTerms {
+  typename S::V force, energy, coulomb_energy;
+};
+
+/// Of Lennard-Jones alone. The energy is not shifted, and not computed unless it is wanted.
+template <class S, bool kEnergy, class Coefficients>
+PairTerms<S> lennard_jones_terms(const Coefficients& coefficient, int p, typename S::V s) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  PairTerms<S> terms{S::zero(), S::zero(), S::zero()};
+  if constexpr (Coefficients::kMixes) {
+    const V sigma = coefficient.sigma(p), s2 = S::mul(S::mul(sigma, sigma), s);
+    const V s6 = S::mul(S::mul(s2, s2), s2), attraction = S::mul(coefficient.four_epsilon(p), s6);
+    const V inner = S::msub(S::set1(Real(12)), s6, S::set1(Real(6)));
+    terms.force = S::mul(S::mul(attraction, inner), s);
+    if constexpr (kEnergy) terms.energy = S::msub(attraction, s6, attraction);
+  } else {
+    const V s3 = S::mul(S::mul(s, s), s);
+    terms.force = S::mul(S::mul(s3, s), S::msub(coefficient(kForce12, p), s3, coefficient(kForce6, p)));
+    if constexpr (kEnergy)
+      terms.energy = S::mul(s3, S::msub(coefficient(kEnergy12, p), s3, coefficient(kEnergy6, p)));
+  }
+  return terms;
+}
+
+/// Multiplies the energy by 1 + t^3 (-10 + t (15 - 6 t)), t = max(0, (r - from) / width); nothing acts beyond
+/// t = 1.
+template <class S>
+void switch_off(typename S::V r, typename S::V over_r, const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  const V t = S::max(S::zero(), S::mul(S::sub(r, constants.switch_from), constants.over_width));
+  const V t2 = S::mul(t, t);
+  const V tail = S::madd(t, S::madd(t, S::set1(Real(-6)), S::set1(Real(15))), S::set1(Real(-10)));
+  const V value = S::madd(S::mul(t2, t), tail, S::set1(Real(1)));
+  const V bend = S::madd(t, S::madd(t, S::set1(Real(-30)), S::set1(Real(60))), S::set1(Real(-30)));
+  const V slope = S::mul(S::mul(t2, bend), constants.over_width);
+  terms.force = S::msub(value, terms.force, S::mul(S::mul(slope, terms.energy), over_r));
+  terms.energy = S::mul(value, terms.energy);
+}
+
+/// Charges in a reaction field, which ends where Lennard-Jones does.
+template <class S, bool kSums>
+void add_reaction_field(typename S::V r2, typename S::V s, typename S::V over_r, typename S::V charge,
+                        const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  const V field = S::mul(constants.quadratic, r2);
+  terms.force = S::madd(S::mul(charge, s), S::sub(over_r, S::add(field, field)), terms.force);
+  if constexpr (kSums) {
+    const V energy = S::mul(charge, S::add(over_r, S::sub(field, constants.offset)));
+    terms.coulomb_energy = S::keep(S::less(S::zero(), s, 0xFFFF, 0), energy);
+  }
+}
+
+/// S::over_root gives 1/r from these two, and 0 where s is.
+/// @param s inverse squared distances, 0 where nothing acts
+/// @param charge products of charges
+template <class S, bool kSums, ForceKind kKind, class Coefficients>
+PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
+                        typename S::V charge, const Constants<S>& constants) {
+  using V = typename S::V;
+  PairTerms<S> terms = lennard_jones_terms < S, kSums || is_switched(kKind) > (coefficient, p, s);
+  if constexpr (kSums && !is_switched(kKind) && !Coefficients::kMixes) {
+    const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
+    terms.energy = S::sub(terms.energy, above);
+  }
+  if constexpr (has_charges(kKind) || is_switched(kKind)) {
+    const V over_r = S::over_root(r2, s);
+    if constexpr (is_switched(kKind)) switch_off<S>(S::mul(r2, over_r), over_r, constants, terms);
+    if constexpr (has_reaction_field(kKind))
+      add_reaction_field<S, kSums>(r2, s, over_r, charge, constants, terms);
+    if constexpr (has_two_cutoffs(kKind)) {
+      const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
+      const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);
+      const V bare = S::mul(charge, over_r);
+      EwaldFactors<S> factors{bare, bare};
+      if constexpr (kKind == ForceKind::ewald) {
+        const EwaldFactors<S> ewald = ewald_factors<S>(S::mul(constants.splitting, S::mul(r2, over_r)));
+        factors = {S::mul(bare, ewald.energy), S::mul(bare, ewald.force)};
+      }
+      terms.force =
+          S::add(S::keep(is_near, terms.force), S::keep(charges_are_near, S::mul(factors.force, s)));
+      if constexpr (kSums) {
+        terms.energy = S::keep(is_near, terms.energy);
+        terms.coulomb_energy = S::keep(charges_are_near, factors.energy);
+      }
+    }
+  }
+  return terms;
+}
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <lammps_host.h>
+#include <string>
+#include <vector>
+
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/lists/exclusions.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/pair_list.hpp>
+
+#include "atom_points.h"
+#include "pair_rules.h"
+#include "special_pairs.h"
+
+namespace LAMMPS_NS {
+
+/// Pairs of clusters, or pairs one by one where neighbors are few, that a force style of ours asks for in
+/// place of a neighbor list. NeighborDCH fills it when it builds lists.
+struct ClusterList {
+  /// A bonded pair that the style has to weight. No cluster pair holds it.
+  struct Special {
+    int i;     ///< owned
+    int j;     ///< the atom that the force acts on: owned, or a ghost whose force LAMMPS sends home
+    int at;    ///< the image of j that is meant, for positions
+    int kind;  ///< 1 to 3: 1-2, 1-3, 1-4
+  };
+
+  std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
+
+  bool one_by_one = true;   ///< which of the next two is filled
+  double chosen_for = 0;    ///< radius at which that was chosen [length]
+  dch::PairList pair_list;  ///< of points: LAMMPS's indices
+  dch::ClusterPairs pairs;  ///< of the same
+  std::vector<Special> special;
+  /// Whether pairs of these types, from 1, are wanted.
+  bool pairs_interact(int a, int b, int types) const {
+    return interacts[static_cast<std::size_t>(a - 1) * static_cast<std::size_t>(types) +
+                     static_cast<std::size_t>(b - 1)] != 0;
+  }
+
+  std::size_t points() const { return one_by_one ? pair_list.particles : pairs.particles; }
+  std::int64_t count() const { return one_by_one ? pair_list.pairs() : pairs.slot_pairs(); }
+  std::size_t memory_bytes() const { return pair_list.memory_bytes() + pairs.memory_bytes(); }
+
+  bool in_box = false;  ///< points are the atoms in the periodic box, else owned atoms and ghosts
+};
+
+/// Fills a ClusterList: types, exclusions, bonded pairs, and which process takes a pair with a ghost.
+class ClusterListFiller : protected Pointers {
+ public:
+  ClusterListFiller(LAMMPS* lammps, SpecialPairs& special, const PairRules& rules)
+      : Pointers(lammps), special_(special), rules_(rules) {}
+
+  /// @param hierarchy brought up to date with the points
+  /// @param skin that the cutoffs have now [length]
+  virtual void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list);
+  /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
+  /// (-1).
+  const std::vector<std::int32_t>& order(const ClusterList& list) const {
+    return list.one_by_one ? rows_.particle : list.pairs.particle;
+  }
+
+ private:
+  dch::TypeCutoffs cutoffs(const ClusterList& list) const;
+  void take_special_pairs(const AtomPoints& points, ClusterList& list);
+  void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
+  bool leaves_out_any(const AtomPoints& points) const;
+  bool is_left_out(const AtomPoints& points, int i, int j) const;
+  void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
+  void fill_pair_list(AtomPoints& points, dch::Hierarchy& hierarchy, dch::ListParams params,
+                      ClusterList& list);
+
+  SpecialPairs& special_;
+  const PairRules& rules_;
+  std::vector<dch::IndexPair> excluded_;
+  dch::NeighborList rows_;
+};
+
+}  // namespace LAMMPS_NS

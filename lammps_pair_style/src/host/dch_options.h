@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <dch/forces/lennard_jones.hpp>
+
+namespace dch::lammps {
+
+/// When atoms are put in memory in the order of the structure. `automatic`: unless they have bonds, where
+/// nothing was gained, or a fix is in use that may draw random numbers atom by atom, so that another order
+/// would be another trajectory.
+enum class OrderAtoms { automatic, always, never };
+
+/// What one `dch ...` line of an input script asks for.
+struct Request {
+  enum class Action { on, off, stats, verify, precision, threads, skin, order };
+  Action action = Action::on;
+  double c = 1.05;       ///< `on c`: conflict graph parameter of the hierarchy
+  int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
+  ForcePrecision precision = ForcePrecision::full;  ///< `precision`: of force styles of ours
+  bool tunes_skin = false;                          ///< `skin`: auto, not fixed
+  OrderAtoms order_atoms = OrderAtoms::automatic;   ///< `order`
+  int threads = 1;                                  ///< `threads`: of each process
+};
+
+/// Parses the words after `dch`.
+/// @throws dch::InvalidParameter naming the word, what is allowed and an example.
+Request parse_request(const std::vector<std::string>& words);
+
+}  // namespace dch::lammps

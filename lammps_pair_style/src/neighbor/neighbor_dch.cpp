@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "neighbor_dch.h"
+
+#include <algorithm>
+#include <atom.h>
+#include <cmath>
+#include <comm.h>
+#include <error.h>
+#include <neigh_list.h>
+#include <new>
+#include <typeinfo>
+#include <utility>
+
+#include <dch/base/error.hpp>
+
+#include "fix_dch_order.h"
+#include "neighbor_dch_only.h"
+
+namespace LAMMPS_NS {
+
+using namespace NeighConst;
+
+namespace {
+
+// The search reaches farther than the cutoff, by more than rounding can move an atom.
+constexpr double kRadiusMargin = 1.0 + 1e-6;
+
+// A pair of types without interaction has cutoff 0 in LAMMPS, which still lists coincident atoms.
+constexpr double kSmallestCutoff = 1e-100;
+
+double seconds_since(double& start) {
+  const double now = MPI_Wtime();
+  return now - std::exchange(start, now);
+}
+
+}  // namespace
+}  // namespace LAMMPS_NS
+
+std::unique_ptr<dch::PairSearch> dch::lammps::make_search(const HierarchyParams& params) {
+  return make_dch_search(params);
+}
+
+namespace LAMMPS_NS {
+
+std::unique_ptr<ClusterListFiller> make_cluster_filler(LAMMPS* lammps, SpecialPairs& special,
+                                                       const PairRules& rules) {
+  return std::make_unique<ClusterListFiller>(lammps, special, rules);
+}
+
+NeighborDCH::NeighborDCH(Neighbor* retired, const NeighborParts& parts)
+    : Neighbor(*retired),
+      retired_(retired),
+      points_(lmp),
+      order_(lmp),
+      images_(lmp),
+      parts_(parts),
+      special_(lmp),
+      rules_(lmp),
+      filler_(lmp, special_, rules_),
+      cluster_filler_(parts.cluster_filler(lmp, special_, rules_)),
+      verifier_(lmp),
+      cluster_verifier_(lmp, verifier_, rules_) {
+  // Both objects hold the same arrays now; with this flag of the base class the old one's destructor frees
+  // nothing.
+  retired->*(&NeighborDCH::copymode) = 1;
+}
+
+NeighborDCH::~NeighborDCH() { show_bins(); }
+
+NeighborDCH* NeighborDCH::install(LAMMPS* lammps, const NeighborParts& parts) {
+  const Neighbor& present = *lammps->neighbor;
+  if (typeid(present) == typeid(NeighborDCH)) return static_cast<NeighborDCH*>(lammps->neighbor);
+  if (lammps->kokkos) {
+    lammps->error->all(
+        FLERR,
+        std::string("The dch command cannot replace the neighbor lists of KOKKOS; start LAMMPS without "
+                    "'-k on'"));
+  }
+  if (typeid(present) != typeid(Neighbor)) {
+    lammps->error->all(
+        FLERR,
+        std::string("The dch command replaces LAMMPS's own neighbor class, but this LAMMPS runs another "
+                    "one; use either, not both"));
+  }
+  auto* ours = new NeighborDCH(lammps->neighbor, parts);
+  lammps->neighbor = ours;
+  return ours;
+}
+
+void NeighborDCH::enable(double c) {
+  enabled_ = true;
+  c_ = c;
+}
+
+void NeighborDCH::disable() {
+  enabled_ = false;
+  show_bins();
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Which lists are ours
+
+void NeighborDCH::init() {
+  if (enabled_ && atom->molecular == Atom::TEMPLATE) {
+    error->all(FLERR, std::string(
+                          "DCH neighbor lists do not know the bonds of atom_style template; use another atom "
+                          "style or give 'dch off' before the run"));
+  }
+  show_bins();
+  Neighbor::init();
+  const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
+  run_ = {};
+  before_run_ = {};
+  clusters_ = std::exchange(requested_clusters_, {});
+  notes_ = std::exchange(requested_notes_, {});
+  if (!enabled_ && clusters_.empty()) {
+    served_.clear();
+    tuner_.reset();
+    return;
+  }
+  rules_.copy_settings();
+  classify_references();
+  classify_lists();
+  announce(before);
+  if (served_.empty() && clusters_.empty()) {
+    tuner_.reset();
+    return;
+  }
+  prepare_search();
+  prepare_skin();
+  before_run_ = search_stats();
+  order_.begin_run();
+  if (order_.obstacle().empty()) FixDCHOrder::install(lmp);
+  hide_bins();
+}
+
+/// Whether a hierarchy for each class of sizes is worth its while. Cluster pairs come from a single one.
+bool NeighborDCH::sizes_differ_much() const {
+  constexpr double kRatio = 2;
+  const bool any_by_radius =
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+  if (!clusters_.empty()) return false;
+  if (!any_by_radius) {
+    for (int a = 1; a <= atom->ntypes; ++a) {
+      const double own = std::sqrt(cutneighsq[a][a]);
+      if (own > skin && cutneighmax > kRatio * own) return true;
+    }
+    return false;
+  }
+  if (atom->nlocal == 0) return false;
+  const auto [least, most] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
+  return *most > kRatio * *least;
+}
+
+void NeighborDCH::prepare_search() {
+  const double radius = cutneighmax * kRadiusMargin;
+  const bool by_size = sizes_differ_much();
+  const int threads = pool_ ? pool_->threads() : 1;
+  if (search_ && radius == params_.radius && c_ == params_.c && by_size == params_.size_classes &&
+      threads == threads_)
+    return;
+  params_ = {};
+  params_.radius = radius;
+  params_.c = c_;
+  params_.size_classes = by_size;
+  search_.reset();
+  try {
+    if (threads != threads_) pool_ = threads_ > 1 ? dch::make_thread_pool(threads_) : nullptr;
+    params_.executor = pool_.get();
+    search_ = parts_.search(params_);
+  } catch (const dch::Error& e) {
+    error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
+  }
+}
+
+// setup_bins() is not virtual and runs outside build(): where bins are in sight stock code sizes them, and
+// stops at large or sparse systems with "Too many neighbor bins", although nobody reads them.
+void NeighborDCH::hide_bins() {
+  for (int m = 0; m < nlist; ++m) {
+    const bool ours = std::find(served_plist_.begin(), served_plist_.end(), m) != served_plist_.end();
+    if (!ours && is_needed(m) && lists[m]->bin_method > 0) return;
+  }
+  bins_hidden_ = true;
+  all_bins_ = std::exchange(nbin, 0);
+  stencils_in_use_ = std::exchange(nstencil_perpetual, 0);
+  all_stencils_ = std::exchange(nstencil, 0);  // whose memory LAMMPS counts, though they are not set up
+}
+
+void NeighborDCH::show_bins() {
+  if (!bins_hidden_) return;
+  bins_hidden_ = false;
+  nbin = all_bins_;
+  nstencil = all_stencils_;
+  nstencil_perpetual = stencils_in_use_;
+  last_setup_bins = -1;  // makes the next native build size them first
+}
+
+// --------------------------------------------------------------------------------------------------------------------
+// Building them
+
+void NeighborDCH::build(int topoflag) {
+  if (tuner_) choose_skin();
+  if (!fills_lists() && clusters_.empty()) {
+    Neighbor::build(topoflag);
+    return;
+  }
+  const bool verify = verifies_this_build();
+  if (verify) build_native_reference();
+  build_ours();
+  if (verify) check_against_native();
+  OnlyTheseLists rest(*this, fills_lists() ? native_plist_ : needed_plist_);
+  Neighbor::build(topoflag);
+}
+
+void NeighborDCH::build_ours() {
+  double clock = MPI_Wtime();
+  try {
+    points_.gather(may_use_box());
+    if (points_.in_box() && fills_lists()) images_.gather(cutneighmax);
+    run_.points_seconds += seconds_since(clock);
+    search_->update(points_.positions(), points_.box(), points_.keys());
+    run_.structure_seconds += seconds_since(clock);
+    run_.entries = 0;
+    if (fills_lists()) fill_lists();
+    fill_clusters();
+  } catch (const dch::Error& e) {
+    error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
+  } catch (const std::bad_alloc&) {
+    error->one(FLERR, std::string("DCH neighbor lists: out of memory; use more processes or give 'dch off'"));
+  }
+  ++run_.builds;
+}
+
+void NeighborDCH::fill_lists() {
+  double clock = MPI_Wtime();
+  const ImageTest by_images(images_);
+  for (ServedList& served : served_) {
+    NeighList& list = *lists[served.index];
+    dch::ListParams params = list_params(served);
+    if (points_.in_box()) {
+      images_.set_cutoffs(served.by_radius);
+      params.near_cutoff = &by_images;
+      params.exclusions = special_.never_seen(points_.size());
+    }
+    search_->list(params, served.rows);
+    run_.rows_seconds += seconds_since(clock);
+    list.grow(atom->nlocal, atom->nlocal + atom->nghost);
+    filler_.fill(points_, images_, served, list);
+    run_.entries += served.pairs;
+    run_.fill_seconds += seconds_since(clock);
+  }
+}
+
+void NeighborDCH::fill_clusters() {
+  double clock = MPI_Wtime();
+  for (const ServedClusters& clusters : clusters_) {
+    cluster_filler_->fill(points_, *dch::hierarchy_of(*search_), present_skin(), *clusters.list);
+    run_.entries += clusters.list->count();
+    run_.clusters_seconds += seconds_since(clock);
+  }
+}
+
+void NeighborDCH::order_atoms() {
+  if (run_.builds == 0 || !order_.is_due()) return;
+  const std::vector<std::int32_t>& points =
+      fills_lists() ? served_.front().rows.particle : cluster_filler_->order(*clusters_.back().list);
+  std::vector<std::int32_t> atoms;
+  atoms.reserve(points.size());
+  for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
+  order_.apply(atoms);
+}
+
+bool NeighborDCH::may_use_box() const {
+  const bool any_ghost_rows =
+      fills_lists() &&
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
+  const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
+  return !any_ghost_rows && is_exact && points_.may_use_box(params_.radius);
+}
+
+dch::ListParams NeighborDCH::list_params(const ServedList& served) {
+  dch::ListParams params;
+  // A pair through a ghost is in both rows if newton is off.
+  const bool in_both_rows = served.full || (points_.in_box() && !served.newton);
+  params.kind = in_both_rows ? dch::ListKind::full : dch::ListKind::half;
+  params.order = dch::RowOrder::by_structure;
+  params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
+  params.cutoffs = dch::TypeCutoffs(cutneighmax);
+  params.shell = present_skin();
+  if (served.ghost) return params;
+  if (cutneighmin == cutneighmax) params.cutoffs = dch::TypeCutoffs(std::sqrt(cutneighsq[1][1]));
+  if (served.by_radius) {
+    params.radii = points_.radii();
+    params.skin = skin;
+    if (params.radii.empty()) params.cutoffs = dch::TypeCutoffs(kSmallestCutoff);  // the box is still empty
+    return params;
+  }
+  if (atom->ntypes > 1 && cutneighmin < cutneighmax) {
+    params.cutoffs = type_cutoffs();
+    params.types = points_.types();
+  }
+  return params;
+}
+
+double NeighborDCH::present_skin() const { return tuner_ ? tuner_->skin() : skin; }
+
+dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
+  const int n = atom->ntypes;
+  std::vector<double> matrix;
+  for (int a = 1; a <= n; ++a) {
+    for (int b = 1; b <= n; ++b) {
+      const double cutoff = std::sqrt(std::max(cutneighsq[a][b], cutneighsq[b][a]));
+      matrix.push_back(std::clamp(cutoff, kSmallestCutoff, cutneighmax));
+    }
+  }
+  return dch::TypeCutoffs(n, std::move(matrix));
+}
+
+}  // namespace LAMMPS_NS

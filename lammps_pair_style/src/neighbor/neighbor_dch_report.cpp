@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `dch stats` prints, summed over the processes.
+#include <array>
+#include <atom.h>
+#include <comm.h>
+
+#include <dch/base/instruction_set.hpp>
+
+#include "neighbor_dch.h"
+
+namespace LAMMPS_NS {
+
+dch::lammps::RunReport NeighborDCH::report() const {
+  const dch::SearchStats now = search_stats();
+  std::size_t bytes = now.memory_bytes;
+  for (const ServedList& served : served_)
+    bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
+             served.rows.first.capacity() * sizeof(std::int64_t);
+  for (const ServedClusters& clusters : clusters_) bytes += clusters.list->memory_bytes();
+
+  std::array<std::int64_t, 8> sums{run_.entries,
+                                   run_.verified_entries,
+                                   now.promotions - before_run_.promotions,
+                                   now.demotions - before_run_.demotions,
+                                   now.inserted - before_run_.inserted,
+                                   now.removed - before_run_.removed,
+                                   static_cast<std::int64_t>(bytes),
+                                   atom->nlocal};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_LMP_BIGINT, MPI_SUM, world);
+  std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
+                                      now.levels, now.refreshes - before_run_.refreshes};
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_LMP_BIGINT, MPI_MAX,
+                world);
+  std::array<double, 7> times{run_.points_seconds,  run_.structure_seconds,       run_.rows_seconds,
+                              run_.fill_seconds,    run_.verified_native_seconds, run_.verified_dch_seconds,
+                              run_.clusters_seconds};
+  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
+
+  dch::lammps::RunReport report;
+  report.enabled = enabled_;
+  if (tuner_) report.skin = tuner_->skin();
+  report.skin_settled = tuner_ && tuner_->settled();
+  report.verify_every = verify_every_;
+  report.processes = comm->nprocs;
+  report.radius = params_.radius;
+  report.in_box = points_.in_box();
+  report.c = params_.c;
+  report.order_obstacle = order_.obstacle();
+  report.instructions = dch::name(dch::instruction_set());
+  report.counters = run_;
+  report.counters.entries = sums[0];
+  report.counters.verified_entries = sums[1];
+  report.counters.points_seconds = times[0];
+  report.counters.structure_seconds = times[1];
+  report.counters.rows_seconds = times[2];
+  report.counters.fill_seconds = times[3];
+  report.counters.verified_native_seconds = times[4];
+  report.counters.verified_dch_seconds = times[5];
+  report.counters.clusters_seconds = times[6];
+  report.promotions = sums[2];
+  report.demotions = sums[3];
+  report.inserted = sums[4];
+  report.removed = sums[5];
+  report.memory_bytes = sums[6];
+  report.atoms = sums[7];
+  report.structures_built = largest[0];
+  report.repairs = largest[1];
+  report.levels = static_cast<int>(largest[2]);
+  report.refreshes = largest[3];
+  report.lists = notes_;
+  return report;
+}
+
+}  // namespace LAMMPS_NS

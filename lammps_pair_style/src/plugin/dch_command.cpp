@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dch_command.h"
+
+#include <comm.h>
+#include <error.h>
+#include <string>
+#include <vector>
+
+#include <dch/base/error.hpp>
+
+#include "dch_options.h"
+#include "neighbor_dch.h"
+#include "styles.h"
+
+namespace LAMMPS_NS {
+void DchCommand::command(int narg, char** arg) {
+  using dch::lammps::Request;
+  Request request;
+  try {
+    request = dch::lammps::parse_request(std::vector<std::string>(arg, arg + narg));
+  } catch (const dch::InvalidParameter& e) {
+    error->all(FLERR, std::string(e.what()));
+  }
+  register_styles_dch(*lmp);  // again after `clear`, which forgets them
+  NeighborDCH* neighbor_dch = NeighborDCH::install(lmp);
+  switch (request.action) {
+    case Request::Action::on:
+      neighbor_dch->enable(request.c);
+      break;
+    case Request::Action::off:
+      neighbor_dch->disable();
+      break;
+    case Request::Action::verify:
+      neighbor_dch->set_verify(request.verify_every);
+      break;
+    case Request::Action::precision:
+      neighbor_dch->set_precision(request.precision);
+      break;
+    case Request::Action::skin:
+      neighbor_dch->set_skin_tuning(request.tunes_skin);
+      break;
+    case Request::Action::order:
+      neighbor_dch->set_order(request.order_atoms);
+      break;
+    case Request::Action::threads:
+      neighbor_dch->set_threads(request.threads);
+      break;
+    case Request::Action::stats: {
+      const dch::lammps::RunReport report = neighbor_dch->report();
+      if (comm->me == 0) utils::logmesg(lmp, dch::lammps::format_report(report));
+      break;
+    }
+  }
+}
+
+}  // namespace LAMMPS_NS

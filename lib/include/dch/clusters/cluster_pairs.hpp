@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <dch/geometry/box.hpp>
+#include <dch/base/executor.hpp>
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
+
+namespace dch {
+
+/// Coordinates (or forces) of the four slots of a cluster, side by side as vector registers want them.
+template <class Real>
+struct ClusterOfFour;
+template <>
+struct alignas(32) ClusterOfFour<double> {
+  double x[4]{}, y[4]{}, z[4]{};
+};
+template <>
+struct alignas(64) ClusterOfFour<float> {
+  float x[4]{}, y[4]{}, z[4]{};
+  float center[4]{};  ///< what coordinates are relative to; the fourth is 0, and all are in forces
+};
+
+/// A vector from one origin to another.
+template <class Real>
+struct ClusterShift;
+template <>
+struct ClusterShift<double> {
+  ClusterOfFour<double> whole;  ///< the same for all four slots
+};
+template <>
+struct alignas(16) ClusterShift<float> {
+  float high[4]{}, low[4]{};  ///< the vector is their sum; the fourth numbers are 0
+};
+
+/// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
+///
+/// Every pair of particles that the ListParams ask for stands in one entry, once (twice if two of its images
+/// are exactly half a period away, both at the list radius). Entries hold other pairs too, farther apart than
+/// the list radius: a force kernel tests its cutoff. Particles with no other one near may stand in no slot.
+/// Hierarchy::cluster_pairs() makes them.
+///
+/// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
+/// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the
+/// entry names; it leads to the one image of the particle that is meant, and needs no box. In single
+/// precision, particles are relative to the center of their cluster. Centers relative to origins, and the
+/// high parts of shifts, are multiples of the power of two below list_radius / 10000, so that
+///     (at_float[J][b] + (((J.center + high) - I.center) + low)) - at_float[I][a]
+/// rounds in its last steps only, where numbers are as small as the displacement.
+struct ClusterPairs {
+  static constexpr int kSlots = 4;  ///< in a cluster
+
+  /// A cluster J beside the cluster I of its row.
+  struct Entry {
+    std::int32_t cluster;
+    std::uint16_t mask;   ///< bit 4 a + b: slot a of I and slot b of J are a pair; never 0
+    std::uint16_t shift;  ///< counted from the row's first one
+  };
+  /// Entries entries[first] .. entries[(next row's first) - 1] of cluster I, one at least. A cluster has one
+  /// row or none; more only where one row cannot name all its shifts.
+  struct Row {
+    std::int64_t first;
+    std::int32_t cluster;
+    std::int32_t first_shift;
+  };
+  /// A lattice vector, in integer multiples of the cell vectors as given, from one origin to another.
+  struct Shift {
+    std::int32_t from, to;
+    Vec3 image;
+  };
+
+  std::vector<Row> rows;  ///< and one more with the number of entries
+  std::vector<Entry> entries;
+
+  /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own part and of
+  /// later ones. Parts depend on the clusters alone, so forces that are summed up in their order do not
+  /// depend on the number of threads.
+  struct Part {
+    std::int32_t first_cluster;
+    std::int64_t first_range;
+  };
+  /// Clusters `first` .. `last` - 1.
+  struct Range {
+    std::int32_t first, last;
+  };
+  std::vector<Part> parts;    ///< and one more, for the end of the last
+  std::vector<Range> ranges;  ///< by part: those of later parts that its rows name, and a few more; ascending
+  std::vector<std::uint8_t>
+      is_named_before;  ///< by origin: whether ranges of earlier parts hold its clusters
+
+  std::vector<std::int32_t> particle;   ///< by slot; -1 for padding
+  std::vector<std::int32_t> type;       ///< by slot, of ListParams::types; 0 without those and for padding
+  std::vector<std::int32_t> origin_of;  ///< by cluster
+  std::vector<Vec3> origin;             ///< [length]
+  std::vector<Shift> shift;
+
+  // What refresh() writes. Padding stands where the first particle of its cluster does.
+  std::vector<ClusterOfFour<double>> at;                ///< by cluster, relative to its origin [length]
+  std::vector<ClusterOfFour<float>> at_float;           ///< relative to their centers
+  std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
+  std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
+  bool has_shift_vectors = false;                       ///< of `box`; not so after a search
+
+  /// A cluster whose particles were not all given in the image that is near its origin when refresh() last
+  /// took them.
+  struct Torn {
+    std::int32_t cluster;
+    Vec3 image[kSlots];  ///< in integer multiples of the cell vectors, to be added to each
+  };
+  std::vector<Torn> torn;  ///< by ascending cluster; what refresh() remembers from one time to the next
+
+  std::size_t particles = 0;  ///< number of positions
+  int types = 1;              ///< of ListParams::cutoffs
+  double list_radius = 1;     ///< of the ListParams [length]
+  Box box;
+
+  /// Where the rows of a part begin; those of a cluster stand behind those of the clusters before it.
+  std::size_t first_row(const Part& part) const {
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() - 1);
+    return static_cast<std::size_t>(
+        std::lower_bound(rows.begin(), end, part.first_cluster,
+                         [](const Row& row, std::int32_t cluster) { return row.cluster < cluster; }) -
+        rows.begin());
+  }
+  std::int32_t clusters() const { return static_cast<std::int32_t>(origin_of.size()); }
+  /// Number of pairs of slots in all masks.
+  std::int64_t slot_pairs() const;
+
+  /// Calls f(i, j, displacement from i to j) for every pair in the masks, in double.
+  template <class F>
+  void for_each(const F& f) const {
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+      const auto i = static_cast<std::size_t>(rows[r].cluster);
+      for (std::int64_t e = rows[r].first; e < rows[r + 1].first; ++e) {
+        const Entry& entry = entries[static_cast<std::size_t>(e)];
+        const auto j = static_cast<std::size_t>(entry.cluster);
+        const auto& by = shift_vector[static_cast<std::size_t>(rows[r].first_shift) + entry.shift].whole;
+        for (std::size_t bit = 0; bit < kSlots * kSlots; ++bit) {
+          if ((entry.mask >> bit & 1) == 0) continue;
+          const std::size_t a = bit / kSlots, b = bit % kSlots;
+          f(particle[kSlots * i + a], particle[kSlots * j + b],
+            Vec3{at[j].x[b] + by.x[b] - at[i].x[a], at[j].y[b] + by.y[b] - at[i].y[a],
+                 at[j].z[b] + by.z[b] - at[i].z[a]});
+        }
+      }
+    }
+  }
+
+  /// Takes new positions of the same particles, indexed as before, without a new search. They may be wrapped
+  /// into the cell or not, and the cell may have changed its shape (not its periodicity); each particle is
+  /// taken to have moved less than half the smallest height since the last time. The pairs stay complete as
+  /// long as StaleTest's condition holds. O(n), a few nanoseconds a particle.
+  /// @throws InvalidParameter for another number of positions, InvalidBox for another periodicity,
+  ///   InvalidPosition for a coordinate that is not finite. After a throw the positions are of no time; the
+  ///   next ones may be taken all the same.
+  /// @param executor threads to do it with; null for that of the caller
+  void refresh(Span<const Vec3> positions, const Box& now, Executor* executor = nullptr);
+
+  std::size_t memory_bytes() const;
+
+ private:
+  void refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor);
+  void refresh_shifts(const Box& now);
+};
+
+}  // namespace dch

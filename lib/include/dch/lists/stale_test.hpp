@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <dch/geometry/box.hpp>
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
+
+namespace dch {
+
+/// Says when pairs within a cutoff might be missing from what was found with a skin beyond it: a list, or
+/// cluster pairs.
+///
+/// What was found at positions x0 in box H0 holds every pair within the cutoff as long as
+///     2 max_i |u_i| + max_n |(H - H0) n| <= skin,   n in {-1, 0, 1}^3,
+/// where u_i is the shortest displacement of particle i in the present box H. The first term is the classical
+/// skin/2 rule. The second bounds what a change of the box adds: H0 is the reduced basis of the periodic
+/// vectors, H the same integer combinations of the present vectors, and since the heights of H0 are at least
+/// 2 (cutoff + skin), the images of two wrapped particles that come within the cutoff differ by at most one
+/// vector of each. Changes of the origin and of open axes move no pair. Another periodicity and another
+/// number of particles are always stale.
+///
+/// In a periodic box displacements and distances round: 1e-12 of the box or less for particles near it, and
+/// about 1e-14 of the coordinates of boxes and particles far from the origin. A bound on that is taken from
+/// the skin, so that what cannot be told is stale. Without a skin all but the very same positions and box
+/// are.
+class StaleTest {
+ public:
+  /// @throws InvalidParameter for a negative or non-finite skin [length].
+  explicit StaleTest(double skin);
+
+  /// True if a pair might be missing at these positions, if there is a NaN among them, and if none are
+  /// remembered. O(n).
+  bool is_stale(Span<const Vec3> positions, const Box& box) const;
+
+  /// Takes positions and the box that pairs are being found for. After a throw none are remembered.
+  void remember(Span<const Vec3> positions, const Box& box);
+  void forget() { valid_ = false; }
+
+ private:
+  void wrap_reference();
+  std::array<Vec3, 3> periods(const Box& box) const;
+  double strain(const Box& box) const;
+
+  double skin_;
+  std::vector<Vec3> reference_;  ///< positions, wrapped unless there is no skin
+  Box reference_box_;
+  Vec3 low_, high_;             ///< corners of the box around them
+  double reference_error_ = 0;  ///< how far distances of the wrapped positions may be off [length]
+  /// Reduced periodic vectors of the reference box as integer combinations of its cell vectors.
+  std::array<std::array<double, 3>, 3> combinations_{};
+  bool valid_ = false;
+};
+
+}  // namespace dch

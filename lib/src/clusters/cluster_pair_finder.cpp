@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "clusters/cluster_pair_finder.hpp"
+
+#include <algorithm>
+
+#include <dch/base/index_count.hpp>
+
+#include "geometry/lattice.hpp"
+#include "geometry/metric.hpp"
+#include "geometry/near_images.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr int kSlots = ClusterPairs::kSlots;
+constexpr double kInflate = 1 + 1e-12;
+constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a < b
+constexpr std::int32_t kMostShifts = 0x10000;          ///< that the entries of a row can tell apart
+/// Parts of the work for each thread, so that none waits long for the last one.
+constexpr int kPartsPerThread = 4;
+constexpr double kFloatRounding = 0x1p-24;
+/// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
+std::uint32_t spread(std::uint32_t slots) {
+  return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
+}
+
+std::int32_t shift_count(std::size_t shifts) {
+  return index_count(static_cast<std::int64_t>(shifts), "pairs of nodes near each other",
+                     "take a smaller cutoff or fewer points");
+}
+
+}  // namespace
+
+void ClusterPairFinder::Boxes::make_room(std::size_t count) {
+  for (auto& coordinates : side) coordinates.resize(std::max(coordinates.size(), count));
+}
+
+BoxArrays ClusterPairFinder::Boxes::from(std::int32_t k) const {
+  BoxArrays arrays{};
+  for (int s = 0; s < 6; ++s) arrays.side[s] = side[s].data() + k;
+  return arrays;
+}
+
+template <class Metric>
+void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
+  kernels_ = &cluster_search_kernels(instruction_set());
+  cut_into_clusters(scene, executor, out);
+  double largest_extent = 0;
+  for (const Node& node : nodes_) largest_extent = std::max(largest_extent, node.extent);
+  // Points, shifts between nodes, their sums and differences each round once in single precision; none is
+  // longer than `longest`.
+  const double longest = scene.reach + 4 * largest_extent;
+  const double reach = (scene.reach + 16 * kFloatRounding * longest) * (1 + 8 * kFloatRounding);
+  limit2_ = static_cast<float>(reach * reach * (1 + 2 * kFloatRounding));
+  images_ = CellImages(scene.box);
+  one_image_ =
+      !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
+  drops_types_ = false;
+  for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
+    for (int b = 0; b < scene.request.cutoffs.types(); ++b)
+      drops_types_ = drops_types_ || scene.request.cutoffs(a, b) == 0;
+
+  const int count = executor && executor->threads() > 1 ? kPartsPerThread * executor->threads() : 1;
+  parts_.resize(static_cast<std::size_t>(count));
+  const std::int32_t nodes = scene.nodes.size();
+  const auto search = [&](int p) {
+    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{nodes} * k / count); };
+    Part& part = parts_[static_cast<std::size_t>(p)];
+    part.rows.clear();
+    part.entries.clear();
+    part.shift.clear();
+    part.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
+    for (std::int32_t k = cut(p); k < cut(p + 1); ++k)
+      if (scene.nodes.is_alive(k)) find_around(scene, k, out, part);
+  };
+  if (count == 1) {
+    search(0);
+  } else {
+    executor->run(count, search);
+  }
+  join(out);
+  std::swap(cuts_, last_cuts_);
+}
+
+/// Each pair of nodes once: in the turn of the one that comes first. A node meets itself once, and in each of
+/// half of its images.
+template <class Metric>
+void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters,
+                                    Part& part) {
+  const std::vector<Vec3>& center = scene.nodes.position;
+  const auto limit_for = [&](std::int32_t other) {
+    return (scene.reach + extent(k) + extent(other)) * kInflate;
+  };
+  part.near.clear();
+  part.source.clear();
+  const std::int32_t first_shift = shift_count(part.shift.size());
+  collect(k, k, Vec3{}, Vec3{}, clusters, part);
+  const auto add = [&](std::int32_t other, Vec3 between) {
+    collect(k, other, between, images_.integers(between - (center[other] - center[k])), clusters, part);
+  };
+  const auto add_near_images = [&](std::int32_t other) {
+    const Vec3 nearest = scene.metric.displacement(center[k], center[other]);
+    if (!one_image_)
+      return for_each_near_image(scene.box, nearest, limit_for(other), other == k,
+                                 [&](Vec3 between) { add(other, between); });
+    if (other != k && norm2(nearest) <= limit_for(other) * limit_for(other)) add(other, nearest);
+  };
+  add_near_images(k);
+  for (const std::int32_t other : scene.nodes.edges.row(k))
+    if (other > k) add_near_images(other);
+  for (std::int32_t own = 0; own < nodes_[static_cast<std::size_t>(k)].clusters; ++own)
+    append_row(k, own, first_shift, scene.request, clusters, part);
+}
+
+/// Those clusters of another node (or of this one) that are near this node's box, moved to its frame.
+void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image,
+                                const ClusterPairs& clusters, Part& part) {
+  const Node& own = nodes_[static_cast<std::size_t>(k)];
+  const Node& node = nodes_[static_cast<std::size_t>(other)];
+  const float by[3] = {static_cast<float>(between.x), static_cast<float>(between.y),
+                       static_cast<float>(between.z)};
+  float box[6];
+  for (int s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
+  const std::int32_t found =
+      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_, part.chosen.data());
+  if (found == 0) return;
+  const std::int32_t shift = shift_count(part.shift.size());
+  part.shift.push_back({k, other, image});
+  part.boxes.make_room(part.near.size() + static_cast<std::size_t>(found) + kBoxesAtOnce);
+  for (std::int32_t n = 0; n < found; ++n) {
+    const std::int32_t c = node.first + part.chosen[static_cast<std::size_t>(n)];
+    const auto cluster = static_cast<std::size_t>(c);
+    ClusterOfFour<float> moved = clusters.at_float[cluster];
+    for (int slot = 0; slot < kSlots; ++slot) {
+      moved.x[slot] += by[0];
+      moved.y[slot] += by[1];
+      moved.z[slot] += by[2];
+    }
+    for (int s = 0; s < 6; ++s) part.boxes.side[s][part.near.size()] = boxes_.side[s][cluster] + by[s % 3];
+    part.near.push_back(moved);
+    part.source.push_back({c, shift, filled_[cluster], ghost_[cluster]});
+  }
+}
+
+/// The own clusters of the node are the first of those near it, so each meets itself and what comes after.
+void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift,
+                                   const ListParams& request, const ClusterPairs& clusters, Part& part) {
+  const std::int32_t c = nodes_[static_cast<std::size_t>(k)].first + own;
+  const auto count = static_cast<std::int32_t>(part.near.size()) - own;
+  part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(count + kBoxesAtOnce)));
+  std::int32_t* const chosen = part.chosen.data();
+  float box[6];
+  for (int s = 0; s < 6; ++s) box[s] = part.boxes.side[s][static_cast<std::size_t>(own)];
+  std::int32_t found = kernels_->near_boxes(part.boxes.from(own), count, box, limit2_, chosen);
+  found = kernels_->near_clusters(part.near.data() + own, part.near[static_cast<std::size_t>(own)], limit2_,
+                                  chosen, found);
+  const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
+  const bool any_shift = part.source.back().shift - first_shift < kMostShifts;
+  if (!excludes && !drops_types_ && ghost_[static_cast<std::size_t>(c)] == 0 && any_shift)
+    return append_whole_row(c, own, first_shift, found, part);
+  if (excludes) mark_exclusions(*request.exclusions, c, clusters, part);
+  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
+  const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
+  const std::size_t before = part.entries.size();
+  part.entries.resize(before + static_cast<std::size_t>(found));
+  ClusterPairs::Entry* const first = part.entries.data();
+  ClusterPairs::Entry* to = first + before;
+  bool has_row = false;
+  for (std::int32_t n = 0; n < found; ++n) {
+    const auto [other, shift, filled_there, ghosts_there] =
+        part.source[static_cast<std::size_t>(own) + static_cast<std::size_t>(chosen[n])];
+    std::uint32_t mask = filled * filled_there & ~(ghosts * ghosts_there);
+    if (chosen[n] == 0) mask &= kPairsWithinCluster;
+    if (excludes) mask &= ~std::uint32_t{part.excluded[static_cast<std::size_t>(other)]};
+    if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
+    if (mask == 0) continue;
+    if (!has_row || shift - first_shift >= kMostShifts) {
+      if (has_row) first_shift = shift;
+      part.rows.push_back({to - first, c, first_shift});
+      has_row = true;
+    }
+    *to++ = {other, static_cast<std::uint16_t>(mask), static_cast<std::uint16_t>(shift - first_shift)};
+  }
+  part.entries.resize(static_cast<std::size_t>(to - part.entries.data()));
+  if (excludes) unmark_exclusions(*request.exclusions, c, clusters, part);
+}
+
+/// The same where every slot that is no padding is wanted in every pair.
+void ClusterPairFinder::append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift,
+                                         std::int32_t found, Part& part) const {
+  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
+  const Source* const from = part.source.data() + own;
+  const std::int32_t* chosen = part.chosen.data();
+  const std::uint32_t within = filled * filled_[static_cast<std::size_t>(c)] & kPairsWithinCluster;
+  const std::int32_t skipped = within == 0;  // a point alone in its cluster, which is the first one found
+  if (found == skipped) return;
+  const std::size_t before = part.entries.size();
+  part.rows.push_back({static_cast<std::int64_t>(before), c, first_shift});
+  part.entries.resize(before + static_cast<std::size_t>(found - skipped));
+  ClusterPairs::Entry* const to = part.entries.data() + before;
+  for (std::int32_t n = skipped; n < found; ++n) {
+    const Source& there = from[chosen[n]];
+    to[n - skipped] = {there.cluster, static_cast<std::uint16_t>(filled * there.filled),
+                       static_cast<std::uint16_t>(there.shift - first_shift)};
+  }
+  if (within != 0) to[0].mask = static_cast<std::uint16_t>(within);
+}
+
+/// All parts behind each other.
+void ClusterPairFinder::join(ClusterPairs& out) {
+  out.rows.clear();
+  out.entries.clear();
+  out.shift.clear();
+  if (parts_.size() == 1) {
+    out.rows.swap(parts_[0].rows);
+    out.entries.swap(parts_[0].entries);
+    out.shift.swap(parts_[0].shift);
+  } else {
+    append_parts(out);
+  }
+  cut_into_parts(out);
+  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
+  out.torn.clear();
+  out.shift_vector.resize(out.shift.size());
+  out.shift_vector_float.resize(out.shift.size());
+  out.has_shift_vectors = false;
+}
+
+void ClusterPairFinder::append_parts(ClusterPairs& out) const {
+  std::size_t rows = 0, entries = 0, shifts = 0;
+  for (const Part& part : parts_) {
+    rows += part.rows.size();
+    entries += part.entries.size();
+    shifts += part.shift.size();
+  }
+  out.rows.reserve(rows + 1);
+  out.entries.reserve(entries);
+  out.shift.reserve(shifts);
+  for (const Part& part : parts_) {
+    const auto first_entry = static_cast<std::int64_t>(out.entries.size());
+    const std::int32_t first_shift = shift_count(out.shift.size());
+    shift_count(out.shift.size() + part.shift.size());
+    for (const ClusterPairs::Row& row : part.rows)
+      out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
+    out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());
+    out.shift.insert(out.shift.end(), part.shift.begin(), part.shift.end());
+  }
+}
+
+#define DCH_INSTANTIATE(Metric) \
+  template void ClusterPairFinder::find(const Scene<Metric>&, Executor*, ClusterPairs&);
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// ClusterPairFinder: pairs that masks leave out, by exclusions and types.
+#include "clusters/cluster_pair_finder.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr int kSlots = ClusterPairs::kSlots;
+
+std::size_t first_slot(std::int32_t cluster) { return static_cast<std::size_t>(cluster) * kSlots; }
+
+}  // namespace
+
+/// Calls f(cluster, bit) for each pair of a slot of cluster c with an excluded partner.
+template <class F>
+void ClusterPairFinder::for_each_excluded(const Exclusions& exclusions, std::int32_t c,
+                                          const ClusterPairs& clusters, const F& f) const {
+  for (int slot = 0; slot < kSlots; ++slot) {
+    const std::int32_t i = clusters.particle[first_slot(c) + static_cast<std::size_t>(slot)];
+    if (i == kNone) continue;
+    for (const std::int32_t j : exclusions.partners(i)) {
+      const std::int32_t other = slot_of_[static_cast<std::size_t>(j)];
+      if (other != kNone) f(static_cast<std::size_t>(other / kSlots), 1u << (kSlots * slot + other % kSlots));
+    }
+  }
+}
+
+void ClusterPairFinder::mark_exclusions(const Exclusions& exclusions, std::int32_t c,
+                                        const ClusterPairs& clusters, Part& part) const {
+  for_each_excluded(exclusions, c, clusters, [&](std::size_t other, std::uint32_t bit) {
+    part.excluded[other] = static_cast<std::uint16_t>(part.excluded[other] | bit);
+  });
+}
+
+void ClusterPairFinder::unmark_exclusions(const Exclusions& exclusions, std::int32_t c,
+                                          const ClusterPairs& clusters, Part& part) const {
+  for_each_excluded(exclusions, c, clusters,
+                    [&](std::size_t other, std::uint32_t) { part.excluded[other] = 0; });
+}
+
+/// Bits of the pairs whose types have a cutoff.
+std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a,
+                                                       std::int32_t b, const ClusterPairs& clusters) {
+  std::uint32_t mask = 0;
+  for (int pair = 0; pair < kSlots * kSlots; ++pair) {
+    const std::int32_t type_a = clusters.type[first_slot(a) + static_cast<std::size_t>(pair / kSlots)];
+    const std::int32_t type_b = clusters.type[first_slot(b) + static_cast<std::size_t>(pair % kSlots)];
+    mask |= static_cast<std::uint32_t>(cutoffs(type_a, type_b) > 0) << pair;
+  }
+  return mask;
+}
+
+std::size_t ClusterPairFinder::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  const auto bytes_of_boxes = [&](const Boxes& boxes) {
+    std::size_t bytes = 0;
+    for (const auto& coordinates : boxes.side) bytes += bytes_of(coordinates);
+    return bytes;
+  };
+  std::size_t bytes =
+      bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
+  for (const Cuts* cuts : {&cuts_, &last_cuts_})
+    bytes += bytes_of(cuts->of_node) + bytes_of(cuts->id) + bytes_of(cuts->place);
+  for (const Part& part : parts_)
+    bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) +
+             bytes_of_boxes(part.boxes) + bytes_of(part.near) + bytes_of(part.source) +
+             bytes_of(part.chosen) + bytes_of(part.excluded);
+  return bytes;
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors of AVX2. See cluster_loops.hpp.
+#pragma once
+
+#include <immintrin.h>
+
+#include "clusters/simd/cluster_loops.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// The slots of cluster J twice over, with slots 2 p and 2 p + 1 of cluster I.
+struct Avx2Float {
+  using Real = float;
+  using V = __m256;
+  struct Cluster {
+    V x, y, z;
+  };
+  static constexpr int kLanes = 8, kParts = 2;
+
+  static V zero() { return _mm256_setzero_ps(); }
+  static V set1(float v) { return _mm256_set1_ps(v); }
+  static V load(const float* p) { return _mm256_loadu_ps(p); }
+  static V add(V a, V b) { return _mm256_add_ps(a, b); }
+  static V sub(V a, V b) { return _mm256_sub_ps(a, b); }
+  static V mul(V a, V b) { return _mm256_mul_ps(a, b); }
+  static V max(V a, V b) { return _mm256_max_ps(a, b); }
+  static V madd(V a, V b, V c) { return _mm256_fmadd_ps(a, b, c); }
+  static V msub(V a, V b, V c) { return _mm256_fmsub_ps(a, b, c); }
+  static V inverse(V a) { return _mm256_div_ps(set1(1), a); }
+  static V over_root(V, V s) { return _mm256_sqrt_ps(s); }
+  /// 2^n of integers n in -126..127.
+  static V power_of_two(V n) {
+    return _mm256_castsi256_ps(_mm256_slli_epi32(_mm256_castps_si256(add(n, set1(0x1.8p23f + 127))), 23));
+  }
+  static std::uint32_t bits_at_most(V a, V b) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
+  }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    return append_lanes(lanes, first, to);
+  }
+  static V less(V a, V b, std::uint32_t mask, int part) {
+    const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * part))), lane);
+    return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ),
+                         _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
+  }
+  static V keep(V lanes, V a) { return _mm256_and_ps(lanes, a); }
+  static V spread(const float* four, int part) {
+    return _mm256_set_m128(_mm_set1_ps(four[2 * part + 1]), _mm_set1_ps(four[2 * part]));
+  }
+  static V twice(__m128 four) { return _mm256_set_m128(four, four); }
+  static V repeat(const float* four) { return twice(_mm_load_ps(four)); }
+  static Cluster load_cluster(const ClusterOfFour<float>& at) {
+    return {twice(_mm_load_ps(at.x)), twice(_mm_load_ps(at.y)), twice(_mm_load_ps(at.z))};
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    const __m128 between =
+        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
+    const __m128 by = _mm_add_ps(between, _mm_load_ps(shift.low));
+    return {twice(_mm_add_ps(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00))),
+            twice(_mm_add_ps(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55))),
+            twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
+  }
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
+    const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
+    if (types <= kFewTypes)
+      return _mm256_permutevar_ps(
+          _mm256_set_m128(_mm_loadu_ps(table + row[2 * part + 1]), _mm_loadu_ps(table + row[2 * part])),
+          _mm256_set_m128i(columns, columns));
+    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
+    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
+    return _mm256_i32gather_ps(table, _mm256_set_m128i(second, first), 4);
+  }
+  static __m128 over_i(const V* parts) {
+    const V both = add(parts[0], parts[1]);
+    return _mm_add_ps(_mm256_castps256_ps128(both), _mm256_extractf128_ps(both, 1));
+  }
+  static void add_over_i(const Coordinates<Avx2Float>& force, ClusterOfFour<float>& to) {
+    _mm_store_ps(to.x, _mm_add_ps(_mm_load_ps(to.x), over_i(force.x)));
+    _mm_store_ps(to.y, _mm_add_ps(_mm_load_ps(to.y), over_i(force.y)));
+    _mm_store_ps(to.z, _mm_add_ps(_mm_load_ps(to.z), over_i(force.z)));
+  }
+  static __m128 over_j(const V* parts) {
+    const V pairs = _mm256_hadd_ps(parts[0], parts[1]);  // slots 0 and 2 of I, then 1 and 3
+    const V fours = _mm256_hadd_ps(pairs, pairs);
+    return _mm_unpacklo_ps(_mm256_castps256_ps128(fours), _mm256_extractf128_ps(fours, 1));
+  }
+  static void subtract_over_j(const Coordinates<Avx2Float>& force, ClusterOfFour<float>& to) {
+    _mm_store_ps(to.x, _mm_sub_ps(_mm_load_ps(to.x), over_j(force.x)));
+    _mm_store_ps(to.y, _mm_sub_ps(_mm_load_ps(to.y), over_j(force.y)));
+    _mm_store_ps(to.z, _mm_sub_ps(_mm_load_ps(to.z), over_j(force.z)));
+  }
+  static double sum(V a) {
+    const __m256d four = _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)),
+                                       _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
+    const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
+    return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  }
+};
+
+/// The slots of cluster J, with slot p of cluster I.
+struct Avx2Double {
+  using Real = double;
+  using V = __m256d;
+  struct Cluster {
+    V x, y, z;
+  };
+  static constexpr int kLanes = 4, kParts = 4;
+
+  static V zero() { return _mm256_setzero_pd(); }
+  static V set1(double v) { return _mm256_set1_pd(v); }
+  static V add(V a, V b) { return _mm256_add_pd(a, b); }
+  static V sub(V a, V b) { return _mm256_sub_pd(a, b); }
+  static V mul(V a, V b) { return _mm256_mul_pd(a, b); }
+  static V madd(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
+  static V msub(V a, V b, V c) { return _mm256_fmsub_pd(a, b, c); }
+  static V max(V a, V b) { return _mm256_max_pd(a, b); }
+  static V inverse(V a) { return _mm256_div_pd(set1(1), a); }
+  static V over_root(V, V s) { return _mm256_sqrt_pd(s); }
+  /// 2^n of integers n in -1022..1023.
+  static V power_of_two(V n) {
+    return _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(add(n, set1(0x1.8p52 + 1023))), 52));
+  }
+  static V less(V a, V b, std::uint32_t mask, int part) {
+    const __m256i lane = _mm256_setr_epi64x(1, 2, 4, 8);
+    const __m256i bits =
+        _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(mask >> (4 * part))), lane);
+    return _mm256_and_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ),
+                         _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, lane)));
+  }
+  static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
+  static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }
+  static V repeat(const double* four) { return _mm256_load_pd(four); }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
+    return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.whole.x)),
+            add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
+            add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
+  }
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
+                  const std::int32_t* column, int part) {
+    const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
+    if (types <= kFewTypes) {
+      // The two halves of number k are the numbers 2 k and 2 k + 1 of 32 bits.
+      const __m256i k = _mm256_cvtepi32_epi64(columns), low = _mm256_add_epi64(k, k);
+      const __m256i high = _mm256_add_epi64(low, _mm256_set1_epi64x(1));
+      return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(table + row[part])),
+                                                       _mm256_or_si256(low, _mm256_slli_epi64(high, 32))));
+    }
+    return _mm256_i32gather_pd(table, _mm_add_epi32(columns, _mm_set1_epi32(row[part])), 8);
+  }
+  static V over_i(const V* parts) { return add(add(parts[0], parts[1]), add(parts[2], parts[3])); }
+  static void add_over_i(const Coordinates<Avx2Double>& force, ClusterOfFour<double>& to) {
+    _mm256_store_pd(to.x, add(_mm256_load_pd(to.x), over_i(force.x)));
+    _mm256_store_pd(to.y, add(_mm256_load_pd(to.y), over_i(force.y)));
+    _mm256_store_pd(to.z, add(_mm256_load_pd(to.z), over_i(force.z)));
+  }
+  static V over_j(const V* parts) {
+    const V low = _mm256_hadd_pd(parts[0], parts[1]), high = _mm256_hadd_pd(parts[2], parts[3]);
+    return add(_mm256_permute2f128_pd(low, high, 0x20), _mm256_permute2f128_pd(low, high, 0x31));
+  }
+  static void subtract_over_j(const Coordinates<Avx2Double>& force, ClusterOfFour<double>& to) {
+    _mm256_store_pd(to.x, sub(_mm256_load_pd(to.x), over_j(force.x)));
+    _mm256_store_pd(to.y, sub(_mm256_load_pd(to.y), over_j(force.y)));
+    _mm256_store_pd(to.z, sub(_mm256_load_pd(to.z), over_j(force.z)));
+  }
+  static double sum(V a) {
+    const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
+    return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  }
+  static std::uint32_t bits(V lanes) { return static_cast<std::uint32_t>(_mm256_movemask_pd(lanes)); }
+  static void store(double* p, V a) { _mm256_store_pd(p, a); }
+  static V gather(const double* from, const std::int32_t* at) {
+    return _mm256_i32gather_pd(from, _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), 8);
+  }
+  /// By loads and shuffles, with which pairs one by one take two thirds of their time with gathers (Zen 3).
+  static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
+    const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const auto point = [&](int lane) {
+      return _mm256_maskload_pd(from + 3 * static_cast<std::ptrdiff_t>(at[lane]), three);
+    };
+    const V a = point(0), b = point(1), c = point(2), d = point(3);
+    const V xz_of_ab = _mm256_unpacklo_pd(a, b), y_of_ab = _mm256_unpackhi_pd(a, b);
+    const V xz_of_cd = _mm256_unpacklo_pd(c, d), y_of_cd = _mm256_unpackhi_pd(c, d);
+    x = _mm256_permute2f128_pd(xz_of_ab, xz_of_cd, 0x20);
+    y = _mm256_permute2f128_pd(y_of_ab, y_of_cd, 0x20);
+    z = _mm256_permute2f128_pd(xz_of_ab, xz_of_cd, 0x31);
+  }
+};
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors of AVX-512. See cluster_loops.hpp.
+#pragma once
+
+#include <immintrin.h>
+
+#include "clusters/simd/cluster_loops.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// All 16 pairs in one register.
+struct Avx512Float {
+  using Real = float;
+  using V = __m512;
+  struct Cluster {
+    V x, y, z;
+  };
+  static constexpr int kLanes = 16, kParts = 1;
+
+  static V zero() { return _mm512_setzero_ps(); }
+  static V set1(float v) { return _mm512_set1_ps(v); }
+  static V load(const float* p) { return _mm512_loadu_ps(p); }
+  static void store(float* p, V a) { _mm512_store_ps(p, a); }
+  static V add(V a, V b) { return _mm512_add_ps(a, b); }
+  static V sub(V a, V b) { return _mm512_sub_ps(a, b); }
+  static V mul(V a, V b) { return _mm512_mul_ps(a, b); }
+  static V max(V a, V b) { return _mm512_max_ps(a, b); }
+  static V madd(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
+  static V msub(V a, V b, V c) { return _mm512_fmsub_ps(a, b, c); }
+  /// By an estimate of 14 bits and a Newton step, as division and root keep their unit busy for longer than
+  /// all other operations of a pair take together. Good to a unit in the last place or two.
+  static V inverse(V a) {
+    const V estimate = _mm512_rcp14_ps(a);
+    return madd(estimate, _mm512_fnmadd_ps(a, estimate, set1(1)), estimate);
+  }
+  static V over_root(V r2, V s) {
+    const V estimate = _mm512_rsqrt14_ps(r2), half = set1(0.5f);
+    const V rest = _mm512_fnmadd_ps(mul(r2, estimate), mul(half, estimate), half);
+    return _mm512_maskz_fmadd_ps(_mm512_cmp_ps_mask(s, zero(), _CMP_NEQ_OQ), estimate, rest, estimate);
+  }
+  /// 2^n of integers n in -126..127.
+  static V power_of_two(V n) {
+    return _mm512_castsi512_ps(_mm512_slli_epi32(_mm512_castps_si512(add(n, set1(0x1.8p23f + 127))), 23));
+  }
+  static std::uint32_t bits_at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    const __m512i numbers = _mm512_add_epi32(
+        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), _mm512_set1_epi32(first));
+    // Compressed in a register, then stored whole: a compressing store is many times slower on some
+    // processors.
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), numbers));
+    return __builtin_popcount(lanes);
+  }
+  static __mmask16 less(V a, V b, std::uint32_t mask, int) {
+    return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
+  }
+  static V keep(__mmask16 lanes, V a) { return _mm512_maskz_mov_ps(lanes, a); }
+  static __m512i slots() { return _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3); }
+  static V spread(const float* four, int) {
+    return _mm512_permutexvar_ps(slots(), _mm512_broadcast_f32x4(_mm_load_ps(four)));
+  }
+  static V repeat(const float* four) { return _mm512_broadcast_f32x4(_mm_load_ps(four)); }
+  static Cluster four_times(V cluster) {
+    return {_mm512_shuffle_f32x4(cluster, cluster, 0x00), _mm512_shuffle_f32x4(cluster, cluster, 0x55),
+            _mm512_shuffle_f32x4(cluster, cluster, 0xAA)};
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at) {
+    return {_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
+            _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
+  }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    const __m128 between =
+        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
+    // Spread over registers by loads, which are free where shuffles are not: kept from the compiler, which
+    // would shuffle what it knows.
+    alignas(16) float by[4];
+    _mm_store_ps(by, _mm_add_ps(between, _mm_load_ps(shift.low)));
+    asm("" : "+m"(by));
+    const Cluster j = load_cluster(at);
+    return {add(j.x, set1(by[0])), add(j.y, set1(by[1])), add(j.z, set1(by[2]))};
+  }
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
+                  int) {
+    const __m512i rows = _mm512_permutexvar_epi32(
+        slots(), _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
+    const __m512i columns = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
+    const __m512i at = _mm512_add_epi32(rows, columns);
+    if (types <= kFewTypes) return _mm512_permutexvar_ps(at, _mm512_loadu_ps(table));
+    return _mm512_i32gather_ps(at, table, 4);
+  }
+  /// The sums over the four 128-bit parts of x, y and z, as a cluster.
+  static V fold(V x, V y, V z) {
+    const V xy = add(_mm512_shuffle_f32x4(x, y, 0x44), _mm512_shuffle_f32x4(x, y, 0xEE));
+    const V zz = add(z, _mm512_shuffle_f32x4(z, z, 0xEE));
+    // The fourth part, that of ClusterOfFour::center, stays 0.
+    return add(_mm512_shuffle_f32x4(xy, zz, 0x88), _mm512_maskz_shuffle_f32x4(0x0FFF, xy, zz, 0xDD));
+  }
+  static void add_over_i(const Coordinates<Avx512Float>& force, ClusterOfFour<float>& to) {
+    _mm512_store_ps(&to, add(_mm512_load_ps(&to), fold(force.x[0], force.y[0], force.z[0])));
+  }
+  static __m128 over_j(V a) {
+    const V pairs = add(a, _mm512_permute_ps(a, 0xB1));
+    const V fours = add(pairs, _mm512_permute_ps(pairs, 0x4E));
+    const __m512i first = _mm512_setr_epi32(0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12);
+    return _mm512_castps512_ps128(_mm512_permutexvar_ps(first, fours));
+  }
+  static void subtract_over_j(const Coordinates<Avx512Float>& force, ClusterOfFour<float>& to) {
+    _mm_store_ps(to.x, _mm_sub_ps(_mm_load_ps(to.x), over_j(force.x[0])));
+    _mm_store_ps(to.y, _mm_sub_ps(_mm_load_ps(to.y), over_j(force.y[0])));
+    _mm_store_ps(to.z, _mm_sub_ps(_mm_load_ps(to.z), over_j(force.z[0])));
+  }
+  static double sum(V a) {
+    return _mm512_reduce_add_pd(_mm512_add_pd(_mm512_cvtps_pd(_mm512_castps512_ps256(a)),
+                                              _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1))));
+  }
+};
+
+/// The slots of cluster J twice over, with slots 2 p and 2 p + 1 of cluster I.
+struct Avx512Double {
+  using Real = double;
+  using V = __m512d;
+  struct Cluster {
+    V x, y, z;
+  };
+  static constexpr int kLanes = 8, kParts = 2;
+
+  static V zero() { return _mm512_setzero_pd(); }
+  static V set1(double v) { return _mm512_set1_pd(v); }
+  static V add(V a, V b) { return _mm512_add_pd(a, b); }
+  static V sub(V a, V b) { return _mm512_sub_pd(a, b); }
+  static V mul(V a, V b) { return _mm512_mul_pd(a, b); }
+  static V madd(V a, V b, V c) { return _mm512_fmadd_pd(a, b, c); }
+  static V msub(V a, V b, V c) { return _mm512_fmsub_pd(a, b, c); }
+  static V max(V a, V b) { return _mm512_max_pd(a, b); }
+  static V inverse(V a) { return _mm512_div_pd(set1(1), a); }
+  static V over_root(V, V s) { return _mm512_sqrt_pd(s); }
+  /// 2^n of integers n in -1022..1023.
+  static V power_of_two(V n) {
+    return _mm512_castsi512_pd(_mm512_slli_epi64(_mm512_castpd_si512(add(n, set1(0x1.8p52 + 1023))), 52));
+  }
+  static __mmask8 less(V a, V b, std::uint32_t mask, int part) {
+    return _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask >> (8 * part)), a, b, _CMP_LT_OQ);
+  }
+  static V keep(__mmask8 lanes, V a) { return _mm512_maskz_mov_pd(lanes, a); }
+  static V spread(const double* four, int part) {
+    const __m512i slot =
+        part == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
+    return _mm512_permutexvar_pd(slot, _mm512_broadcast_f64x4(_mm256_load_pd(four)));
+  }
+  static V repeat(const double* four) { return _mm512_broadcast_f64x4(_mm256_load_pd(four)); }
+  static V twice(const double* at, const double* shift) {
+    return _mm512_broadcast_f64x4(_mm256_add_pd(_mm256_load_pd(at), _mm256_load_pd(shift)));
+  }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
+    return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
+  }
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
+                  const std::int32_t* column, int part) {
+    const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
+    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
+    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
+    const __m256i at = _mm256_set_m128i(second, first);
+    if (types <= kFewTypes)
+      return _mm512_permutex2var_pd(_mm512_loadu_pd(table), _mm512_cvtepi32_epi64(at),
+                                    _mm512_loadu_pd(table + 8));
+    return _mm512_i32gather_pd(at, table, 8);
+  }
+  static __m256d over_i(const V* parts) {
+    const V both = add(parts[0], parts[1]);
+    return _mm256_add_pd(_mm512_castpd512_pd256(both), _mm512_extractf64x4_pd(both, 1));
+  }
+  static void add_over_i(const Coordinates<Avx512Double>& force, ClusterOfFour<double>& to) {
+    _mm256_store_pd(to.x, _mm256_add_pd(_mm256_load_pd(to.x), over_i(force.x)));
+    _mm256_store_pd(to.y, _mm256_add_pd(_mm256_load_pd(to.y), over_i(force.y)));
+    _mm256_store_pd(to.z, _mm256_add_pd(_mm256_load_pd(to.z), over_i(force.z)));
+  }
+  static __m256d over_j(const V* parts) {
+    const V even = _mm512_unpacklo_pd(parts[0], parts[1]), odd = _mm512_unpackhi_pd(parts[0], parts[1]);
+    const V pairs = add(even, odd);  // two sums of slots 0 and 2 of I each, then of 1 and 3
+    const __m512i first = _mm512_setr_epi64(0, 4, 1, 5, 0, 4, 1, 5);
+    const __m512i second = _mm512_setr_epi64(2, 6, 3, 7, 2, 6, 3, 7);
+    return _mm256_add_pd(_mm512_castpd512_pd256(_mm512_permutexvar_pd(first, pairs)),
+                         _mm512_castpd512_pd256(_mm512_permutexvar_pd(second, pairs)));
+  }
+  static void subtract_over_j(const Coordinates<Avx512Double>& force, ClusterOfFour<double>& to) {
+    _mm256_store_pd(to.x, _mm256_sub_pd(_mm256_load_pd(to.x), over_j(force.x)));
+    _mm256_store_pd(to.y, _mm256_sub_pd(_mm256_load_pd(to.y), over_j(force.y)));
+    _mm256_store_pd(to.z, _mm256_sub_pd(_mm256_load_pd(to.z), over_j(force.z)));
+  }
+  static double sum(V a) { return _mm512_reduce_add_pd(a); }
+  static std::uint32_t bits(__mmask8 lanes) { return lanes; }
+  static void store(double* p, V a) { _mm512_store_pd(p, a); }
+  static V gather(const double* from, const std::int32_t* at) {
+    return _mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), from, 8);
+  }
+  static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
+    const __m256i k = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+    const __m256i first = _mm256_add_epi32(k, _mm256_add_epi32(k, k));
+    x = _mm512_i32gather_pd(first, from, 8);
+    y = _mm512_i32gather_pd(first, from + 1, 8);
+    z = _mm512_i32gather_pd(first, from + 2, 8);
+  }
+};
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors as arrays, for any processor. See cluster_loops.hpp.
+#pragma once
+
+#include "clusters/simd/cluster_loops.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// Four lanes in an array: the slots of cluster J, with slot p of cluster I.
+template <class Real_>
+struct Portable {
+  using Real = Real_;
+  struct V {
+    Real lane[4];
+  };
+  struct Cluster {
+    V x, y, z;
+  };
+  static constexpr int kLanes = 4, kParts = 4;
+
+  template <class F>
+  static V each(const F& f) {
+    return {{f(0), f(1), f(2), f(3)}};
+  }
+  static V zero() { return {}; }
+  static V set1(Real v) { return {{v, v, v, v}}; }
+  static V load(const Real* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  static V add(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] + b.lane[k]; });
+  }
+  static V sub(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] - b.lane[k]; });
+  }
+  static V mul(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] * b.lane[k]; });
+  }
+  static V max(const V& a, const V& b) {
+    return each([&](int k) { return a.lane[k] > b.lane[k] ? a.lane[k] : b.lane[k]; });
+  }
+  static V madd(const V& a, const V& b, const V& c) { return add(mul(a, b), c); }
+  static V msub(const V& a, const V& b, const V& c) { return sub(mul(a, b), c); }
+  static V inverse(const V& a) {
+    return each([&](int k) { return 1 / a.lane[k]; });
+  }
+  static float root(float a) { return __builtin_sqrtf(a); }
+  static double root(double a) { return __builtin_sqrt(a); }
+  static V over_root(const V&, const V& s) {
+    return each([&](int k) { return root(s.lane[k]); });
+  }
+  static V power_of_two(const V& n) {
+    return each([&](int k) { return static_cast<Real>(__builtin_ldexp(1, static_cast<int>(n.lane[k]))); });
+  }
+  static std::uint32_t bits_at_most(const V& a, const V& b) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;
+    return bits;
+  }
+  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
+    return append_lanes(lanes, first, to);
+  }
+  static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int part) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] < b.lane[k]) << k;
+    return bits & mask >> (4 * part);
+  }
+  static V keep(std::uint32_t lanes, const V& a) {
+    return each([&](int k) { return (lanes >> k & 1) != 0 ? a.lane[k] : Real{0}; });
+  }
+  static V spread(const Real* four, int part) { return set1(four[part]); }
+  static V repeat(const Real* four) { return load(four); }
+  static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
+  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
+                              const ClusterOfFour<float>& own) {
+    float by[3];
+    for (int k = 0; k < 3; ++k) by[k] = ((at.center[k] + shift.high[k]) - own.center[k]) + shift.low[k];
+    return {add(load(at.x), set1(by[0])), add(load(at.y), set1(by[1])), add(load(at.z), set1(by[2]))};
+  }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
+                              const ClusterOfFour<double>&) {
+    const ClusterOfFour<double>& by = shift.whole;
+    return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
+  }
+  static V lookup(const Real* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
+                  int part) {
+    return each([&](int k) { return table[row[part] + column[k]]; });
+  }
+  static void add_parts(const V* parts, Real* four) {
+    for (int k = 0; k < 4; ++k)
+      four[k] += (parts[0].lane[k] + parts[1].lane[k]) + (parts[2].lane[k] + parts[3].lane[k]);
+  }
+  static void add_over_i(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {
+    add_parts(force.x, to.x);
+    add_parts(force.y, to.y);
+    add_parts(force.z, to.z);
+  }
+  static Real lanes_sum(const V& a) { return (a.lane[0] + a.lane[1]) + (a.lane[2] + a.lane[3]); }
+  static void subtract_over_j(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {
+    for (int p = 0; p < 4; ++p) {
+      to.x[p] -= lanes_sum(force.x[p]);
+      to.y[p] -= lanes_sum(force.y[p]);
+      to.z[p] -= lanes_sum(force.z[p]);
+    }
+  }
+  static double sum(const V& a) {
+    return (double{a.lane[0]} + double{a.lane[1]}) + (double{a.lane[2]} + double{a.lane[3]});
+  }
+  static std::uint32_t bits(std::uint32_t lanes) { return lanes; }
+  static void store(Real* p, const V& a) {
+    for (int k = 0; k < 4; ++k) p[k] = a.lane[k];
+  }
+  static V gather(const Real* from, const std::int32_t* at) {
+    return each([&](int k) { return from[at[k]]; });
+  }
+  static void gather_xyz(const Real* from, const std::int32_t* at, V& x, V& y, V& z) {
+    x = each([&](int k) { return from[3 * at[k]]; });
+    y = each([&](int k) { return from[3 * at[k] + 1]; });
+    z = each([&](int k) { return from[3 * at[k] + 2]; });
+  }
+};
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "engines/dch_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include <dch/base/error.hpp>
+
+#include "hierarchy/structure.hpp"
+#include "base/seconds_since.hpp"
+#include "engines/sized_search.hpp"
+
+namespace dch {
+namespace detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+}  // namespace
+
+void DchSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  const auto start = Clock::now();
+  try {
+    if (keys.empty()) {
+      by_index(positions, box);
+    } else {
+      by_key(positions, box, keys);
+    }
+  } catch (...) {
+    state_ = State::empty;
+    hierarchy_.impl_->reset(Box());  // takes no memory, which may be what there is none of
+    throw;
+  }
+  ++updates_;
+  maintain_seconds_ += seconds_since(start);
+}
+
+const SearchStats& DchSearch::stats() const {
+  stats_ = hierarchy_.stats();
+  stats_.updates = updates_;
+  stats_.maintain_seconds = maintain_seconds_;
+  return stats_;
+}
+
+void DchSearch::by_index(Span<const Vec3> positions, const Box& box) {
+  if (state_ == State::indexed && positions.size() == hierarchy_.size()) {
+    hierarchy_.update(positions, box);
+  } else {
+    hierarchy_.build(positions, box);
+  }
+  state_ = State::indexed;
+}
+
+void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  // The hierarchy may have lost its points in a list or a repair that was not finished.
+  if (hierarchy_.size() != names_.size()) state_ = State::empty;
+  const bool are_as_before = state_ == State::keyed && keys.size() == positions.size() &&
+                             std::equal(keys.begin(), keys.end(), names_.begin(), names_.end());
+  if (are_as_before) {
+    hierarchy_.update(positions, box);
+    return;
+  }
+  fresh_keys_.fill(positions.size(), keys);
+  if (state_ == State::keyed && match(positions, keys)) {
+    hierarchy_.update(positions, box);
+  } else {
+    hierarchy_.build(positions, box);
+  }
+  std::swap(keys_, fresh_keys_);
+  names_.assign(keys.begin(), keys.end());
+  state_ = State::keyed;
+}
+
+/// Makes the hierarchy hold the particles with these keys under their new indices; false if so many come
+/// and go that a new build is less work.
+bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys) {
+  const std::size_t before = hierarchy_.size();
+  std::vector<std::int32_t> old_of_new(keys.size());
+  std::vector<char> stays(before, 0);
+  std::size_t arrivals = 0;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    old_of_new[k] = keys_.find(keys[k]);
+    if (old_of_new[k] == KeyTable::kAbsent) {
+      ++arrivals;
+    } else {
+      stays[old_of_new[k]] = 1;
+    }
+  }
+  const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
+  if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
+      !hierarchy_.impl_->exchange_pays(exchanged))
+    return false;
+  for (std::size_t id = 0; id < before; ++id)
+    if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (old_of_new[k] == KeyTable::kAbsent)
+      old_of_new[k] = hierarchy_.insert(positions[k], k == 0 ? -1 : old_of_new[k - 1]);
+  hierarchy_.renumber(old_of_new);
+  return true;
+}
+
+}  // namespace detail
+
+std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params) {
+  if (params.size_classes) return std::make_unique<detail::SizedSearch>(params);
+  return std::make_unique<detail::DchSearch>(params);
+}
+
+std::unique_ptr<PairSearch> make_dch_search(double radius) {
+  HierarchyParams params;
+  params.radius = radius;
+  return make_dch_search(params);
+}
+
+const Hierarchy* hierarchy_of(const PairSearch& search) {
+  const auto* engine = dynamic_cast<const detail::DchSearch*>(&search);
+  return engine ? &engine->hierarchy() : nullptr;
+}
+
+Hierarchy* hierarchy_of(PairSearch& search) {
+  auto* engine = dynamic_cast<detail::DchSearch*>(&search);
+  return engine ? &engine->hierarchy() : nullptr;
+}
+
+}  // namespace dch

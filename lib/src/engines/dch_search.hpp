@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <dch/hierarchy/hierarchy.hpp>
+
+#include "base/key_table.hpp"
+
+namespace dch::detail {
+
+/// PairSearch on a Hierarchy. With keys, particles are matched by name: those that left are removed, new ones
+/// inserted and the rest renumbered; then all are moved at once.
+class DchSearch final : public PairSearch {
+ public:
+  explicit DchSearch(const HierarchyParams& params) : hierarchy_(params) {}
+
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
+  void list(const ListParams& params, NeighborList& out) override { hierarchy_.list(params, out); }
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override {
+    hierarchy_.lists(requests, out);
+  }
+  using PairSearch::list;
+
+  const SearchStats& stats() const override;
+  std::string name() const override { return "dch"; }
+  const Hierarchy& hierarchy() const { return hierarchy_; }
+  Hierarchy& hierarchy() { return hierarchy_; }
+
+ private:
+  enum class State { empty, indexed, keyed };
+
+  void by_index(Span<const Vec3> positions, const Box& box);
+  void by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
+  bool match(Span<const Vec3> positions, Span<const std::uint64_t> keys);
+
+  Hierarchy hierarchy_;
+  State state_ = State::empty;
+  KeyTable keys_, fresh_keys_;
+  std::vector<std::uint64_t> names_;  ///< the keys of the last update, in order
+  std::int64_t updates_ = 0;
+  double maintain_seconds_ = 0;
+  mutable SearchStats stats_;
+};
+
+}  // namespace dch::detail

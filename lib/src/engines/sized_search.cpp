@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "engines/sized_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include <dch/base/error.hpp>
+
+#include "hierarchy/structure.hpp"
+#include "base/key_table.hpp"
+#include "geometry/position_check.hpp"
+#include "lists/list_check.hpp"
+#include "base/seconds_since.hpp"
+
+namespace dch::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+/// A hierarchy serves lists whose radius is this share of its own or more.
+constexpr double kLeastShare = 0.8;
+
+/// List radius of a class with itself or, if it has no pairs with itself, the largest with another one.
+double own_reach(const SizeClasses& classes, std::size_t g) {
+  double reach = classes.reach_of(g, g);
+  for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
+    reach = std::max(reach, classes.reach_of(g, b));
+  return reach;
+}
+
+void add(const SearchStats& more, SearchStats& sum) {
+  sum.builds += more.builds;
+  sum.refreshes += more.refreshes;
+  sum.repairs += more.repairs;
+  sum.promotions += more.promotions;
+  sum.demotions += more.demotions;
+  sum.reparented += more.reparented;
+  sum.distances += more.distances;
+  sum.inserted += more.inserted;
+  sum.removed += more.removed;
+}
+
+}  // namespace
+
+SizedSearch::SizedSearch(const HierarchyParams& params) : params_(params) {
+  Hierarchy checked(params);  // throws for parameters out of range
+}
+
+void SizedSearch::clear() {
+  for (const Group& group : groups_) retire(group);
+  groups_.clear();
+  sizes_.forget();
+  positions_.clear();
+  keys_.clear();
+  stale_ = false;
+}
+
+/// Counts what the search of a group did, if it has one.
+void SizedSearch::retire(const Group& group) {
+  if (group.search) add(group.search->stats(), retired_);
+}
+
+void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  const auto start = Clock::now();
+  try {
+    largest_reach_ = check_positions(positions, box);
+    check_radius(params_.radius, box);
+    if (!keys.empty()) key_table_.fill(positions.size(), keys);
+    if (keys.empty() != keys_.empty() || (keys.empty() && positions.size() != positions_.size())) clear();
+    positions_.assign(positions.begin(), positions.end());
+    keys_.assign(keys.begin(), keys.end());
+  } catch (...) {
+    clear();
+    throw;
+  }
+  box_ = box;
+  stale_ = true;
+  ++updates_;
+  maintain_seconds_ += seconds_since(start);
+}
+
+void SizedSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  each.reserve(out.size());
+  for (NeighborList& list : out) each.push_back(&list);
+  make_lists(requests, each);
+}
+
+void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
+  if (requests.empty()) return;
+  const auto start = Clock::now();
+  host_error_ = 0;
+  for (const ListParams& request : requests) host_error_ = std::max(host_error_, request.cutoff_error());
+  classify(requests);
+  make_or_empty(out, [&] {
+    bring_up_to_date();
+    maintain_seconds_ += seconds_since(start);
+    const auto listing = Clock::now();
+    list_finder_.find(scene(), positions_, requests, out);
+    list_seconds_ += seconds_since(listing);
+  });
+}
+
+/// The hierarchies of all groups, which are up to date.
+ListScene SizedSearch::scene() {
+  double error = 0;
+  std::vector<ListSource> sources;
+  for (Group& group : groups_) {
+    Hierarchy::Impl& hierarchy = *group.search->hierarchy().impl_;
+    error = std::max(error, hierarchy.prepare_for_lists());
+    sources.push_back(hierarchy.list_source({group.particle, names_version_}));
+  }
+  error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
+  error += host_error_;
+  ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
+  for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
+  return scene;
+}
+
+/// Checks the requests and sorts the particles into classes, unless sizes are what they were.
+void SizedSearch::classify(Span<const ListParams> requests) {
+  // One class where two images of a particle may tie at the cutoff, up to rounding.
+  constexpr double kTie = 1e-6;
+  const double farthest = box_.any_periodic() ? box_.max_cutoff() * (1 - kTie) -
+                                                    4 * (WrapError(box_).bound(largest_reach_) + host_error_)
+                                              : std::numeric_limits<double>::infinity();
+  for (const ListParams& request : requests) check_list_params(request, positions_.size(), params_.radius);
+  const bool are_known = classes_.of.size() == positions_.size() && sizes_.says_the_same(requests);
+  if (!are_known) {
+    largest_radius_ = 0;
+    for (const ListParams& request : requests)
+      largest_radius_ = std::max(largest_radius_, request.list_radius());
+  }
+  const bool can_be_told_apart = largest_radius_ < farthest;
+  if (are_known && can_be_told_apart == told_apart_) return;
+  sizes_.forget();
+  classes_ = SizeClasses(requests, positions_.size(), can_be_told_apart);
+  told_apart_ = can_be_told_apart;
+  ++names_version_;
+  assign_particles();
+  sizes_.keep(requests);  // last, when all goes by them
+}
+
+/// Each group gets the particles of its class, in their order.
+void SizedSearch::assign_particles() {
+  while (groups_.size() > classes_.count) {
+    retire(groups_.back());
+    groups_.pop_back();
+  }
+  groups_.resize(classes_.count);
+  std::vector<std::vector<std::int32_t>> members(classes_.count);
+  for (std::size_t i = 0; i < classes_.of.size(); ++i)
+    members[classes_.of[i]].push_back(static_cast<std::int32_t>(i));
+  for (std::size_t g = 0; g < classes_.count; ++g) {
+    groups_[g].is_new |= groups_[g].particle != members[g];  // still, if its hierarchy never got them
+    groups_[g].particle = std::move(members[g]);
+  }
+}
+
+void SizedSearch::take_positions(Group& group) const {
+  group.positions.resize(group.particle.size());
+  group.keys.resize(keys_.empty() ? 0 : group.particle.size());
+  for (std::size_t k = 0; k < group.particle.size(); ++k) group.positions[k] = positions_[group.particle[k]];
+  for (std::size_t k = 0; k < group.keys.size(); ++k) group.keys[k] = keys_[group.particle[k]];
+}
+
+void SizedSearch::bring_up_to_date() {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Group& group = groups_[g];
+    const double reach = own_reach(classes_, g);
+    const double wanted = reach > 0
+                              ? std::max(reach + host_error_, kMinListRadius)  // a larger one serves as well
+                              : params_.radius;  // any will do where there are no pairs
+    const double radius = group.search ? group.search->hierarchy().params().radius : 0;
+    const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
+    // It may have got no points yet, or lost them, in a list that was not finished.
+    group.is_new |= group.search && group.search->hierarchy().size() != group.particle.size();
+    if (!group.search || !fits || (group.is_new && keys_.empty())) {
+      HierarchyParams own = params_;
+      own.radius = wanted;
+      own.fold_lone_points = false;  // they may have neighbors in other classes
+      auto search = std::make_unique<DchSearch>(own);
+      retire(group);
+      group.search = std::move(search);
+    } else if (!stale_ && !group.is_new) {
+      continue;
+    }
+    take_positions(group);
+    group.search->update(group.positions, box_, group.keys);
+    group.is_new = false;
+  }
+  stale_ = false;
+}
+
+const SearchStats& SizedSearch::stats() const {
+  stats_ = retired_;
+  stats_.memory_bytes = positions_.capacity() * sizeof(Vec3) + keys_.capacity() * sizeof(std::uint64_t) +
+                        classes_.of.capacity() * sizeof(std::int32_t) + sizes_.memory_bytes() +
+                        list_finder_.memory_bytes();
+  for (const Group& group : groups_) {
+    if (!group.search) continue;
+    const SearchStats& own = group.search->stats();
+    add(own, stats_);
+    stats_.levels = std::max(stats_.levels, own.levels);
+    stats_.memory_bytes += own.memory_bytes + group.particle.capacity() * sizeof(std::int32_t) +
+                           group.positions.capacity() * sizeof(Vec3) +
+                           group.keys.capacity() * sizeof(std::uint64_t);
+  }
+  stats_.updates = updates_;
+  stats_.maintain_seconds = maintain_seconds_;
+  stats_.list_seconds = list_seconds_;
+  return stats_;
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+//
+// New positions: taken over and measured in one pass, and what is done then: nothing while the edges are
+// certified to be enough for lists, else a repair or a new build, whichever is less work as counted.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "hierarchy/build/base_radius.hpp"
+#include "hierarchy/structure.hpp"
+#include "geometry/position_check.hpp"
+#include "base/seconds_since.hpp"
+
+namespace dch {
+
+using detail::kNone;
+using detail::kOrphansOfDemoted;
+using detail::Level;
+using detail::seconds_since;
+using detail::with_metric;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+void add_orphans(double orphans, std::size_t neighbors_of_parent, detail::MaintenanceWork& work) {
+  work.orphans += orphans;
+  work.candidates += orphans * static_cast<double>(1 + neighbors_of_parent);
+}
+}  // namespace
+
+void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
+  ++stats.updates;
+  const auto start = Clock::now();
+  try {
+    largest_reach = check_positions_of_points(positions, b);
+    detail::check_radius(params.radius, b);
+    check_base_radius(b);
+    // A build would bring removed points back.
+    if (free_ids.empty() && (stats.builds == 0 || params.policy == MaintenancePolicy::always_rebuild)) {
+      build(positions, b);
+    } else {
+      const bool same_box = box == b;
+      box = b;
+      for (Level& level : levels) level.complete = same_box ? level.complete : 0;
+      if (!pending) anchors = levels[1].position;
+      raw.assign(positions.begin(), positions.end());
+      with_metric(box, [&](const auto& metric) {
+        refresh_clusters(metric);
+        if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
+          pending = true;
+          ++stats.refreshes;
+          return;
+        }
+        set_wrap_slack();
+        refresh_centers(metric);
+        if (params.policy != MaintenancePolicy::always_repair && free_ids.empty() && !repair_pays(metric)) {
+          build(positions, b);
+        } else {
+          repair(metric);
+        }
+      });
+    }
+  } catch (...) {
+    reset(Box());
+    throw;
+  }
+  stats.maintain_seconds += seconds_since(start);
+}
+
+double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
+  if (free_ids.empty()) return detail::check_positions(positions, b);
+  std::vector<Vec3> live(positions.begin(), positions.end());
+  for (std::size_t id = 0; id < live.size(); ++id)
+    if (slot_of_id[id] == kNone) live[id] = b.origin();
+  return detail::check_positions(live, b);
+}
+
+template <class Metric>
+void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
+  Level& level = levels[i];
+  double moved2 = 0;
+  for (std::int32_t k = 0; k < level.size(); ++k) {
+    if (!level.is_alive(k)) continue;
+    const Vec3 at = metric.wrap(raw[level.id[k]]);
+    moved2 = std::max(moved2, metric.distance2(level.position[k], at));
+    level.position[k] = at;
+  }
+  level.moved += std::sqrt(moved2) * kInflate;
+}
+
+template <class Metric>
+void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
+  refresh_level(metric, 1);
+  cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  stats.distances += points.alive;
+  measured = true;
+}
+
+template <class Metric>
+void Hierarchy::Impl::refresh_centers(const Metric& metric) {
+  for (int i = 2; i <= top(); ++i) refresh_level(metric, i);
+}
+
+template <class Metric>
+detail::MaintenanceWork Hierarchy::Impl::work_ahead(const Metric& metric) {
+  detail::MaintenanceWork work = standing_work();
+  for (int i = 1; i <= top(); ++i) {
+    count_uncovered(metric, i, work);
+    count_demoted(metric, i, work);
+  }
+  return work;
+}
+
+/// Children that their parents in level i cover no more.
+template <class Metric>
+void Hierarchy::Impl::count_uncovered(const Metric& metric, int i, detail::MaintenanceWork& work) {
+  const Level& level = levels[i];
+  const double limit2 = levels[i - 1].radius2;
+  if (i > 1) stats.distances += levels[i - 1].alive();
+  for (std::int32_t k = 0; k < level.size(); ++k) {
+    if (!level.is_alive(k)) continue;
+    std::int64_t orphans = i == 1 ? cluster_points.clusters[k].uncovered : 0;
+    if (i > 1)
+      for_each_child(i, k, [&](std::int32_t child) {
+        orphans += metric.distance2(position(i - 1, child), level.position[k]) > limit2;
+      });
+    add_orphans(static_cast<double>(orphans), level.edges.row(k).size(), work);
+  }
+}
+
+/// Children of those nodes of level i that have come too close to another one, as separate_level() will find.
+template <class Metric>
+void Hierarchy::Impl::count_demoted(const Metric& metric, int i, detail::MaintenanceWork& work) {
+  const Level& level = levels[i];
+  find_too_close(metric, i);
+  std::vector<char> is_demoted(static_cast<std::size_t>(level.size()), 0);
+  for (const auto& [a, b] : too_close) {
+    if (is_demoted[a] || is_demoted[b]) continue;
+    const std::int32_t node = keeps_first(i, a, b) ? b : a;
+    is_demoted[node] = 1;
+    double children = 0;
+    for_each_child(i, node, [&](std::int32_t) { ++children; });
+    add_orphans(kOrphansOfDemoted * children, level.edges.row(node).size(), work);
+  }
+}
+
+detail::MaintenanceWork Hierarchy::Impl::standing_work() const {
+  detail::MaintenanceWork work;
+  work.points = static_cast<double>(raw.size());
+  if (finds_base_radius()) work.samples = static_cast<double>(detail::density_samples(raw.size()));
+  for (int i = 1; i <= top(); ++i) work.edges += static_cast<double>(levels[i].edges.entries());
+  return work;
+}
+
+template <class Metric>
+void Hierarchy::Impl::measure(const Metric& metric) {
+  if (!measured) cluster_points.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  measured = true;
+}
+
+// Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
+// more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count
+// as clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
+template <class Metric>
+bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
+  if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
+  measure(metric);
+  const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
+  motion = 0;
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
+    if (!levels[1].is_alive(k)) continue;
+    const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
+    if (cluster_points.clusters[k].extent + moved > limit) return false;
+    motion = std::max(motion, moved);
+  }
+  for (const LoneNode& node : lone) {
+    const Level& level = levels[node.level];
+    const double moved =
+        std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
+    if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
+  }
+  return true;
+}
+
+void Hierarchy::Impl::repair_if_pending() {
+  if (!pending) return;
+  change_or_empty([&] {
+    set_wrap_slack();
+    with_metric(box, [&](const auto& metric) {
+      refresh_centers(metric);
+      repair(metric);
+    });
+  });
+}
+
+template <class Metric>
+bool Hierarchy::Impl::repair_pays(const Metric& metric) {
+  const detail::MaintenanceWork work = work_ahead(metric);
+  const detail::MaintenanceWeights& weights = detail::weights_in(box);
+  return repair_cost(work, weights) <= build_cost(work, weights);
+}
+
+// A particle that comes needs a parent, as do those with one that goes if it is a center; where, is not known
+// yet.
+bool Hierarchy::Impl::exchange_pays(std::size_t particles) const {
+  double near_all = 0;  // of all points in clusters, what a search near them looks at
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
+    if (!levels[1].is_alive(k)) continue;
+    const auto near_one = static_cast<double>(1 + levels[1].edges.row(k).size());
+    for (std::int32_t block = levels[1].first_child[k]; block != kNone; block = points.next[block])
+      near_all += near_one * points.count[block];
+  }
+  const auto& [particle, candidate] = detail::weights_in(box).exchange;
+  const double one = particle + candidate * near_all / std::max(1, points.alive);
+  return one * static_cast<double>(particles) <= build_cost(standing_work(), detail::weights_in(box));
+}
+
+#define DCH_INSTANTIATE(Metric)                          \
+  template void Hierarchy::Impl::measure(const Metric&); \
+  template void Hierarchy::Impl::refresh_centers(const Metric&);
+DCH_INSTANTIATE(detail::OpenMetric)
+DCH_INSTANTIATE(detail::OrthorhombicMetric)
+DCH_INSTANTIATE(detail::LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch

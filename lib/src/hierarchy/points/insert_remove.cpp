@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// Insertion, removal and promotion of single points (thesis 5.4, errata E4, E8, E10).
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchy/structure.hpp"
+
+namespace dch {
+
+using detail::kNone;
+using detail::LatticeMetric;
+using detail::OpenMetric;
+using detail::OrthorhombicMetric;
+
+// A node of level t = `target` within `reach` of p has its ancestor of level l within
+// reach + R_t + ... + R_{l-1} = reach + R_l - R_t of p, so a descent that keeps the nodes within that misses
+// none.
+//
+// A hint a of level l replaces the descent's upper part: if |pa| plus that is at most rho_l, every node
+// wanted is within rho_l of a, hence a itself or one of its neighbors. If that holds for a it holds for a's
+// parent too, since |pa| grows by at most R_l, what is kept by R_l, and rho_l by 2 R_l or more.
+template <class Metric>
+Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, int target, double reach,
+                                                 Hint hint) {
+  if (near.size() < levels.size()) near.resize(levels.size());
+  const double less = levels[target].radius;
+  // Climb until the hint's surroundings are wide enough.
+  Hint start = hint.node == kNone ? Hint{top(), kNone} : hint;
+  std::int64_t tested = 0;
+  for (; start.level < top(); ++start.level, ++tested) {
+    const double room =
+        levels[start.level].threshold - (reach + levels[start.level].radius - less) * kInflate;
+    const double d2 = metric.distance2(at, levels[start.level].position[start.node]);
+    if (room > 0 && d2 * (kInflate * kInflate) <= room * room) break;
+    start.node = levels[start.level].parent[start.node];
+  }
+  look_around(metric, at, start, reach + levels[start.level].radius - less);
+  for (int level = start.level; level > target; --level) {
+    const double within = (reach + levels[level - 1].radius - less) * kInflate;
+    near[level - 1].clear();
+    for (const Near& kept : near[level]) {
+      if (is_lone(level, kept.node) && kept.distance2 <= within * within) unfold(level, kept.node);
+      for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
+           child = levels[level - 1].next_sibling[child], ++tested) {
+        const double d2 = metric.distance2(at, levels[level - 1].position[child]);
+        if (d2 <= within * within) near[level - 1].push_back({child, d2});
+      }
+    }
+  }
+  stats.distances += tested;
+  return start;
+}
+
+/// Fills near[] of a node's level with those of its neighbors, itself and in the top level all that are
+/// within reach of a point.
+template <class Metric>
+void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, double reach) {
+  const Level& level = levels[middle.level];
+  const double reach2 = reach * reach * (kInflate * kInflate);
+  near[middle.level].clear();
+  const auto keep = [&](std::int32_t node) {
+    const double d2 = metric.distance2(at, level.position[node]);
+    if (d2 <= reach2) near[middle.level].push_back({node, d2});
+  };
+  if (middle.level == top()) {
+    for (std::int32_t root = 0; root < level.size(); ++root)
+      if (level.is_alive(root)) keep(root);
+    stats.distances += level.alive();
+    return;
+  }
+  keep(middle.node);
+  for (const std::int32_t neighbor : level.edges.row(middle.node)) keep(neighbor);
+  stats.distances += 1 + static_cast<std::int64_t>(level.edges.row(middle.node).size());
+}
+
+// A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l -
+// R_{t-1}, and so is a parent in level l, which has to be within R_{l-1}.
+template <class Metric>
+Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, Hint hint) {
+  if (target > top()) return {top() + 1, kNone};
+  const double reach = 0.5 * levels[target].radius;
+  Hint guide = find_near(metric, at, target, reach, hint);
+  for (int level = target; level <= top(); ++level) {
+    if (level > guide.level) {
+      guide = {level, levels[level - 1].parent[guide.node]};
+      look_around(metric, at, guide, levels[level].radius - reach);
+    }
+    const double limit2 = levels[level - 1].radius2;
+    const Near* best = nullptr;
+    for (const Near& kept : near[level])
+      if (kept.distance2 <= limit2 && (!best || kept.distance2 < best->distance2)) best = &kept;
+    if (best) return {level, best->node};
+  }
+  return {top() + 1, kNone};
+}
+
+template <class Metric>
+void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node) {
+  Level& at = levels[level];
+  at.longest = std::max(at.longest, at.reach);
+  const Vec3 position = at.position[node];
+  std::int64_t tested = 0;
+  const auto join = [&](std::int32_t other) {
+    if (other == node) return;
+    ++tested;
+    if (metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
+    at.edges.push(node, other);
+    at.edges.push(other, node);
+    if (is_lone(level, other)) unfold(level, other);
+  };
+  if (level == top()) {
+    for (std::int32_t root = 0; root < at.size(); ++root)
+      if (at.is_alive(root)) join(root);
+    stats.distances += tested;
+    return;
+  }
+  const Level& above = levels[level + 1];
+  const double reach = (at.reach + at.radius) * kInflate;
+  const auto join_children = [&](std::int32_t parent) {
+    ++tested;
+    if (metric.distance2(position, above.position[parent]) > reach * reach) return;
+    for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
+      join(child);
+  };
+  const std::int32_t parent = at.parent[node];
+  join_children(parent);
+  for (const std::int32_t neighbor : above.edges.row(parent)) join_children(neighbor);
+  stats.distances += tested;
+}
+
+template <class Metric>
+std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t point, Vec3 at,
+                                   Cover cover) {
+  std::int32_t above = cover.parent;
+  // From the top down, since a node's edges are found among the children of its parent's neighbors.
+  for (int i = cover.level - 1; i > level; --i) {
+    const std::int32_t lifted = levels[i].add(point, at);
+    if (above != kNone) attach(i, lifted, above);
+    if (i < cover.level - 1) {
+      levels[i].up[lifted] = above;
+      levels[i + 1].down[above] = lifted;
+    }
+    connect(metric, i, lifted);
+    ++stats.promotions;
+    above = lifted;
+    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(lifted).empty()) {
+      make_lone(i, lifted);
+      return kNone;
+    }
+  }
+  return above;
+}
+
+template <class Metric>
+void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node, Cover cover) {
+  const std::int32_t above = lift(metric, level, levels[level].id[node], levels[level].position[node], cover);
+  detach(level, node);
+  if (above == kNone) return;  // a root
+  attach(level, node, above);
+  if (cover.level == level + 1) return;
+  levels[level].up[node] = above;
+  levels[level + 1].down[above] = node;
+}
+
+template <class Metric>
+void Hierarchy::Impl::settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
+  const std::int32_t above = lift(metric, 0, point, at, cover);
+  if (above == kNone) return;  // a lone point
+  const std::int32_t slot = place_point(point, at, above);
+  if (cover.level > 1) levels[1].down[above] = slot;
+}
+
+template <class Metric>
+void Hierarchy::Impl::grow_top(const Metric& metric) {
+  while (levels.back().alive() > params.max_roots) {
+    push_level();
+    const int i = top() - 1;
+    for (std::int32_t node = 0; node < levels[i].size(); ++node) {
+      if (!levels[i].is_alive(node)) continue;
+      settle(metric, i, node, locate(metric, levels[i].position[node], i + 1, {}));
+    }
+  }
+}
+
+template <class Metric>
+void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint) {
+  const Vec3 wrapped = box.wrap(at);
+  raw[point] = at;
+  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, hint));
+  grow_top(metric);
+}
+
+template <class Metric>
+void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
+  // Take the point out of every level first; the children it leaves behind are settled from the top down.
+  std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
+  std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
+  const Hint lowest = lowest_node(point);
+  std::int32_t node = lowest.node;
+  if (is_lone_point(point)) {
+    forget_lone(lowest.level, node);
+  } else if (up(0, slot_of_id[point]) == kNone) {
+    take_point(slot_of_id[point]);  // the levels above know nothing of it
+    return;
+  }
+  for (int level = lowest.level; node != kNone; ++level) {
+    Level& at = levels[level];
+    for_each_child(level, node, [&](std::int32_t child) {
+      const std::int32_t name = id(level - 1, child);
+      if (name != point) left[level - 1].push_back(level == 1 ? name : child);
+    });
+    if (level > 1)
+      while (at.first_child[node] != kNone) detach(level - 1, at.first_child[node]);
+    if (!at.edges.row(node).empty()) hint[level] = {level, at.edges.row(node)[0]};
+    detach(level, node);
+    disconnect(level, node);
+    if (level == 1) {
+      std::int32_t next = kNone;
+      for (std::int32_t block = at.first_child[node]; block != kNone; block = next) {
+        next = points.next[block];
+        points.free_block(block);
+      }
+    }
+    const std::int32_t own_above = at.up[node];
+    at.retire(node);
+    if (own_above != kNone) levels[level + 1].down[own_above] = kNone;
+    node = own_above;
+  }
+  slot_of_id[point] = kNone;
+  while (top() > 1 && levels.back().alive() == 0) pop_level();
+  for (int level = top() - 1; level > 0; --level)
+    if (hint[level].node == kNone) hint[level] = hint[level + 1];
+  for (int level = top(); level > 0; --level)
+    for (const std::int32_t orphan : left[level])
+      settle(metric, level, orphan,
+             locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
+  for (const std::int32_t orphan : left[0]) {
+    const Vec3 at = box.wrap(raw[orphan]);
+    settle_point(metric, orphan, at, locate(metric, at, 1, hint[1]));
+  }
+  grow_top(metric);
+  trim_top();
+}
+
+void Hierarchy::Impl::trim_top() {
+  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
+         levels[top() - 1].alive() + lone_above(top() - 1) <= params.max_roots) {
+    for (std::int32_t root = 0; root < levels.back().size(); ++root)
+      if (levels.back().is_alive(root) && is_lone(top(), root)) unfold(top(), root);
+    pop_level();
+  }
+}
+
+#define DCH_INSTANTIATE(Metric)                                                                      \
+  template Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric&, Vec3, int, double, Hint); \
+  template std::int32_t Hierarchy::Impl::lift(const Metric&, int, std::int32_t, Vec3, Cover);        \
+  template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);           \
+  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                    \
+  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);             \
+  template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                          \
+  template void Hierarchy::Impl::grow_top(const Metric&);                                            \
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);                    \
+  template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch

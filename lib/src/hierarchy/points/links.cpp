@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "hierarchy/structure.hpp"
+
+namespace dch {
+
+using detail::kBlock;
+using detail::kNone;
+
+void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) {
+  if (is_lone(level + 1, parent)) unfold(level + 1, parent);
+  Level& below = levels[level];
+  Level& above = levels[level + 1];
+  const std::int32_t first = above.first_child[parent];
+  below.parent[node] = parent;
+  below.prev_sibling[node] = kNone;
+  below.next_sibling[node] = first;
+  if (first != kNone) below.prev_sibling[first] = node;
+  above.first_child[parent] = node;
+}
+
+void Hierarchy::Impl::detach(int level, std::int32_t node) {
+  Level& below = levels[level];
+  if (below.parent[node] == kNone) return;
+  const std::int32_t previous = below.prev_sibling[node];
+  const std::int32_t next = below.next_sibling[node];
+  if (previous != kNone) {
+    below.next_sibling[previous] = next;
+  } else {
+    levels[level + 1].first_child[below.parent[node]] = next;
+  }
+  if (next != kNone) below.prev_sibling[next] = previous;
+  below.parent[node] = below.prev_sibling[node] = below.next_sibling[node] = kNone;
+}
+
+std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t cluster) {
+  std::int32_t& first = levels[1].first_child[cluster];
+  std::int32_t block = first;
+  while (block != kNone && points.count[block] == kBlock) block = points.next[block];
+  if (block == kNone) block = first = points.add_block(cluster, first);
+  return slot_of_id[point] = points.push(block, point, at);
+}
+
+// Blocks stay filled from the front: the last point of the block moves into the gap.
+void Hierarchy::Impl::take_point(std::int32_t slot) {
+  const std::int32_t block = slot / kBlock;
+  const std::int32_t last = block * kBlock + --points.count[block];
+  slot_of_id[points.id[slot]] = kNone;
+  if (slot != last) {
+    if (up(0, last) != kNone) levels[1].down[points.cluster[block]] = slot;
+    points.position[slot] = points.position[last];
+    points.id[slot] = points.id[last];
+    slot_of_id[points.id[slot]] = slot;
+  }
+  points.id[last] = kNone;
+  --points.alive;
+  if (points.count[block] > 0) return;
+  std::int32_t* link = &levels[1].first_child[points.cluster[block]];
+  while (*link != block) link = &points.next[*link];
+  *link = points.next[block];
+  points.free_block(block);
+}
+
+void Hierarchy::Impl::disconnect(int level, std::int32_t node) {
+  Level& at = levels[level];
+  for (const std::int32_t neighbor : at.edges.row(node)) at.edges.erase(neighbor, node);
+  at.edges.clear_row(node);
+}
+
+}  // namespace dch

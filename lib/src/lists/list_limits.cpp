@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "lists/list_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dch::detail {
+namespace {
+
+constexpr double kSquareScale = 0x1p15;  ///< squares are shifted right by 15 bits
+
+std::int16_t clamped(double v) { return static_cast<std::int16_t>(std::clamp(v, 0.0, 32767.0)); }
+
+// Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
+// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance
+// d <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
+// roundings of 1/2 added. The pair distance may differ by `error` more.
+class Rounding {
+ public:
+  Rounding(double point_unit, double error)
+      : unit_(point_unit), off_(std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit) {}
+
+  double limit(double reach) const { return reach / unit_ * (reach / unit_) / kSquareScale; }
+  double band(double reach) const {
+    return (2 * off_ * reach / unit_ + off_ * off_) / kSquareScale + 1.5 + 1e-6;
+  }
+  double off() const { return off_; }
+  std::int16_t in(double reach) const { return clamped(std::floor(limit(reach) - band(reach)) + 1); }
+  std::int16_t out(double reach) const { return clamped(std::floor(limit(reach) + band(reach)) + 1); }
+  /// Without regard to rounding.
+  std::int16_t nearest(double reach) const { return clamped(std::round(limit(std::max(reach, 0.0)))); }
+  /// How far beyond `reach` a pair may be whose sum of squares does not exceed `sum` [length].
+  double margin(double reach, double sum) const {
+    return (std::sqrt((sum + 1.5 + 1e-6) * kSquareScale) + off_) * unit_ - reach;
+  }
+
+ private:
+  double unit_, off_;
+};
+
+}  // namespace
+
+ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach, double error)
+    : by(filter.by()) {
+  const Rounding rounding(point_unit, error);
+  const ListParams& params = filter.params();
+  has_shell = params.shell > 0;
+  const double largest = std::sqrt(filter.largest_distance2());
+  const auto widen = [&](double pair_reach, double sum) {
+    margin = std::max(margin, rounding.margin(pair_reach, sum));
+  };
+  switch (by) {
+    case PairFilter::By::one_cutoff:
+      all.in = rounding.in(largest);
+      all.out = rounding.out(largest);
+      near.in = near.out = rounding.nearest(largest - params.shell);
+      cutoff = largest / point_unit;
+      off = rounding.off();
+      widen(largest, all.out - 1);
+      return;
+    case PairFilter::By::radii: {
+      // The kernels round two radii and the skin, hence their sum by up to 3/2 (rounding in float adds 0.01
+      // at most), and its square once more.
+      constexpr double kOff = 1.51;
+      off = rounding.off() + kOff;
+      const double farthest_pair = std::min(largest, reach);
+      const double sizes = (2 * kOff * farthest_pair / point_unit + kOff * kOff) / kSquareScale + 0.5;
+      const double whole = std::floor(rounding.band(farthest_pair) + sizes) + 1;
+      all.band = clamped(whole);
+      all.skin = clamped(std::round(params.skin / point_unit));
+      near.skin = clamped(std::round((params.skin - params.shell) / point_unit));
+      const double least = 2 * filter.least_radius() + params.skin;  // the smaller, the more room
+      widen(least, rounding.limit(least + kOff * point_unit) + 0.5 + all.band);
+      return;
+    }
+    case PairFilter::By::types:
+      break;
+  }
+  const int types = params.cutoffs.types();
+  per_pair = types > kKernelTypes;
+  if (per_pair) {
+    all.out = rounding.out(largest);
+    near.in = near.out = rounding.nearest(largest - params.shell);
+    return;  // decided pair by pair, whatever the margin
+  }
+  off = rounding.off();
+  type_cutoff.resize(static_cast<std::size_t>(types));
+  all.type_in.resize(static_cast<std::size_t>(types));
+  all.type_out.resize(static_cast<std::size_t>(types));
+  near.type_in.resize(static_cast<std::size_t>(types));
+  farthest = {};
+  std::fill_n(farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
+  for (int a = 0; a < types; ++a) {
+    for (int b = 0; b < types; ++b) {
+      if (params.cutoffs(a, b) == 0) continue;
+      const double far = params.cutoffs(a, b) + params.skin;
+      type_cutoff[a][b] = far / point_unit;
+      all.type_in[a].limit[b] = rounding.in(far);
+      all.type_out[a].limit[b] = rounding.out(far);
+      near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
+      farthest.limit[b] = std::max(farthest.limit[b], all.type_out[a].limit[b]);
+      widen(far, all.type_out[a].limit[b] - 1);
+    }
+  }
+  near.type_out = near.type_in;
+}
+
+}  // namespace dch::detail

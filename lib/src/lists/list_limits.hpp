@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lists/pair_filter.hpp"
+#include "simd/list_kernels.hpp"
+
+namespace dch::detail {
+
+/// Limits of the squared distances of one list's pairs in the arithmetic of ListKernels. Between `in` and
+/// `out` lies what its rounding leaves open.
+struct ListLimits {
+  /// @param point_unit of the coordinates [length]
+  /// @param reach of pairs of particles at most, where cutoffs go by radii [length]
+  /// @param error how far the distance of two positions may be from their pair distance [length]
+  ListLimits(const PairFilter& filter, double point_unit, double reach, double error);
+
+  struct PairLimits {
+    std::int16_t in = 0, out = 0;               ///< by one cutoff; by types if per_pair
+    std::int16_t band = 0;                      ///< by radii
+    std::int16_t skin = 0;                      ///< by radii, to be added to the size of a row [units]
+    std::vector<TypeLimits> type_in, type_out;  ///< by types
+  };
+
+  PairFilter::By by;
+  PairLimits all;
+  /// Of those that come first in their row; `in` and `out` are the same, so nothing is left open.
+  PairLimits near;
+  bool has_shell = false;
+  bool per_pair =
+      false;  ///< types are more than the kernels can tell apart: all.out is for all, all.in for none
+  /// By one cutoff, the cutoff [units]. A pair whose distance by its coordinates is farther from its cutoff
+  /// than `off` is decided by that; only sums of squares that are not rounded tell so much.
+  double cutoff = 0, off = 0;
+  std::vector<std::array<double, kKernelTypes>> type_cutoff;  ///< by types [units]
+  TypeLimits farthest{};                                      ///< by types: the largest for each
+  double margin = 0;  ///< how far beyond its cutoff a pair left open may be [length]
+};
+
+}  // namespace dch::detail

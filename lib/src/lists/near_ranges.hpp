@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/geometry/box.hpp>
+
+#include "hierarchy/leaf_points.hpp"
+#include "lists/leaf_search.hpp"
+
+namespace dch::detail {
+
+/// A hierarchy whose points may be in the rows of a cluster.
+struct NearSource {
+  const ListSource* source;
+  double reach;            ///< largest list radius of its points with those of the rows [length]
+  std::int16_t box_limit;  ///< see ListKernels::collect
+  bool one_image;          ///< whether only the nearest image of a cluster can matter to another one
+};
+
+/// The blocks of clusters near a cluster, as ranges that ListKernels take.
+template <class Metric>
+class NearRanges {
+ public:
+  using Cluster = ClusterPoints::Cluster;
+
+  /// @param rows the hierarchy of the cluster k
+  NearRanges(const Metric& metric, const Box& box, const ListSource& rows, std::int32_t k,
+             std::vector<BlockRange>& ranges)
+      : metric_(metric),
+        box_(box),
+        rows_(rows),
+        k_(k),
+        own_(rows.points->clusters[k]),
+        center_(rows.centers().position[k]),
+        ranges_(ranges) {}
+
+  /// Clusters of the same hierarchy, each pair once: in the turn of the one that comes first. A cluster meets
+  /// itself once, first of all, and in each of half of its images.
+  void find_own(const NearSource& near);
+  /// Clusters of another hierarchy.
+  void find_others(const NearSource& near);
+
+ private:
+  void add_images(const NearSource& near, std::int32_t other);
+  void add_if_near(const NearSource& near, const Cluster& other, Vec3 between);
+  void add(const ClusterPoints& points, const Cluster& other, Vec3 between);
+
+  const Metric& metric_;
+  const Box& box_;
+  const ListSource& rows_;
+  std::int32_t k_;
+  const Cluster& own_;
+  Vec3 center_;
+  std::vector<BlockRange>& ranges_;
+};
+
+}  // namespace dch::detail

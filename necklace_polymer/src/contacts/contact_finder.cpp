@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/necklace/contact_finder.hpp>
+
+#include "chains/bead_check.hpp"
+#include "contacts/contact_check.hpp"
+#include "contacts/contact_of.hpp"
+
+namespace dch::necklace {
+
+namespace {
+
+void check(const ContactFinderParams& params) {
+  if (!(params.to_dch >= 0) || !(params.to_wrapped >= 0 && params.to_wrapped <= params.to_dch)) {
+    throw InvalidParameter("to_wrapped is " + std::to_string(params.to_wrapped) + " and to_dch " +
+                           std::to_string(params.to_dch) + "; it has to be 0 <= to_wrapped <= to_dch");
+  }
+  if (params.measure_every < 1) {
+    throw InvalidParameter("measure_every is " + std::to_string(params.measure_every) +
+                           "; it has to be 1 or more");
+  }
+}
+
+std::string with_two_digits(double value) {
+  const std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 3);
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(Necklace necklace, const ContactFinderParams& params)
+    : params_(params), wrapped_(std::move(necklace), params.wrapped) {
+  check(params);
+  const Necklace& chains = wrapped_.necklace();
+  for (const std::int32_t particle : chains.particle()) radii_.push_back(chains.radius(particle));
+}
+
+void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
+  ready_ = false;
+  detail::check_positions(necklace(), positions);
+  given_.assign(positions.begin(), positions.end());
+  by_place_.clear();
+  for (const std::int32_t particle : necklace().particle()) {
+    by_place_.push_back(given_[static_cast<std::size_t>(particle)]);
+  }
+  box_ = box;
+  wrapped_is_new_ = search_is_new_ = false;
+  ready_ = true;
+}
+
+bool ContactFinder::any_contact(const ContactQuery& query) {
+  std::vector<Contact> found;
+  if (!measures_now() || !wrapped_takes()) return by_dch(query, true, found);
+  ContactStats stats;
+  const bool any = necklace::any_contact(wrapped_now(), query, &stats, params_.executor);
+  if (!any) measured(stats);
+  return any;
+}
+
+std::vector<Contact> ContactFinder::find_contacts(const ContactQuery& query) {
+  std::vector<Contact> found;
+  if (!measures_now() || !wrapped_takes()) {
+    by_dch(query, false, found);
+    return found;
+  }
+  ContactStats stats;
+  found = necklace::find_contacts(wrapped_now(), query, &stats, params_.executor);
+  measured(stats);
+  return found;
+}
+
+/// Whether the wrapped hierarchy has its turn.
+bool ContactFinder::measures_now() {
+  if (!ready_) throw InvalidParameter("there are no positions; update before a search");
+  if (choice_.structure == Structure::wrapped) return true;
+  return ++since_measured_ >= params_.measure_every;
+}
+
+const WrappedHierarchy& ContactFinder::wrapped_now() {
+  if (!wrapped_is_new_) wrapped_.update(given_, box_);
+  wrapped_is_new_ = true;
+  return wrapped_;
+}
+
+/// Whether the wrapped hierarchy can be asked; if not, there is nothing to measure now.
+bool ContactFinder::wrapped_takes() {
+  try {
+    wrapped_now();
+    return true;
+  } catch (const Undetermined&) {
+    since_measured_ = 0;
+    return false;
+  }
+}
+
+/// Chooses anew, with hysteresis: between the two thresholds nothing changes.
+void ContactFinder::measured(const ContactStats& stats) {
+  since_measured_ = 0;
+  const double beads = static_cast<double>(std::max<std::size_t>(necklace().size(), 1));
+  choice_.visited_per_bead = static_cast<double>(stats.cage_pairs) / beads;
+  const std::string figure = with_two_digits(choice_.visited_per_bead) + " visited pairs a bead";
+  if (choice_.visited_per_bead > params_.to_dch) {
+    choice_.structure = Structure::dch;
+    choice_.reason = figure + ", above " + with_two_digits(params_.to_dch) + ": the DCH";
+  } else if (choice_.visited_per_bead < params_.to_wrapped) {
+    choice_.structure = Structure::wrapped;
+    choice_.reason = figure + ", below " + with_two_digits(params_.to_wrapped) + ": the wrapped hierarchy";
+  } else {
+    choice_.reason = figure + ", between the thresholds: as before";
+  }
+}
+
+/// Lists pairs of places that are near enough for a contact. False for what the DCH does not take although
+/// the wrapped hierarchy does.
+bool ContactFinder::list_near(const ContactQuery& query) {
+  const bool are_points = necklace().largest_radius() == 0;
+  const double gap = std::max(query.gap, 0.0);
+  ListParams params;
+  params.order = RowOrder::by_structure;
+  if (!are_points) {
+    params.radii = radii_;
+    params.skin = gap;
+  } else if (gap > 0) {
+    params.cutoffs = TypeCutoffs(gap);
+  } else {
+    return false;  // contacts at one and the same place alone
+  }
+  // A little more, so that rounding loses nothing, where the box has room for it.
+  ListParams wider = params;
+  wider.skin += 1e-12 * params.list_radius();
+  if (wider.list_radius() <= box_.max_cutoff()) params = wider;
+  const double radius = params.list_radius();
+  if (radius < kMinListRadius || radius > kMaxListRadius) return false;
+  const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff());
+  if (search_ == nullptr || !fits) {
+    HierarchyParams structure;
+    structure.radius = radius;
+    structure.executor = params_.executor;
+    structure.size_classes =
+        !are_points && necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
+    search_ = make_dch_search(structure);
+    search_radius_ = radius;
+    search_is_new_ = false;
+  }
+  try {
+    if (!search_is_new_) search_->update(by_place_, box_);
+  } catch (const InvalidPosition&) {  // so far outside that their places in the box are uncertain
+    return false;
+  }
+  search_is_new_ = true;
+  search_->list(params, list_);
+  return true;
+}
+
+/// Whether two places that were listed are in contact, by the very formula of the hierarchies.
+bool ContactFinder::is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const {
+  const std::int32_t bonds = necklace().bonds_between(p, q);
+  if (bonds >= 0 ? !query.within_chains || bonds <= query.skip_bonds : !query.between_chains) return false;
+  const auto a = static_cast<std::size_t>(p), b = static_cast<std::size_t>(q);
+  const double reach = radii_[a] + radii_[b] + query.gap;
+  return reach >= 0 && box_.distance2(by_place_[a], by_place_[b]) <= reach * reach;
+}
+
+Contact ContactFinder::contact_at(std::int32_t p, std::int32_t q) const {
+  const auto particle = necklace().particle();
+  const auto i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
+  const Vec3 d = box_.nearest_image(by_place_[j] - by_place_[i]);
+  return detail::contact_of(particle[i], particle[j], by_place_[i], d, radii_[i], radii_[j]);
+}
+
+bool ContactFinder::by_dch(const ContactQuery& query, bool first_only, std::vector<Contact>& out) {
+  detail::check_query(necklace(), box_, query);
+  if (!list_near(query)) {
+    out = necklace::find_contacts(wrapped_now(), query, nullptr, params_.executor);
+    return !out.empty();
+  }
+  std::atomic<bool> any{false};
+  std::mutex joining;
+  detail::FoundPairs found(necklace().particle());
+  for_ranges(params_.executor, list_.size(), [&](std::size_t first, std::size_t last) {
+    detail::FoundPairs part(necklace().particle());
+    for (std::size_t row = first; row < last && !(first_only && any); ++row) {
+      const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
+      for (const std::int32_t q : list_.row(row)) {
+        if (!is_contact(p, q, query)) continue;
+        any = true;
+        part.add(p, q);
+      }
+    }
+    const std::lock_guard lock(joining);
+    found.add(std::move(part));
+  });
+  if (first_only) return any;
+  out = detail::contacts_of(found, params_.executor, [&](const detail::FoundPairs::Pair& pair) {
+    return contact_at(pair.places[0], pair.places[1]);
+  });
+  return any;
+}
+
+}  // namespace dch::necklace

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <dch/trajectory/file_error.hpp>
+#include <dch/trajectory/topology.hpp>
+#include <dch/engines/verlet_list.hpp>
+
+#include "base/exit_code.hpp"
+#include "input/frame_stream.hpp"
+#include "base/interrupt.hpp"
+#include "report/list_file.hpp"
+#include "engines/list_statistics.hpp"
+#include "base/stopwatch.hpp"
+
+namespace dch::cli {
+namespace {
+
+std::string exclusion_rule(int depth) { return depth == 0 ? "" : fmt::format("1-{}", depth + 1); }
+
+/// Refuses a list radius that some selected frame's box is too small for, before any work is done.
+void require_cutoff_fits(const ReplayOptions& options, const Scan& scan) {
+  const double radius = options.cutoff + options.skin;
+  const double limit = 0.5 * scan.smallest_height;
+  if (radius <= limit) return;
+  throw UsageError(
+      fmt::format("{}: frame {}: cutoff + skin = {} exceeds half the smallest box height, {} ({}); give a "
+                  "cutoff and a skin that "
+                  "sum up to at most {}, or leave the frame out with --frames",
+                  scan.file, scan.smallest_height_frame, radius, limit, scan.unit, limit));
+}
+
+/// One run: what is found out beforehand, and the state that goes through the frames.
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, ProgressBar& progress);
+  ReplayReport run();
+
+ private:
+  void scan();
+  void take_atoms(const trajectory::Frame& frame);
+  void read_exclusions(const trajectory::Frame& frame);
+  void open_list_file(std::int64_t most_atoms);
+  void replay_frames();
+  void replay_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms);
+  bool update_list(const trajectory::Frame& frame, std::int64_t index);
+  void digest_list(const trajectory::Frame& frame, const FrameRecord& record);
+  void note_levels();
+
+  const ReplayOptions& options_;
+  ProgressBar& progress_;
+  Stopwatch watch_;
+  ReplayReport report_;
+  std::int64_t frames_expected_ = 0;
+  bool atoms_change_ = false;
+  Engine engine_;  // before the list that borrows it
+  Exclusions exclusions_;
+  ListParams params_;
+  std::vector<std::int64_t> ids_;  ///< of the atoms that list_ is for
+  std::optional<VerletList> list_;
+  std::optional<Verifier> verifier_;
+  std::optional<ListFile> list_file_;
+  ListStatistics statistics_;
+};
+
+Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
+    : options_(options),
+      progress_(progress),
+      engine_(make_engine(options.engine, options.cutoff + options.skin,
+                          options.threads > 1 ? make_threads(options.threads) : nullptr)) {
+  params_.cutoffs = TypeCutoffs(options.cutoff);
+  params_.skin = options.skin;
+  params_.kind = options.kind;
+  report_.cutoff = options.cutoff;
+  report_.skin = options.skin;
+  report_.list_kind = options.kind;
+  report_.engine = options.engine;
+  if (engine_.threads) report_.threads = engine_.threads->threads();
+}
+
+ReplayReport Replay::run() {
+  scan();
+  verifier_.emplace(options_.verify, params_, frames_expected_);
+  replay_frames();
+  note_levels();
+  if (list_file_) list_file_->commit();
+  report_.degree_histogram = statistics_.degree_histogram();
+  report_.list_hash = statistics_.hash();
+  report_.verify = verifier_->result();
+  report_.total_ms = watch_.milliseconds();
+  return std::move(report_);
+}
+
+void Replay::scan() {
+  const Stopwatch watch;
+  const Scan scan = scan_trajectory(options_.input, options_.frames, progress_);
+  report_.scan_ms = watch.milliseconds();
+  static_cast<TrajectorySummary&>(report_) = scan;
+  frames_expected_ = scan.frames;
+  atoms_change_ = scan.atoms_change;
+  require_cutoff_fits(options_, scan);
+  take_atoms(scan.first_frame);
+  open_list_file(scan.most_atoms);
+}
+
+/// Starts a list for the atoms of `frame`. The engine stays; where atoms come and go, it is told who they
+/// are.
+void Replay::take_atoms(const trajectory::Frame& frame) {
+  ids_ = frame.ids;
+  read_exclusions(frame);
+  std::vector<std::uint64_t> keys;
+  if (atoms_change_) keys.assign(ids_.begin(), ids_.end());
+  list_.emplace(borrow(*engine_.search, std::move(keys)), params_);
+}
+
+void Replay::read_exclusions(const trajectory::Frame& frame) {
+  if (options_.topology.empty() && options_.exclude_depth == 0) return;
+  if (options_.topology.empty() && frame.molecules.empty()) {
+    throw UsageError(
+        fmt::format("--exclude {} needs bonds, but {} has no molecule column; give them with --topology",
+                    exclusion_rule(options_.exclude_depth), options_.input.name()));
+  }
+  const trajectory::Topology topology =
+      options_.topology.empty()
+          ? trajectory::topology_from_molecules(frame, options_.input.name())
+          : trajectory::read_topology(options_.topology, frame.ids, options_.input.limits());
+  ExclusionRecord record;
+  record.source = topology.source;
+  record.bonds = static_cast<std::int64_t>(topology.bonds.size());
+  if (options_.exclude_depth > 0) {
+    exclusions_ = Exclusions::from_bonds(frame.positions.size(), topology.bonds, options_.exclude_depth);
+    params_.exclusions = &exclusions_;
+    record.rule = exclusion_rule(options_.exclude_depth);
+    record.pairs = exclusions_.pairs();
+  }
+  if (report_.frames.empty()) report_.exclusions = record;
+}
+
+void Replay::open_list_file(std::int64_t most_atoms) {
+  if (options_.lists.empty()) return;
+  ListFileHeader header;
+  header.source = options_.input.name();
+  header.unit = report_.unit;
+  header.engine = to_string(options_.engine.kind);
+  header.exclusions = options_.exclude_depth == 0 ? "none" : exclusion_rule(options_.exclude_depth);
+  header.cutoff = options_.cutoff;
+  header.skin = options_.skin;
+  header.kind = options_.kind;
+  header.most_atoms = static_cast<std::size_t>(most_atoms);
+  list_file_.emplace(options_.lists, header);
+}
+
+void Replay::replay_frames() {
+  FrameStream stream(options_.input, options_.frames);
+  progress_.start("replaying", frames_expected_);
+  trajectory::Frame frame;
+  for (std::int64_t done = 0; done < frames_expected_; ++done) {
+    const Stopwatch watch;
+    if (!stream.next(frame)) fail_changed(options_.input.name());
+    const double read_ms = watch.milliseconds();
+    if (static_cast<std::int64_t>(frame.ids.size()) > report_.most_atoms) fail_changed(options_.input.name());
+    if (frame.ids != ids_) {
+      if (!atoms_change_) fail_changed(options_.input.name());
+      take_atoms(frame);
+    }
+    replay_frame(frame, stream.index(), read_ms);
+    progress_.advance(done + 1);
+  }
+  progress_.clear();
+}
+
+void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms) {
+  FrameRecord record;
+  record.frame = index;
+  record.step = frame.step;
+  record.time = frame.time;
+  record.atoms = static_cast<std::int64_t>(frame.ids.size());
+  record.read_ms = read_ms;
+  const SearchStats before = engine_.search->stats();
+  const Stopwatch watch;
+  record.list_rebuilt = update_list(frame, index);
+  const double update_ms = watch.milliseconds();
+  const SearchStats& after = engine_.search->stats();
+  record.list_ms = 1e3 * (after.list_seconds - before.list_seconds);
+  record.maintain_ms =
+      std::max(0.0, update_ms - record.list_ms);  // the structure's upkeep and the stale test
+  record.refreshes = after.refreshes - before.refreshes;
+  record.repairs = after.repairs - before.repairs;
+  record.rebuilds = after.builds - before.builds;
+  record.promotions = after.promotions - before.promotions;
+  record.demotions = after.demotions - before.demotions;
+  record.levels = after.levels;
+  record.pairs = list_->list().pairs();
+  digest_list(frame, record);
+  report_.frames.push_back(record);
+}
+
+bool Replay::update_list(const trajectory::Frame& frame, std::int64_t index) {
+  const auto place = [&](const Error& error) {
+    return fmt::format("{}: frame {}: {}", options_.input.name(), index, error.what());
+  };
+  try {
+    return list_->update(frame.positions, frame.box);
+  } catch (const InvalidPosition& error) {
+    throw trajectory::FileError(place(error));
+  } catch (const InvalidBox& error) {
+    throw trajectory::FileError(place(error));
+  } catch (const Error& error) {
+    throw UsageError(place(error));
+  }
+}
+
+void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& record) {
+  const NeighborList& list = list_->list();
+  statistics_.add(list, record.list_rebuilt);
+  if (list_file_) {
+    const Stopwatch watch;
+    list_file_->append(record.frame, frame, list, record.list_rebuilt);
+    report_.write_ms += watch.milliseconds();
+  }
+  Verifier::Subject subject;
+  subject.ordinal = static_cast<std::int64_t>(report_.frames.size());
+  subject.index = record.frame;
+  subject.frame = &frame;
+  subject.list = &list;
+  subject.list_is_new = record.list_rebuilt;
+  subject.hierarchy = engine_.hierarchy;
+  const Stopwatch watch;
+  verifier_->check(subject);
+  report_.verify_ms += watch.milliseconds();
+}
+
+void Replay::note_levels() {
+  const Hierarchy* hierarchy = engine_.hierarchy;
+  for (int level = 0; hierarchy && level < hierarchy->levels(); ++level) {
+    report_.levels.push_back(hierarchy->level(level));
+  }
+}
+
+}  // namespace
+
+ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress) {
+  return Replay(options, progress).run();
+}
+
+}  // namespace dch::cli

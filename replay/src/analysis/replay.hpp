@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <dch/lists/neighbor_list.hpp>
+#include <dch/trajectory/reader.hpp>
+
+#include "engines/engine.hpp"
+#include "options/option_values.hpp"
+#include "base/progress_bar.hpp"
+#include "report/replay_report.hpp"
+#include "input/trajectory_input.hpp"
+#include "engines/verifier.hpp"
+
+namespace dch::cli {
+
+/// A replay as asked for on the command line, its numbers checked.
+struct ReplayOptions {
+  TrajectoryInput input;
+  std::string topology;  ///< empty: bonds come from the molecule column where needed
+  double cutoff = 0;     ///< > 0 [length]
+  double skin = 0;       ///< >= 0 [length]
+  EngineOptions engine;
+  int threads = 1;  ///< to keep the structure and make the lists with (dch only)
+  FrameRange frames;
+  VerifyMode verify = VerifyMode::none;
+  ListKind kind = ListKind::half;
+  int exclude_depth = 0;  ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
+  std::string lists;      ///< lists.h5; empty: none
+};
+
+/// Reads the selected frames, keeps one structure and one list up through them, and verifies and writes the
+/// lists. lists.h5 is in place when this returns.
+/// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height,
+/// exclusions
+///   without bonds); trajectory::FileError for files that cannot be read or written.
+ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress);
+
+}  // namespace dch::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The dch command: sorts out which subcommand is meant and turns exceptions into exit statuses.
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <exception>
+#include <fmt/format.h>
+#include <new>
+#include <sstream>
+#include <string_view>
+#include <unistd.h>
+
+#include <dch/trajectory/file_error.hpp>
+#include <dch/trajectory/output_file.hpp>
+
+#include "commands/commands.hpp"
+#include "base/exit_code.hpp"
+#include "commands/help_format.hpp"
+#include "base/interrupt.hpp"
+#include "base/standard_streams.hpp"
+#include "commands/usage_message.hpp"
+#include "base/version.hpp"
+
+namespace dch::cli {
+namespace {
+
+constexpr std::string_view kNoMemory = "not enough memory; choose a smaller cutoff or a smaller input";
+
+int fail(int exit_code, std::string_view message) {
+  write_message({"dch: ", message, "\n"});
+  return exit_code;
+}
+
+/// A destructor that needs memory (nlohmann's JSON has one) cannot throw what it does not get: the process
+/// ends here instead.
+[[noreturn]] void end_after_lost_exception() {
+  trajectory::remove_unfinished_files();
+  try {
+    if (const std::exception_ptr lost = std::current_exception()) std::rethrow_exception(lost);
+  } catch (const std::bad_alloc&) {
+    ::_exit(fail(kUsage, kNoMemory));
+  } catch (...) {
+    fail(kBadFile, "an exception came where none is expected; unfinished output files are removed");
+  }
+  std::abort();
+}
+
+void declare(CLI::App& app, int& exit_code) {
+  app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
+  app.formatter(help_format());  // subcommands inherit it
+  app.require_subcommand(1);
+  add_info_command(app, exit_code);
+  add_replay_command(app, exit_code);
+  add_contacts_command(app, exit_code);
+  add_convert_command(app, exit_code);
+  add_generate_command(app, exit_code);
+  add_help_command(app);
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(
+      "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
+      "\n"
+      "First steps:\n"
+      "  dch info FILE                                      what a trajectory holds, and its cutoff limit\n"
+      "  dch replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
+      "  dch replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
+      "  dch contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
+      "  dch help replay                                    all options of a subcommand\n"
+      "\n"
+      "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
+      "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).",
+      "dch");
+  int exit_code = kOk;
+  declare(app, exit_code);
+  if (argc < 2) {
+    print_message("dch: no subcommand given\n\n{}", app.help());
+    return kUsage;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) return fail(kUsage, usage_message(app, error));
+    std::ostringstream text;  // help or version
+    app.exit(error, text, text);
+    write_output(text.str());
+  }
+  return exit_code;
+}
+
+int run(int argc, char** argv) {
+  try {
+    catch_interrupts();
+    std::set_terminate(end_after_lost_exception);
+    return parse_and_run(argc, argv);
+  } catch (const UsageError& error) {
+    return fail(kUsage, error.what());
+  } catch (const trajectory::FileError& error) {
+    return fail(kBadFile, error.what());
+  } catch (const Error& error) {  // the library refuses a parameter
+    return fail(kUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kUsage, kNoMemory);
+  } catch (const std::exception& error) {
+    return fail(kBadFile, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace dch::cli
+
+int main(int argc, char** argv) {
+  using namespace dch;
+  cli::prepare_standard_streams();
+  return cli::finish_output(cli::run(argc, argv));
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "report/list_file.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "base/version.hpp"
+
+namespace dch::cli {
+
+ListFile::ListFile(const std::string& path, const ListFileHeader& header)
+    : file_(path), most_atoms_(header.most_atoms) {
+  file_.write_attribute("format", std::string("dch neighbor lists 1"));
+  file_.write_attribute("creator", fmt::format("dch {}", kVersion));
+  file_.write_attribute("source", header.source);
+  file_.write_attribute("unit", header.unit);
+  file_.write_attribute("engine", header.engine);
+  file_.write_attribute("exclusions", header.exclusions);
+  file_.write_attribute("kind", std::string(header.kind == ListKind::half ? "half" : "full"));
+  file_.write_attribute("cutoff", header.cutoff);
+  file_.write_attribute("skin", header.skin);
+  const auto most = static_cast<std::int64_t>(most_atoms_);
+  file_.create_dataset("ids", Hdf5Type::int64, std::max<std::int64_t>(1, most), 1);
+  file_.create_dataset("first", Hdf5Type::int64, most + 1, 1);
+  file_.create_dataset("j", Hdf5Type::int32, 0, kChunkEntries);
+  file_.create_dataset("frame", Hdf5Type::int64, 0, 1024);
+  file_.create_dataset("step", Hdf5Type::int64, 0, 1024);
+}
+
+void ListFile::append(std::int64_t index, const trajectory::Frame& frame, const NeighborList& list,
+                      bool is_new) {
+  if (is_new || first_.empty()) {
+    first_.assign(most_atoms_ + 1, entries_ + list.first.back());
+    std::transform(list.first.begin(), list.first.end(), first_.begin(),
+                   [this](std::int64_t begin) { return entries_ + begin; });
+  }
+  std::vector<std::int64_t> ids = frame.ids;
+  ids.resize(std::max<std::size_t>(1, most_atoms_), -1);
+  file_.append("ids", static_cast<std::int64_t>(ids.size()), ids);
+  file_.append("first", static_cast<std::int64_t>(first_.size()), first_);
+  file_.append("frame", 0, std::vector<std::int64_t>{index});
+  file_.append("step", 0, std::vector<std::int64_t>{frame.step});
+  if (first_.back() == entries_) return;
+  file_.append("j", 0, list.j);
+  entries_ = first_.back();
+}
+
+void ListFile::commit() { file_.commit(); }
+
+}  // namespace dch::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "input/trajectory_summary.hpp"
+
+namespace dch::cli {
+
+/// JSON has no infinity and no NaN.
+nlohmann::ordered_json number_or_null(double value);
+
+/// How a report begins, as docs/report-schema.md describes it. @param frames in the report
+nlohmann::ordered_json begin_report(const TrajectorySummary& summary, std::size_t frames);
+
+}  // namespace dch::cli
