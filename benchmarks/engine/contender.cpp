@@ -86,10 +86,7 @@ DchContender::DchContender(std::string name, const Scene& scene, const Mode& mod
   search_ = make_dch_search(params_);
 }
 
-std::string DchContender::validate() const {
-  const Hierarchy* const hierarchy = hierarchy_of(*search_);
-  return hierarchy ? hierarchy->validate() : std::string();
-}
+std::string DchContender::validate() { return search_->validate(); }
 
 CellListContender::CellListContender(const Scene& scene)
     : radius_(scene.list_radii.back()), requests_(requests_of(scene, false)) {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/engines/pair_search.hpp>
 
@@ -44,7 +45,7 @@ class Contender {
   /// Updates so far by what they took; null for one that keeps nothing.
   virtual const SearchStats* stats() const { return nullptr; }
   /// What is broken in the structure it keeps; empty if nothing is, or if it keeps none.
-  virtual std::string validate() const { return {}; }
+  virtual std::string validate() { return {}; }
 };
 
 /// Contender::every() of those that are slow.
@@ -68,7 +69,7 @@ class DchContender : public Contender {
   bool makes_supersets() const override { return superset_; }
   int every() const override { return params_.policy == MaintenancePolicy::always_rebuild ? kSeldom : 1; }
   const SearchStats* stats() const override { return &search_->stats(); }
-  std::string validate() const override;
+  std::string validate() override;
 
  private:
   std::string name_;

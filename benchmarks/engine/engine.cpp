@@ -10,7 +10,7 @@
 #include <random>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "simd_grid.hpp"
 

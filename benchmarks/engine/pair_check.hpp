@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 #include "scene.hpp"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/lists/neighbor_list.hpp>

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "stopwatch.hpp"
 #include "trial.hpp"
@@ -63,12 +63,12 @@ void check(const Switch& choice, const Melt& melt, const ListParams& params, con
 }
 
 void check_all(const Switch& choice, const std::vector<Melt>& melts, const ListParams& params) {
-  Hierarchy hierarchy(choice.structure);
-  hierarchy.build(melts.front().positions, melts.front().box);
+  const auto search = make_dch_search(choice.structure);
+  search->update(melts.front().positions, melts.front().box);
   NeighborList list;
   for (const Melt& melt : melts) {
-    hierarchy.update(melt.positions, melt.box);
-    hierarchy.list(params, list);
+    search->update(melt.positions, melt.box);
+    search->list(params, list);
     if (&melt == &melts.front() || &melt == &melts.back()) check(choice, melt, params, list);
   }
 }
@@ -76,25 +76,26 @@ void check_all(const Switch& choice, const std::vector<Melt>& melts, const ListP
 void time_once(const Switch& choice, const std::vector<Melt>& melts, const ListParams& params,
                SwitchCost& cost) {
   const double per_atom = 1e9 / melts.front().atoms();
-  Hierarchy hierarchy(choice.structure);
+  const auto search = make_dch_search(choice.structure);
   NeighborList list;
   cost.first_ns = std::min(cost.first_ns, per_atom * seconds_of([&] {
-                                            hierarchy.build(melts.front().positions, melts.front().box);
-                                            hierarchy.list(params, list);
+                                            search->update(melts.front().positions, melts.front().box);
+                                            search->list(params, list);
                                           }));
   double seconds = 0;
   for (std::size_t k = 1; k < melts.size(); ++k)
     seconds += seconds_of([&] {
-      hierarchy.update(melts[k].positions, melts[k].box);
-      hierarchy.list(params, list);
+      search->update(melts[k].positions, melts[k].box);
+      search->list(params, list);
     });
   cost.ns.push_back(per_atom * seconds / static_cast<double>(melts.size() - 1));
   const double atoms = melts.front().atoms();
-  cost.bytes = static_cast<double>(hierarchy.stats().memory_bytes) / atoms;
-  cost.levels = hierarchy.levels();
+  cost.bytes = static_cast<double>(search->stats().memory_bytes) / atoms;
+  const std::vector<LevelInfo> levels = search->levels();
+  cost.levels = static_cast<int>(levels.size());
   cost.edges = 0;
-  for (int level = 1; level < cost.levels; ++level)
-    cost.edges += static_cast<double>(hierarchy.level(level).edges) / atoms;
+  for (std::size_t level = 1; level < levels.size(); ++level)
+    cost.edges += static_cast<double>(levels[level].edges) / atoms;
   cost.listed = static_cast<double>(list.pairs()) / atoms;
   cost.margin = list.margin;
 }

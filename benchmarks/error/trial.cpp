@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "rebuild_rules.hpp"
 #include "stopwatch.hpp"
@@ -35,10 +35,10 @@ class Dynamics {
         trial_(trial),
         time_step_(time_step),
         rule_(make_rebuild_rule(trial.rule, kMeltCutoff, trial.skin)),
-        hierarchy_(hierarchy_params(trial.skin)),
+        search_(make_dch_search(hierarchy_params(trial.skin))),
         potential_(LennardJonesPair{1, 1, kMeltCutoff}, true),
         forces(melt.positions.size()) {
-    hierarchy_.build(melt.positions, melt.box);
+    search_->update(melt.positions, melt.box);
     search();
     find_forces();
   }
@@ -51,7 +51,7 @@ class Dynamics {
     }
     const bool due = rule_->is_due(melt.positions, melt.box);
     if (due) {
-      hierarchy_.update(melt.positions, melt.box);
+      search_->update(melt.positions, melt.box);
       search();
     } else {
       pairs.refresh(melt.positions, melt.box);
@@ -65,7 +65,7 @@ class Dynamics {
   /// Pairs within cutoff + skin at the positions of the last search. To be called right after it.
   NeighborList list() {
     NeighborList list;
-    hierarchy_.list(list_params(trial_.skin), list);
+    search_->list(list_params(trial_.skin), list);
     return list;
   }
 
@@ -73,7 +73,7 @@ class Dynamics {
 
  private:
   void search() {
-    hierarchy_.cluster_pairs(list_params(trial_.skin), pairs);
+    search_->cluster_pairs(list_params(trial_.skin), pairs);
     rule_->remember(melt.positions, melt.box);
   }
   void find_forces() {
@@ -84,7 +84,7 @@ class Dynamics {
   Trial trial_;
   double time_step_;
   std::unique_ptr<RebuildRule> rule_;
-  Hierarchy hierarchy_;
+  std::unique_ptr<PairSearch> search_;
   LennardJones potential_;
 
  public:

@@ -11,7 +11,7 @@
 #include <map>
 #include <random>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/base/instruction_set.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
@@ -30,7 +30,7 @@ dch::ListParams request() {
 /// Face-centered cubic at first, with velocities of temperature 1.44; then whatever Newton's laws make of it.
 class Melt {
  public:
-  explicit Melt(int cells) : hierarchy_(hierarchy_params()), potential_({1, 1, kCutoff}) {
+  explicit Melt(int cells) : search_(dch::make_dch_search(hierarchy_params())), potential_({1, 1, kCutoff}) {
     const double spacing = std::cbrt(4 / kDensity), side = spacing * cells;
     box = dch::Box::orthorhombic({side, side, side});
     const dch::Vec3 basis[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
@@ -45,15 +45,15 @@ class Melt {
     for (std::size_t i = 0; i < positions.size(); ++i)
       velocity_.push_back(largest * dch::Vec3{uniform(), uniform(), uniform()});
     force_.resize(positions.size());
-    hierarchy_.build(positions, box);
+    search_->update(positions, box);
     search();
     for (int step = 0; step < kStepsToMelt; ++step) this->step();
     search();
   }
 
   void search() {
-    hierarchy_.update(positions, box);
-    hierarchy_.cluster_pairs(request(), pairs);
+    search_->update(positions, box);
+    search_->cluster_pairs(request(), pairs);
     useful = count_useful();
     steps_since_search_ = 0;
   }
@@ -86,11 +86,11 @@ class Melt {
     within.skin = 0;
     within.order = dch::RowOrder::by_structure;
     dch::NeighborList list;
-    hierarchy_.list(within, list);
+    search_->list(within, list);
     return list.pairs();
   }
 
-  dch::Hierarchy hierarchy_;
+  std::unique_ptr<dch::PairSearch> search_;
   dch::LennardJones potential_;
   std::vector<dch::Vec3> velocity_, force_;
   int steps_since_search_ = 0;
@@ -194,11 +194,11 @@ void cluster_pairs(benchmark::State& state) {
   Melt& melt = melt_of(state.range(0));
   dch::HierarchyParams params;
   params.radius = kCutoff + kSkin;
-  dch::Hierarchy hierarchy(params);
-  hierarchy.build(melt.positions, melt.box);
+  const auto search = dch::make_dch_search(params);
+  search->update(melt.positions, melt.box);
   dch::ClusterPairs pairs;
   for (auto _ : state) {
-    hierarchy.cluster_pairs(request(), pairs);
+    search->cluster_pairs(request(), pairs);
     benchmark::DoNotOptimize(pairs.entries.data());
   }
   report_per(state, "time/atom", melt.atoms());
@@ -211,13 +211,13 @@ void neighbor_list(benchmark::State& state) {
   Melt& melt = melt_of(state.range(0));
   dch::HierarchyParams params;
   params.radius = kCutoff + kSkin;
-  dch::Hierarchy hierarchy(params);
-  hierarchy.build(melt.positions, melt.box);
+  const auto search = dch::make_dch_search(params);
+  search->update(melt.positions, melt.box);
   dch::ListParams by_structure = request();
   by_structure.order = dch::RowOrder::by_structure;
   dch::NeighborList list;
   for (auto _ : state) {
-    hierarchy.list(by_structure, list);
+    search->list(by_structure, list);
     benchmark::DoNotOptimize(list.j.data());
   }
   report_per(state, "time/atom", melt.atoms());

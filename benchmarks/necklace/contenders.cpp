@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/layered_hierarchy.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
 #include <dch/engines/pair_search.hpp>
 
@@ -130,10 +130,10 @@ Answer by_clusters(const Scene& scene, ForcePrecision precision) {
   const ListParams request = scene.request();
   HierarchyParams params;
   params.radius = request.list_radius();
-  Hierarchy hierarchy(params);
-  hierarchy.build(scene.positions, scene.box);
+  const auto search = make_dch_search(params);
+  search->update(scene.positions, scene.box);
   ClusterPairs pairs;
-  hierarchy.cluster_pairs(request, pairs);
+  search->cluster_pairs(request, pairs);
   LennardJones potential(scene.kinds(), scene.matrix);
   if (!scene.charges.empty()) potential.set_coulomb(scene.coulomb);
   const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, answer.forces, scene.charges);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kPoints = 200;
 
 ClusterPairs cluster_pairs_of(const Scene& scene, const ListParams& request) {
-  Hierarchy hierarchy(params_for());
+  ListedHierarchy hierarchy(params_for());
   hierarchy.build(scene.points, scene.box);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request, pairs);
@@ -100,7 +100,7 @@ struct Forces {
     request.cutoffs = TypeCutoffs(1.5);
     HierarchyParams params = params_for();
     params.radius = 1.5;
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(scene.points, scene.box);
     hierarchy.cluster_pairs(request, pairs);
   }

@@ -17,15 +17,15 @@ struct Changes {
     asked_first.answer(first);
     asked_next.answer(next);
   }
-  Hierarchy empty() const { return Hierarchy(params); }
+  ListedHierarchy empty() const { return ListedHierarchy(params); }
   /// Moved before, so that scratch space is there or not, as it comes.
-  Hierarchy built() const {
-    Hierarchy hierarchy(params);
+  ListedHierarchy built() const {
+    ListedHierarchy hierarchy(params);
     hierarchy.build(first.points, first.box);
     return hierarchy;
   }
   /// Whether a hierarchy is empty after a throw, and takes points again.
-  std::string fault_of_next(Hierarchy& hierarchy, Ending ending) const {
+  std::string fault_of_next(ListedHierarchy& hierarchy, Ending ending) const {
     if (ending == Ending::threw) {
       std::string fault = fault_of_empty(hierarchy);
       if (!fault.empty()) return after(ending, fault);
@@ -43,12 +43,12 @@ struct Changes {
 };
 
 TEST(HierarchyFaults, AHierarchyIsMadeOrNot) {
-  const SweepResult result = sweep([] { return 0; }, [](int) { Hierarchy hierarchy(params_for()); },
+  const SweepResult result = sweep([] { return 0; }, [](int) { ListedHierarchy hierarchy(params_for()); },
                                    [](int, Ending) { return std::string(); });
   expect_sound(result, 4);
 }
 
-std::string build_fault(const Changes& changes, Hierarchy& hierarchy, Ending ending) {
+std::string build_fault(const Changes& changes, ListedHierarchy& hierarchy, Ending ending) {
   if (ending == Ending::threw) {
     const std::string fault = fault_of_empty(hierarchy);
     if (!fault.empty()) return fault;
@@ -63,8 +63,8 @@ TEST(HierarchyFaults, BuildLeavesItEmpty) {
     params.edge_rule = rule;
     params.max_roots = 1;
     const Changes changes(params);
-    const auto call = [&](Hierarchy& hierarchy) { hierarchy.build(changes.next.points, changes.next.box); };
-    const auto fault_of = [&](Hierarchy& hierarchy, Ending ending) {
+    const auto call = [&](ListedHierarchy& hierarchy) { hierarchy.build(changes.next.points, changes.next.box); };
+    const auto fault_of = [&](ListedHierarchy& hierarchy, Ending ending) {
       return build_fault(changes, hierarchy, ending);
     };
     expect_sound(sweep([&] { return changes.empty(); }, call, fault_of), 150);
@@ -79,8 +79,8 @@ void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, l
   const Changes changes(params, shake);
   expect_sound(
       sweep([&] { return changes.built(); },
-            [&](Hierarchy& hierarchy) { hierarchy.update(changes.next.points, changes.next.box); },
-            [&](Hierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
+            [&](ListedHierarchy& hierarchy) { hierarchy.update(changes.next.points, changes.next.box); },
+            [&](ListedHierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
       least_failures);
 }
 
@@ -111,12 +111,12 @@ TEST(HierarchyFaults, LonePointsLeaveItEmpty) {
   asked.answer(later);
   expect_sound(sweep(
                    [&] {
-                     Hierarchy hierarchy(params);
+                     ListedHierarchy hierarchy(params);
                      hierarchy.build(gas.points, gas.box);
                      return hierarchy;
                    },
-                   [&](Hierarchy& hierarchy) { hierarchy.update(later.points, later.box); },
-                   [&](Hierarchy& hierarchy, Ending ending) {
+                   [&](ListedHierarchy& hierarchy) { hierarchy.update(later.points, later.box); },
+                   [&](ListedHierarchy& hierarchy, Ending ending) {
                      if (ending == Ending::threw) {
                        const std::string fault = fault_of_empty(hierarchy);
                        if (!fault.empty()) return fault;
@@ -134,13 +134,13 @@ TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
   expect_sound(
       sweep(
           [&] {
-            Hierarchy hierarchy = changes.built();
+            ListedHierarchy hierarchy = changes.built();
             hierarchy.update(changes.next.points, changes.next.box);
             EXPECT_TRUE(hierarchy.repair_pending());
             return hierarchy;
           },
-          [](Hierarchy& hierarchy) { hierarchy.repair(); },
-          [&](Hierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
+          [](ListedHierarchy& hierarchy) { hierarchy.repair(); },
+          [&](ListedHierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
       20);
 }
 
@@ -155,7 +155,7 @@ void sweep_exchange(const Change& change, const std::vector<Vec3>& expected, lon
   Asked asked;
   asked.answer(other);
   expect_sound(sweep([&] { return changes.built(); }, change,
-                     [&](Hierarchy& hierarchy, Ending ending) {
+                     [&](ListedHierarchy& hierarchy, Ending ending) {
                        if (ending == Ending::threw) {
                          const std::string fault = fault_of_empty(hierarchy);
                          if (!fault.empty()) return after(ending, fault);
@@ -174,7 +174,7 @@ TEST(HierarchyFaults, InsertLeavesItEmpty) {
   std::vector<Vec3> expected = scene.points;
   expected.insert(expected.end(), more.points.begin(), more.points.end());
   sweep_exchange(
-      [&](Hierarchy& hierarchy) {
+      [&](ListedHierarchy& hierarchy) {
         for (const Vec3 p : more.points) hierarchy.insert(p);
       },
       expected, 30);
@@ -184,7 +184,7 @@ TEST(HierarchyFaults, RemoveLeavesItEmpty) {
   const Scene scene(kPoints);
   constexpr std::size_t kLeft = 10;
   sweep_exchange(
-      [&](Hierarchy& hierarchy) {
+      [&](ListedHierarchy& hierarchy) {
         for (std::size_t id = kLeft; id < kPoints; ++id) hierarchy.remove(static_cast<std::int32_t>(id));
       },
       {scene.points.begin(), scene.points.begin() + kLeft}, 50);
@@ -199,8 +199,8 @@ TEST(HierarchyFaults, RenumberLeavesItAsItWas) {
   Asked asked;
   asked.answer(turned);
   expect_sound(
-      sweep([&] { return changes.built(); }, [&](Hierarchy& hierarchy) { hierarchy.renumber(reversed); },
-            [&](Hierarchy& hierarchy, Ending ending) {
+      sweep([&] { return changes.built(); }, [&](ListedHierarchy& hierarchy) { hierarchy.renumber(reversed); },
+            [&](ListedHierarchy& hierarchy, Ending ending) {
               if (ending == Ending::threw) {
                 const std::string fault = list_fault(hierarchy, changes.asked_first);
                 if (!fault.empty()) return fault;

@@ -61,7 +61,7 @@ std::vector<NamedRequest> all_requests() {
 
 /// Hierarchies that hold the points, one that has made no list and one that has made small ones.
 struct Subject {
-  Hierarchy hierarchy;
+  ListedHierarchy hierarchy;
   NeighborList list;
 };
 
@@ -73,12 +73,12 @@ class ListFaults : public ::testing::TestWithParam<NamedRequest> {
   }
 
   Subject fresh(Executor* executor) const {
-    Subject subject{Hierarchy(params_for(executor)), {}};
+    Subject subject{ListedHierarchy(params_for(executor)), {}};
     subject.hierarchy.build(scene_.points, scene_.box);
     return subject;
   }
   Subject used(Executor* executor) const {
-    Subject subject{Hierarchy(params_for(executor)), {}};
+    Subject subject{ListedHierarchy(params_for(executor)), {}};
     const Scene thin(20);
     ListParams request;
     request.cutoffs = TypeCutoffs(0.3);
@@ -122,7 +122,7 @@ TEST_P(ListFaults, TheNextListOnThreadsIsRight) {
 /// The same that cluster pairs are made for.
 TEST_P(ListFaults, TheNextClusterPairsAreRight) {
   struct Pairs {
-    Hierarchy hierarchy;
+    ListedHierarchy hierarchy;
     ClusterPairs pairs;
   };
   const Scene moved = scene_.shaken(0.02);
@@ -141,14 +141,14 @@ TEST_P(ListFaults, TheNextClusterPairsAreRight) {
     return after(ending, fault);
   };
   const auto searched_before = [&] {
-    Pairs subject{Hierarchy(params_for()), {}};
+    Pairs subject{ListedHierarchy(params_for()), {}};
     subject.hierarchy.build(scene_.points, scene_.box);
     call(subject);
     subject.hierarchy.update(moved.points, moved.box);
     return subject;
   };
   const auto fresh = [&] {
-    Pairs subject{Hierarchy(params_for()), {}};
+    Pairs subject{ListedHierarchy(params_for()), {}};
     subject.hierarchy.build(moved.points, moved.box);
     return subject;
   };
@@ -173,7 +173,7 @@ TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
   Asked asked;
   asked.request.cutoffs = TypeCutoffs(0.9);
   asked.answer(scene);
-  Hierarchy hierarchy(params_for());
+  ListedHierarchy hierarchy(params_for());
   hierarchy.build(scene.points, scene.box);
   for (int turn = 0; turn < 40; ++turn) {
     const Refusing refusing(turn);
@@ -193,7 +193,7 @@ TEST(ListsFaults, SeveralListsAreRightTheNextTime) {
   with_types(typed);
   for (Asked* asked : {&wide, &narrow, &typed}) asked->answer(scene);
   struct Lists {
-    Hierarchy hierarchy;
+    ListedHierarchy hierarchy;
     std::vector<NeighborList> lists;
   };
   for (const auto& requests : {std::vector<ListParams>{narrow.request, wide.request},
@@ -202,7 +202,7 @@ TEST(ListsFaults, SeveralListsAreRightTheNextTime) {
     const auto call = [&](Lists& subject) { subject.hierarchy.lists(requests, subject.lists); };
     expect_sound(sweep(
                      [&] {
-                       Lists subject{Hierarchy(params_for()), {}};
+                       Lists subject{ListedHierarchy(params_for()), {}};
                        subject.hierarchy.build(scene.points, scene.box);
                        return subject;
                      },

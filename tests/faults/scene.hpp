@@ -7,7 +7,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "list_compare.hpp"
 #include "random.hpp"
@@ -73,12 +73,12 @@ inline std::string after(Ending ending, const std::string& fault) {
 }
 
 /// Empty, or why an object that threw is neither as before nor empty.
-inline std::string fault_of_empty(const Hierarchy& hierarchy) {
+inline std::string fault_of_empty(ListedHierarchy& hierarchy) {
   if (hierarchy.size() != 0) return "the hierarchy still has " + std::to_string(hierarchy.size()) + " points";
   return hierarchy.validate();
 }
 
-inline std::string list_fault(Hierarchy& hierarchy, const Asked& asked) {
+inline std::string list_fault(ListedHierarchy& hierarchy, const Asked& asked) {
   const std::string invalid = hierarchy.validate();
   if (!invalid.empty()) return invalid;
   NeighborList list;

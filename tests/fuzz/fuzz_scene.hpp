@@ -9,6 +9,7 @@
 
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 #include "fuzz_input.hpp"

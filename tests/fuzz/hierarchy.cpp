@@ -4,7 +4,7 @@
 // those of all pairs.
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "fuzz_scene.hpp"
 #include "list_compare.hpp"
@@ -145,7 +145,7 @@ class Run {
   FuzzInput& input_;
   Box box_;
   double radius_;
-  Hierarchy hierarchy_;
+  ListedHierarchy hierarchy_;
   std::vector<std::int32_t> ids_;
   std::vector<Vec3> points_;  ///< by id; those of free ids mean nothing
 };

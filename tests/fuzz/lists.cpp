@@ -7,7 +7,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/engines/pair_search.hpp>
 #include <dch/engines/verlet_list.hpp>
 
@@ -99,9 +99,9 @@ void run(FuzzInput& input) {
     const NeighborList expected = all_pairs(scene.points, scene.box, scene.request);
     by_hierarchy->update(scene.points, scene.box);
     compare(*by_hierarchy, scene, expected, "hierarchy, step " + std::to_string(step));
-    if (Hierarchy* hierarchy = hierarchy_of(*by_hierarchy); hierarchy && can_be_cluster_pairs) {
+    if (by_hierarchy->has_cluster_pairs() && can_be_cluster_pairs) {
       ClusterPairs pairs;
-      hierarchy->cluster_pairs(scene.request, pairs);
+      by_hierarchy->cluster_pairs(scene.request, pairs);
       require_none(cluster_pair_fault(pairs, scene.points, scene.box, scene.request), "cluster pairs");
     }
     by_cells->update(scene.points, scene.box);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "cluster_pair_check.hpp"
 #include "scenes.hpp"
@@ -23,12 +23,12 @@ ListParams request_for(double cutoff) {
   return request;
 }
 
-Hierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
+ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
                        double base_radius = 0) {
   HierarchyParams params;
   params.radius = radius;
   params.base_radius = base_radius;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   return hierarchy;
 }
@@ -44,12 +44,12 @@ struct TwoNodes {
   }
   std::vector<Vec3> points{{0, 0, 0}, {30, 0, 0}};
   scenes::Random random{12};
-  Hierarchy hierarchy;
+  ListedHierarchy hierarchy;
 };
 
 TEST(ClusterPairsEdges, GhostsAloneMakeNoPairs) {
   const std::vector<Vec3> points = scenes::uniform(60, {2, 2, 2}, 4);
-  Hierarchy hierarchy = hierarchy_of(points, Box::none(), 1);
+  ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 1);
   ListParams request = request_for(1);
   for (const std::int32_t first_ghost : {0, 1, 59, 60}) {
     request.first_ghost = first_ghost;
@@ -77,7 +77,7 @@ TEST(ClusterPairsEdges, SinglePrecisionLosesNoPairAtTheCutoffAndKeepsFewBeyond) 
         points.push_back(start + 0.9 * direction);
         points.push_back(start + (1.9 + beyond) * direction);
       }
-      Hierarchy hierarchy = hierarchy_of(points, Box::none(), 1, with_others ? 0.95 : 0.5);
+      ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 1, with_others ? 0.95 : 0.5);
       ListParams request = request_for(1);
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request, pairs);
@@ -94,7 +94,7 @@ TEST(ClusterPairsEdges, SinglePrecisionLosesNoPairAtTheCutoffAndKeepsFewBeyond) 
 // nodes for eight searches.
 TEST(ClusterPairsEdges, OrdersOfPointsAreGoodForEightSearches) {
   TwoNodes nodes(40);
-  Hierarchy& hierarchy = nodes.hierarchy;
+  ListedHierarchy& hierarchy = nodes.hierarchy;
   std::vector<Vec3> moved = nodes.points;
   std::reverse(moved.begin() + 2, moved.end());  // each to its own node, since they are in turns
   for (std::size_t k = 2; k + 1 < moved.size(); k += 2) std::swap(moved[k], moved[k + 1]);
@@ -156,7 +156,7 @@ TEST(ClusterPairsEdges, OrdersOfPointsAreNotKeptForThoseThatAreLeft) {
 // The box of the first node comes within the cutoff of the third point, none of its points does.
 TEST(ClusterPairsEdges, ClustersAreNoPairUnlessPointsOfTheirsAre) {
   const std::vector<Vec3> points{{0, 0, 0}, {0.5, 0.5, 0}, {0.7, -0.2, 0}};
-  Hierarchy hierarchy = hierarchy_of(points, Box::none(), 0.3, 0.72);
+  ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 0.3, 0.72);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(0.3), pairs);
   ASSERT_EQ(pairs.origin.size(), 2u);
@@ -166,7 +166,7 @@ TEST(ClusterPairsEdges, ClustersAreNoPairUnlessPointsOfTheirsAre) {
 TEST(ClusterPairsEdges, CutoffsByTypesAreNotLookedAtWhereRadiiAreGiven) {
   const std::vector<Vec3> points = scenes::uniform(60, {2, 2, 2}, 4);
   const std::vector<double> radii(points.size(), 0.5);
-  Hierarchy hierarchy = hierarchy_of(points, Box::none(), 1);
+  ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 1);
   ListParams request;
   request.radii = radii;
   request.cutoffs = TypeCutoffs(2, {0, 1, 1, 1});

@@ -5,7 +5,7 @@
 
 #include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "cluster_pair_check.hpp"
 #include "instruction_sets.hpp"
@@ -25,13 +25,13 @@ ListParams request_for(double cutoff, double skin = 0) {
   return request;
 }
 
-Hierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius, double base_radius = 0,
+ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius, double base_radius = 0,
                        Executor* executor = nullptr) {
   HierarchyParams params;
   params.radius = radius;
   params.base_radius = base_radius;
   params.executor = executor;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   return hierarchy;
 }
@@ -58,7 +58,7 @@ TEST_P(ClusterPairsScenes, HoldEveryPairOnce) {
   for (const std::size_t n : {0u, 1u, 2u, 3u, 4u, 5u, 17u, 100u, 350u})
     for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, n, kRadius / 2.1))
       for (const double base_radius : {0.0, 0.2 * kRadius, kRadius}) {
-        Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius, base_radius);
+        ListedHierarchy hierarchy = hierarchy_of(scene.points, box, kRadius, base_radius);
         ClusterPairs pairs;
         hierarchy.cluster_pairs(request_for(0.8, 0.2), pairs);
         ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request_for(0.8, 0.2)), "")
@@ -83,7 +83,7 @@ TEST_P(ClusterPairsScenes, LeaveOutExclusionsGhostsAndTypesWithoutACutoff) {
     ListParams all = typed;
     all.exclusions = &exclusions;
     all.first_ghost = ghosts.first_ghost;
-    Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
+    ListedHierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
     int kind = 0;
     for (const ListParams& request : {excluded, typed, ghosts, all}) {
       ClusterPairs pairs;
@@ -108,7 +108,7 @@ TEST_P(ClusterPairsScenes, HoldEveryPairOnceInTheSmallestBox) {
     for (const double base_radius : {0.0, 0.3 * box.max_cutoff(), 3 * box.max_cutoff()})
       for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 150, box.max_cutoff() / 2.1)) {
         const ListParams request = request_for(share * box.max_cutoff());
-        Hierarchy hierarchy = hierarchy_of(scene.points, box, box.max_cutoff(), base_radius);
+        ListedHierarchy hierarchy = hierarchy_of(scene.points, box, box.max_cutoff(), base_radius);
         ClusterPairs pairs;
         hierarchy.cluster_pairs(request, pairs);
         ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request), "")
@@ -125,7 +125,7 @@ TEST_P(ClusterPairsScenes, AreTheSameOnEveryInstructionSetAndAnyNumberOfThreads)
     for (const InstructionSet set : supported_sets()) {
       set_instruction_set(set);
       const auto pool = make_thread_pool(threads);
-      Hierarchy hierarchy = hierarchy_of(points, box, 0.5, 0.6, pool.get());
+      ListedHierarchy hierarchy = hierarchy_of(points, box, 0.5, 0.6, pool.get());
       ClusterPairs pairs;
       for (int repeat = 0; repeat < 2; ++repeat) hierarchy.cluster_pairs(request_for(0.5), pairs);
       if (expected.rows.empty()) {
@@ -143,7 +143,7 @@ TEST_P(ClusterPairsScenes, StayCompleteUnderMotionWithinTheSkin) {
   scenes::Random random(77);
   for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 300, kRadius / 2.1)) {
     if (scene.name == "one far point") continue;  // its motion is below rounding
-    Hierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
+    ListedHierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
     ClusterPairs pairs;
     hierarchy.cluster_pairs(request_for(cutoff, skin), pairs);
     std::vector<Vec3> moved = scene.points;
@@ -166,7 +166,7 @@ TEST_P(ClusterPairsScenes, StayCompleteUnderMotionWithinTheSkin) {
 TEST_P(ClusterPairsScenes, RefreshGivesWhatANewSearchGives) {
   const Box box = GetParam().box;
   std::vector<Vec3> points = scenes::uniform_in(box, 400, 5);
-  Hierarchy hierarchy = hierarchy_of(points, box, kRadius);
+  ListedHierarchy hierarchy = hierarchy_of(points, box, kRadius);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(kRadius), pairs);
   const auto before = pairs.at;
@@ -189,7 +189,7 @@ TEST_P(ClusterPairsScenes, FollowTheStructureUnderMotion) {
     std::vector<Vec3> points = scenes::uniform_in(box, 1200, 9);
     HierarchyParams params;
     params.radius = radius;
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     ClusterPairs pairs;
     for (int step = 0; step < 12; ++step) {
@@ -214,7 +214,7 @@ TEST(ClusterPairsTest, RefreshTakesAnotherShapeOfTheCell) {
   std::vector<Vec3> points = scenes::uniform_in(box, 500, 3), moved;
   for (const Vec3 p : points)
     moved.push_back(strained.wrap(scenes::from_fractional(strained, box.fractional(p))));
-  Hierarchy hierarchy = hierarchy_of(points, box, 1.2);
+  ListedHierarchy hierarchy = hierarchy_of(points, box, 1.2);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(1.2), pairs);
   pairs.refresh(moved, strained);
@@ -224,7 +224,7 @@ TEST(ClusterPairsTest, RefreshTakesAnotherShapeOfTheCell) {
 TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
   const Box box = Box::orthorhombic({5, 5, 5});
   std::vector<Vec3> points = scenes::uniform_in(box, 50, 3);
-  Hierarchy hierarchy = hierarchy_of(points, box, 1);
+  ListedHierarchy hierarchy = hierarchy_of(points, box, 1);
   ClusterPairs pairs;
   EXPECT_THROW(hierarchy.cluster_pairs(request_for(1.1), pairs), InvalidParameter);
   EXPECT_THROW(hierarchy.cluster_pairs(request_for(1e-10), pairs), InvalidParameter);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
 #include "random.hpp"
@@ -39,7 +39,7 @@ class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
     request.skin = 0.2;
     HierarchyParams params;
     params.radius = request.list_radius();
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     hierarchy.cluster_pairs(request, pairs);
   }

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "list_compare.hpp"
@@ -33,7 +34,7 @@ ListParams whole_list() {
 }
 
 /// The oracle's list with the points' ids in the place of their positions in the array.
-NeighborList oracle_by_id(const Hierarchy& hierarchy) {
+NeighborList oracle_by_id(ListedHierarchy& hierarchy) {
   std::vector<Vec3> points;
   std::vector<std::int32_t> ids;
   for (std::size_t id = 0; id < hierarchy.capacity(); ++id) {
@@ -64,7 +65,7 @@ TEST_P(HierarchyChurn, ValidUnderInsertionsAndRemovals) {
                              params_with(EdgeRule::thesis, 16), params_with(EdgeRule::thesis, 1)}) {
     scenes::Random random(3);
     const std::vector<Vec3> pool = scenes::uniform_in(box, 100 + operations, 17);
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(Span<const Vec3>(pool.data(), 100), box);
     std::vector<std::int32_t> alive(100);
     for (std::size_t i = 0; i < alive.size(); ++i) alive[i] = static_cast<std::int32_t>(i);
@@ -104,7 +105,7 @@ TEST_P(HierarchyChurn, ValidUnderMotionBetweenInsertionsAndRemovals) {
                                  params_with(EdgeRule::thesis, 1), params_with(EdgeRule::thesis, 16)}) {
     scenes::Random random(8);
     params.policy = MaintenancePolicy::always_repair;
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(scenes::uniform_in(box, 200, 5), box);
     for (int round = 0; round < effort(10); ++round) {
       std::vector<Vec3> points(hierarchy.capacity());
@@ -128,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Boxes, HierarchyChurn, ::testing::ValuesIn(scenes::all_
                          [](const auto& p) { return p.param.name; });
 
 TEST(HierarchyChurn, CoincidentAndFarPointsMayComeAndGo) {
-  Hierarchy hierarchy(params_with(EdgeRule::additive, 1));
+  ListedHierarchy hierarchy(params_with(EdgeRule::additive, 1));
   hierarchy.build({}, Box::none());
   std::vector<std::int32_t> ids;
   for (int k = 0; k < 40; ++k) {
@@ -145,7 +146,7 @@ TEST(HierarchyChurn, CoincidentAndFarPointsMayComeAndGo) {
 // update.
 TEST(HierarchyChurn, PointsInsertedFromFarOutsideTheBoxAreListedRightly) {
   const Box box = Box::orthorhombic({5, 5.5, 6});
-  Hierarchy hierarchy(params_with(EdgeRule::additive, 16));
+  ListedHierarchy hierarchy(params_with(EdgeRule::additive, 16));
   hierarchy.build(scenes::uniform_in(box, 400, 3), box);
   scenes::Random random(4);
   for (int k = 0; k < 20; ++k) hierarchy.insert(random.in_cube(1e12));

@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 #include <thread>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "list_compare.hpp"
@@ -51,7 +52,7 @@ TEST_P(HierarchyMotion, ListsStayExactWhileRepairIsPutOff) {
       HierarchyParams params;
       params.radius = kRadius;
       params.base_radius = base_radius;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       std::vector<Vec3> points = scenes::uniform_in(box, 400, 9);
       hierarchy.build(points, box);
       scenes::Random random(10);
@@ -91,7 +92,7 @@ TEST(HierarchyMotion, NoMotionChangesNothing) {
   const Box box = Box::orthorhombic({6, 6, 6});
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
     const std::vector<Vec3> points = scenes::uniform_in(box, 1000, 1);
-    Hierarchy hierarchy(repairing(rule));
+    ListedHierarchy hierarchy(repairing(rule));
     hierarchy.build(points, box);
     for (int pass = 0; pass < 5; ++pass) hierarchy.update(points, box);
     EXPECT_EQ(hierarchy.stats().promotions, 0);
@@ -103,7 +104,7 @@ TEST(HierarchyMotion, NoMotionChangesNothing) {
 TEST(HierarchyMotion, BoxesMayChangeFromOneUpdateToTheNext) {
   scenes::Random random(4);
   std::vector<Vec3> points = scenes::uniform(300, {6, 6, 6}, 2);
-  Hierarchy hierarchy(repairing());
+  ListedHierarchy hierarchy(repairing());
   hierarchy.build(points, Box::none());
   for (int step = 0; step < 60; ++step) {
     const double a = 5 + random.uniform(), b = 5 + random.uniform(), tilt = 4 * random.uniform() - 2;
@@ -122,13 +123,13 @@ TEST(HierarchyMotion, TheHistoryOfTheStructureDoesNotShowInTheList) {
   const Box box = Box::orthorhombic({6, 6, 6});
   std::vector<Vec3> points = scenes::uniform_in(box, 500, 2);
   scenes::Random random(12);
-  Hierarchy repaired(repairing());
+  ListedHierarchy repaired(repairing());
   repaired.build(points, box);
   for (int step = 0; step < 20; ++step) {
     for (Vec3& p : points) p = p + random.in_cube(0.2);
     repaired.update(points, box);
   }
-  Hierarchy fresh(repairing());
+  ListedHierarchy fresh(repairing());
   fresh.build(points, box);
   NeighborList a, b;
   repaired.list(whole_list(), a);

@@ -5,7 +5,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/base/instruction_set.hpp>
 
 #include "instruction_sets.hpp"
@@ -42,7 +42,7 @@ TEST_P(HierarchyScenes, ValidAfterBuild) {
     for (const std::size_t n : {0u, 1u, 2u, 3u, 17u, 100u, 400u})
       for (const scenes::NamedPoints& scene :
            scenes::hard_point_sets(box, n, params.radius / (2 * params.c))) {
-        Hierarchy hierarchy(params);
+        ListedHierarchy hierarchy(params);
         hierarchy.build(scene.points, box);
         ASSERT_EQ(hierarchy.validate(), "") << scene.name << ", n = " << n << ", c = " << params.c;
       }
@@ -76,7 +76,7 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
           HierarchyParams hierarchy_params;
           hierarchy_params.radius = kRadius;
           hierarchy_params.base_radius = base_radius;
-          Hierarchy hierarchy(hierarchy_params);
+          ListedHierarchy hierarchy(hierarchy_params);
           hierarchy.build(scene.points, box);
           NeighborList first_set;
           for (const InstructionSet set : supported_sets()) {
@@ -115,7 +115,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfClusters) {
       HierarchyParams params;
       params.radius = radius;
       params.base_radius = factor * radius;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       hierarchy.build(points, box);
       NeighborList list;
       hierarchy.list(list_params, list);
@@ -137,7 +137,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheNumberOfThreads) {
     params.radius = 0.4;
     params.base_radius = 0.7;
     params.executor = pool.get();
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     NeighborList list;
     for (int repeat = 0; repeat < 2; ++repeat) hierarchy.list(list_params, list);
@@ -164,7 +164,7 @@ TEST_P(HierarchyScenes, ListsEqualTheOracleInTheSmallestBox) {
       params.base_radius = base_radius;
       for (const scenes::NamedPoints& scene :
            scenes::hard_point_sets(box, 150, params.radius / (2 * params.c))) {
-        Hierarchy hierarchy(params);
+        ListedHierarchy hierarchy(params);
         hierarchy.build(scene.points, box);
         ASSERT_EQ(hierarchy.validate(), "") << scene.name;
         NeighborList list;

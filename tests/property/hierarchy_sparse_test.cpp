@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "list_compare.hpp"
 #include "scenes.hpp"
@@ -57,7 +57,7 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
     for (const double step : {0.01, 0.3, 3.0, 40.0}) {
       std::vector<Vec3> points = scene_in(box, 150, 120, 5);
       scenes::Random random(6);
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       hierarchy.build(points, box);
       ASSERT_EQ(hierarchy.validate(), "") << "after the build";
       for (int s = 0; s < effort(12); ++s) {
@@ -82,7 +82,7 @@ TEST_P(HierarchySparse, ValidUnderInsertionsAndRemovals) {
   for (const HierarchyParams& params : variants()) {
     const std::vector<Vec3> points = scene_in(box, 60, 100, 9);
     scenes::Random random(10);
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     for (int operation = 0; operation < effort(120); ++operation) {
       const auto id = static_cast<std::int32_t>(random.below(hierarchy.capacity()));
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(WideBoxes, HierarchySparse, ::testing::ValuesIn(scenes:
 // Gas that becomes denser and denser, and thinner again.
 TEST(HierarchySparse, ValidWhileTheBoxChanges) {
   const std::vector<Vec3> fractional = scenes::uniform(250, {1, 1, 1}, 4);
-  Hierarchy hierarchy(repairing());
+  ListedHierarchy hierarchy(repairing());
   for (const double width : {500.0, 100.0, 20.0, 6.0, 30.0, 300.0, 2000.0}) {
     const Box box = Box::orthorhombic({width, width, width});
     std::vector<Vec3> points;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
 #include "instruction_sets.hpp"
@@ -135,7 +135,7 @@ TEST(LennardJonesMixingTest, EqualsAllPairs) {
       const Gas gas = make_gas(scatter, 300, kinds, static_cast<std::uint64_t>(kinds));
       HierarchyParams params;
       params.radius = kCutoff + kSkin;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       hierarchy.build(gas.points, box);
       ListParams request;
       request.skin = kSkin;
@@ -164,7 +164,7 @@ TEST(LennardJonesMixingTest, FewerParticlesThanThreads) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}};
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, Box::none());
   ListParams request;
   request.cutoffs = TypeCutoffs(2);
@@ -211,7 +211,7 @@ TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
   const std::vector<Vec3> points(3);
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, Box::none());
   ListParams request;
   request.cutoffs = TypeCutoffs(2);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
 #include "instruction_sets.hpp"
@@ -64,7 +64,7 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
     }
 }
 
-PairList pair_list_of(Hierarchy& hierarchy, const ListParams& request, const std::vector<Vec3>& points,
+PairList pair_list_of(ListedHierarchy& hierarchy, const ListParams& request, const std::vector<Vec3>& points,
                       const Box& box) {
   NeighborList list;
   PairList pairs;
@@ -108,7 +108,7 @@ TEST_P(LennardJonesScenes, EqualsAllPairs) {
       const std::vector<Vec3> points = liquid(box, n, 0.85, 21 + n);
       HierarchyParams params;
       params.radius = kCutoff + kSkin;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       hierarchy.build(points, box);
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
@@ -127,7 +127,7 @@ TEST_P(LennardJonesScenes, EqualsAllPairsAfterMotion) {
   const std::vector<Vec3> points = liquid(box, 500, 1.15, 6);
   HierarchyParams params;
   params.radius = kCutoff + kSkin;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(kCutoff, kSkin), pairs);
@@ -178,7 +178,7 @@ TEST_P(LennardJonesScenes, EqualsAllPairsForManyTypesExclusionsAndGhosts) {
     request.first_ghost = static_cast<std::int32_t>(points.size() / 2);
     HierarchyParams params;
     params.radius = kCutoff + kSkin;
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     ClusterPairs pairs;
     hierarchy.cluster_pairs(request, pairs);
@@ -221,7 +221,7 @@ TEST_P(LennardJonesScenes, EqualsAllPairsWithCharges) {
       if (types > 1) request.types = type;
       HierarchyParams params;
       params.radius = kCutoff + kSkin;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       hierarchy.build(points, box);
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request, pairs);
@@ -248,7 +248,7 @@ TEST(LennardJonesTest, MixedPrecisionDoesNotDependOnTheBox) {
     const std::vector<Vec3> points = liquid(box, 1100, 0.88, 30);
     HierarchyParams params;
     params.radius = 2.8;
-    Hierarchy hierarchy(params);
+    ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     ClusterPairs pairs;
     hierarchy.cluster_pairs(request_for(2.5, 0.3), pairs);
@@ -264,7 +264,7 @@ TEST(LennardJonesTest, AddsToTheForcesThatAreThere) {
   const std::vector<Vec3> points{{0, 0, 0}, {1.2, 0, 0}};
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, Box::none());
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(2, 0), pairs);
@@ -292,7 +292,7 @@ TEST(LennardJonesTest, RefusesWhatDoesNotFit) {
   const std::vector<std::int32_t> types{0, 1};
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, Box::none());
   ClusterPairs pairs;
   ListParams request = request_for(2, 0);
@@ -317,7 +317,7 @@ TEST(LennardJonesTest, APairListFollowsACellThatChangesItsShape) {
   for (const Vec3 p : points) moved.push_back(scenes::from_fractional(strained, box.fractional(p)));
   HierarchyParams params;
   params.radius = kCutoff + kSkin;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   const PairList pairs = pair_list_of(hierarchy, request_for(kCutoff, kSkin), points, box);
   EXPECT_GT(pairs.groups.size(), 5u);
@@ -338,7 +338,7 @@ TEST(LennardJonesTest, RefusesPairListsThatDoNotFit) {
   const std::vector<Vec3> points = liquid(box, 50, 0.9, 3);
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   const auto all = [](std::int32_t, std::int32_t) { return true; };
   NeighborList half, full;
@@ -376,7 +376,7 @@ TEST(LennardJonesTest, RefusesChargesThatDoNotFit) {
   const std::vector<Vec3> points{{0, 0, 0}, {1.8, 0, 0}};
   HierarchyParams params;
   params.radius = 2;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, Box::none());
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request_for(2, 0), pairs);

@@ -10,7 +10,7 @@
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/base/instruction_set.hpp>
 
 #include "effort.hpp"

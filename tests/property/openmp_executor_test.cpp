@@ -12,7 +12,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

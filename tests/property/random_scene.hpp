@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/base/instruction_set.hpp>
 
 #include "instruction_sets.hpp"
@@ -78,9 +79,7 @@ class RandomScene {
                 "")
           << "step " << step << ", " << what_;
     }
-    if (const Hierarchy* hierarchy = hierarchy_of(*search)) {
-      ASSERT_EQ(hierarchy->validate(), "") << what_;
-    }
+    ASSERT_EQ(search->validate(), "") << what_;
   }
 
  private:

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "instruction_sets.hpp"
 #include "scenes.hpp"
@@ -77,7 +77,7 @@ Outcome run(const Box& box, bool keys, Executor* executor, Pause pause) {
     search->update(points, box, keys ? Span<const std::uint64_t>(names) : Span<const std::uint64_t>());
     outcome.lists.push_back(search->list(request));
     outcome.pairs.emplace_back();
-    hierarchy_of(*search)->cluster_pairs(request, outcome.pairs.back());
+    search->cluster_pairs(request, outcome.pairs.back());
     const SearchStats& s = search->stats();
     outcome.work.insert(outcome.work.end(), {s.builds, s.repairs, s.refreshes, s.promotions, s.demotions,
                                              s.reparented, s.distances, s.inserted, s.removed});

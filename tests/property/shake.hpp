@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "list_compare.hpp"
@@ -26,7 +26,7 @@ inline void shake(std::vector<Vec3> points, const Box& box, const HierarchyParam
                   int full_steps, std::uint64_t seed) {
   const int steps = effort(full_steps);
   scenes::Random random(seed);
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   for (int s = 0; s < steps; ++s) {
     for (Vec3& p : points) p = p + random.in_cube(step);

@@ -7,9 +7,10 @@
 #include <thread>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
 #include "effort.hpp"
@@ -89,7 +90,7 @@ TEST(SharedExecutor, ThreadsSumUpForcesSideBySide) {
   request.cutoffs = TypeCutoffs(1.5);
   HierarchyParams params;
   params.radius = 1.5;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   hierarchy.build(points, box);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request, pairs);

@@ -19,7 +19,7 @@ void ClusterPairLists::forget() {
 
 void ClusterPairLists::make() {
   search_->update(scene_->positions, scene_->box);
-  hierarchy_of(*search_)->cluster_pairs(request_, pairs_);
+  search_->cluster_pairs(request_, pairs_);
 }
 
 PairSum ClusterPairLists::pairs_within(const Scene&) const {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "peer_lists.hpp"
 

@@ -103,18 +103,18 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   pairs.entries.resize(static_cast<std::size_t>(to));
 }
 
-void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::Hierarchy& hierarchy, dch::ListParams params,
+void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        ClusterList& list) {
   params.order = dch::RowOrder::by_structure;
   params.superset = true;
-  hierarchy.list(params, rows_);
+  search.list(params, rows_);
   const bool any = leaves_out_any(points);
   const auto accept = [&](int i, int j) { return !any || !is_left_out(points, i, j); };
   dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
                       list.pair_list);
 }
 
-void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list) {
+void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list) {
   list.in_box = points.in_box();
   dch::ListParams params;
   params.cutoffs = cutoffs(list);
@@ -132,13 +132,13 @@ void ClusterListFiller::fill(AtomPoints& points, dch::Hierarchy& hierarchy, doub
   if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
   if (list.one_by_one) {
     params.shell = skin;
-    fill_pair_list(points, hierarchy, params, list);
+    fill_pair_list(points, search, params, list);
     if (static_cast<double>(list.count()) <= kFewNeighbors * points.owned()) return;
     list.one_by_one = false;
     list.pair_list = {};
   }
   params.shell = 0;
-  hierarchy.cluster_pairs(params, list.pairs);
+  search.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
 }
 

@@ -7,7 +7,7 @@
 
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/lists/exclusions.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/pair_list.hpp>
 
 #include "atom_points.h"
@@ -53,9 +53,9 @@ class ClusterListFiller : protected Pointers {
   ClusterListFiller(LAMMPS* lammps, SpecialPairs& special, const PairRules& rules)
       : Pointers(lammps), special_(special), rules_(rules) {}
 
-  /// @param hierarchy brought up to date with the points
+  /// @param search brought up to date with the points
   /// @param skin that the cutoffs have now [length]
-  virtual void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list);
+  virtual void fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list);
   /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
   /// (-1).
   const std::vector<std::int32_t>& order(const ClusterList& list) const {
@@ -69,7 +69,7 @@ class ClusterListFiller : protected Pointers {
   bool leaves_out_any(const AtomPoints& points) const;
   bool is_left_out(const AtomPoints& points, int i, int j) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
-  void fill_pair_list(AtomPoints& points, dch::Hierarchy& hierarchy, dch::ListParams params,
+  void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                       ClusterList& list);
 
   SpecialPairs& special_;

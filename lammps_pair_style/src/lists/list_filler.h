@@ -5,6 +5,7 @@
 #include <lammps_host.h>
 #include <vector>
 
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 #include "atom_points.h"

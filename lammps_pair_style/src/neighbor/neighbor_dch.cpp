@@ -11,6 +11,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/base/error.hpp>
 
 #include "fix_dch_order.h"
@@ -254,7 +255,7 @@ void NeighborDCH::fill_lists() {
 void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
   for (const ServedClusters& clusters : clusters_) {
-    cluster_filler_->fill(points_, *dch::hierarchy_of(*search_), present_skin(), *clusters.list);
+    cluster_filler_->fill(points_, *search_, present_skin(), *clusters.list);
     run_.entries += clusters.list->count();
     run_.clusters_seconds += seconds_since(clock);
   }

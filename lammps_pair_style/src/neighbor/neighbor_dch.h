@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/forces/lennard_jones.hpp>
 #include <dch/engines/pair_search.hpp>
 

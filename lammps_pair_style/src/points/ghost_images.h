@@ -5,7 +5,7 @@
 #include <lammps_host.h>
 #include <vector>
 
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/base/vec3.hpp>
 
 #include "tag_table.h"

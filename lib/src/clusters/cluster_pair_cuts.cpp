@@ -9,7 +9,6 @@
 
 #include "geometry/binary_grid.hpp"
 #include "clusters/cluster_pair_finder.hpp"
-#include "hierarchy/leaf_points.hpp"
 #include "geometry/metric.hpp"
 
 namespace dch::detail {

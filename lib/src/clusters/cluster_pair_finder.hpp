@@ -7,7 +7,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 
 #include "hierarchy/build/block_order.hpp"
 #include "geometry/lattice.hpp"
@@ -31,7 +31,7 @@ class ClusterPairFinder {
     const Metric& metric;
     const Box& box;
     const Level& nodes;
-    const PointBlocks& points;
+    const LeafBlocks& points;
     Span<const Vec3> positions;  ///< as given, by id
     const ListParams& request;
     double reach;  ///< within which wrapped points may be a pair [length]
@@ -86,7 +86,7 @@ class ClusterPairFinder {
   };
   struct Cuts {
     std::vector<Cut> of_node;
-    std::vector<std::int32_t> id;     ///< points as PointBlocks has them
+    std::vector<std::int32_t> id;     ///< points as LeafBlocks has them
     std::vector<std::int32_t> place;  ///< which of those comes next in the order
   };
 

@@ -9,7 +9,6 @@
 
 #include "geometry/binary_grid.hpp"
 #include "geometry/lattice.hpp"
-#include "hierarchy/leaf_points.hpp"
 #include "base/describe.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
 

@@ -7,7 +7,6 @@
 
 #include <dch/base/error.hpp>
 
-#include "hierarchy/structure.hpp"
 #include "base/seconds_since.hpp"
 #include "engines/sized_search.hpp"
 
@@ -28,15 +27,42 @@ void DchSearch::update(Span<const Vec3> positions, const Box& box, Span<const st
     }
   } catch (...) {
     state_ = State::empty;
-    hierarchy_.impl_->reset(Box());  // takes no memory, which may be what there is none of
+    hierarchy_.clear();
     throw;
   }
   ++updates_;
   maintain_seconds_ += seconds_since(start);
 }
 
+void DchSearch::list(const ListParams& params, NeighborList& out) {
+  const auto start = Clock::now();
+  list_maker_.list(hierarchy_.view(), params, out);
+  list_seconds_ += seconds_since(start);
+}
+
+void DchSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  const auto start = Clock::now();
+  list_maker_.lists(hierarchy_.view(), requests, out);
+  list_seconds_ += seconds_since(start);
+}
+
+void DchSearch::cluster_pairs(const ListParams& params, ClusterPairs& out) {
+  const auto start = Clock::now();
+  pair_maker_.make(hierarchy_.view(), params, out);
+  list_seconds_ += seconds_since(start);
+}
+
+std::vector<LevelInfo> DchSearch::levels() {
+  const HierarchyView view = hierarchy_.view();
+  std::vector<LevelInfo> all;
+  for (int i = 0; i < view.levels(); ++i) all.push_back(view.level(i));
+  return all;
+}
+
 const SearchStats& DchSearch::stats() const {
   stats_ = hierarchy_.stats();
+  stats_.memory_bytes += list_maker_.memory_bytes() + pair_maker_.memory_bytes();
+  stats_.list_seconds = list_seconds_;
   stats_.updates = updates_;
   stats_.maintain_seconds = maintain_seconds_;
   return stats_;
@@ -88,7 +114,7 @@ bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys
   }
   const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
   if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
-      !hierarchy_.impl_->exchange_pays(exchanged))
+      !hierarchy_.exchange_pays(exchanged))
     return false;
   for (std::size_t id = 0; id < before; ++id)
     if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));
@@ -110,16 +136,6 @@ std::unique_ptr<PairSearch> make_dch_search(double radius) {
   HierarchyParams params;
   params.radius = radius;
   return make_dch_search(params);
-}
-
-const Hierarchy* hierarchy_of(const PairSearch& search) {
-  const auto* engine = dynamic_cast<const detail::DchSearch*>(&search);
-  return engine ? &engine->hierarchy() : nullptr;
-}
-
-Hierarchy* hierarchy_of(PairSearch& search) {
-  auto* engine = dynamic_cast<detail::DchSearch*>(&search);
-  return engine ? &engine->hierarchy() : nullptr;
 }
 
 }  // namespace dch

@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <dch/clusters/cluster_pair_maker.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/list_maker.hpp>
 
 #include "base/key_table.hpp"
 
@@ -18,15 +21,17 @@ class DchSearch final : public PairSearch {
   explicit DchSearch(const HierarchyParams& params) : hierarchy_(params) {}
 
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
-  void list(const ListParams& params, NeighborList& out) override { hierarchy_.list(params, out); }
-  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override {
-    hierarchy_.lists(requests, out);
-  }
+  void list(const ListParams& params, NeighborList& out) override;
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
   using PairSearch::list;
+  using PairSearch::lists;
+  void cluster_pairs(const ListParams& params, ClusterPairs& out) override;
+  bool has_cluster_pairs() const override { return true; }
 
+  std::string validate() override { return dch::validate(hierarchy_.view()); }
+  std::vector<LevelInfo> levels() override;
   const SearchStats& stats() const override;
   std::string name() const override { return "dch"; }
-  const Hierarchy& hierarchy() const { return hierarchy_; }
   Hierarchy& hierarchy() { return hierarchy_; }
 
  private:
@@ -37,11 +42,13 @@ class DchSearch final : public PairSearch {
   bool match(Span<const Vec3> positions, Span<const std::uint64_t> keys);
 
   Hierarchy hierarchy_;
+  ListMaker list_maker_;
+  ClusterPairMaker pair_maker_;
   State state_ = State::empty;
   KeyTable keys_, fresh_keys_;
   std::vector<std::uint64_t> names_;  ///< the keys of the last update, in order
   std::int64_t updates_ = 0;
-  double maintain_seconds_ = 0;
+  double maintain_seconds_ = 0, list_seconds_ = 0;
   mutable SearchStats stats_;
 };
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/base/span.hpp>
 
 namespace dch::detail {

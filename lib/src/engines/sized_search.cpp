@@ -8,10 +8,11 @@
 
 #include <dch/base/error.hpp>
 
-#include "hierarchy/structure.hpp"
+#include "geometry/tolerance.hpp"
 #include "base/key_table.hpp"
 #include "geometry/position_check.hpp"
 #include "lists/list_check.hpp"
+#include "lists/reach.hpp"
 #include "base/seconds_since.hpp"
 
 namespace dch::detail {
@@ -27,18 +28,6 @@ double own_reach(const SizeClasses& classes, std::size_t g) {
   for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
     reach = std::max(reach, classes.reach_of(g, b));
   return reach;
-}
-
-void add(const SearchStats& more, SearchStats& sum) {
-  sum.builds += more.builds;
-  sum.refreshes += more.refreshes;
-  sum.repairs += more.repairs;
-  sum.promotions += more.promotions;
-  sum.demotions += more.demotions;
-  sum.reparented += more.reparented;
-  sum.distances += more.distances;
-  sum.inserted += more.inserted;
-  sum.removed += more.removed;
 }
 
 }  // namespace
@@ -58,7 +47,7 @@ void SizedSearch::clear() {
 
 /// Counts what the search of a group did, if it has one.
 void SizedSearch::retire(const Group& group) {
-  if (group.search) add(group.search->stats(), retired_);
+  if (group.search) retired_ += group.search->stats();
 }
 
 void SizedSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
@@ -106,16 +95,17 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
 /// The hierarchies of all groups, which are up to date.
 ListScene SizedSearch::scene() {
   double error = 0;
-  std::vector<ListSource> sources;
+  sources_.clear();
   for (Group& group : groups_) {
-    Hierarchy::Impl& hierarchy = *group.search->hierarchy().impl_;
-    error = std::max(error, hierarchy.prepare_for_lists());
-    sources.push_back(hierarchy.list_source({group.particle, names_version_}));
+    const Structure& hierarchy = group.search->hierarchy().view().structure();
+    error = std::max(error, distance_error(hierarchy));
+    group.source.structure = &hierarchy;
+    group.source.ids = {group.particle, ids_version_};
+    sources_.push_back(&group.source);
   }
-  error += 32 * std::numeric_limits<double>::epsilon() * params_.radius;  // distances between classes too
-  error += host_error_;
-  ListScene scene{box_, std::move(sources), classes_.reach, error, params_.executor};
-  for (double& reach : scene.reach) reach = (reach + error) * (1 + 1e-12);
+  error += rounding_of_leaves(params_.radius) + host_error_;  // distances between classes too
+  ListScene scene{box_, sources_, classes_.reach, error, params_.executor};
+  for (double& reach : scene.reach) reach = (reach + error) * kInflate;
   return scene;
 }
 
@@ -138,7 +128,7 @@ void SizedSearch::classify(Span<const ListParams> requests) {
   sizes_.forget();
   classes_ = SizeClasses(requests, positions_.size(), can_be_told_apart);
   told_apart_ = can_be_told_apart;
-  ++names_version_;
+  ++ids_version_;
   assign_particles();
   sizes_.keep(requests);  // last, when all goes by them
 }
@@ -194,6 +184,14 @@ void SizedSearch::bring_up_to_date() {
   stale_ = false;
 }
 
+std::string SizedSearch::validate() {
+  for (Group& group : groups_) {
+    const std::string fault = group.search ? group.search->validate() : std::string();
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
 const SearchStats& SizedSearch::stats() const {
   stats_ = retired_;
   stats_.memory_bytes = positions_.capacity() * sizeof(Vec3) + keys_.capacity() * sizeof(std::uint64_t) +
@@ -202,9 +200,9 @@ const SearchStats& SizedSearch::stats() const {
   for (const Group& group : groups_) {
     if (!group.search) continue;
     const SearchStats& own = group.search->stats();
-    add(own, stats_);
+    stats_ += own;
     stats_.levels = std::max(stats_.levels, own.levels);
-    stats_.memory_bytes += own.memory_bytes + group.particle.capacity() * sizeof(std::int32_t) +
+    stats_.memory_bytes += own.memory_bytes + group.source.memory_bytes() + group.particle.capacity() * sizeof(std::int32_t) +
                            group.positions.capacity() * sizeof(Vec3) +
                            group.keys.capacity() * sizeof(std::uint64_t);
   }

@@ -11,7 +11,9 @@
 
 #include "engines/dch_search.hpp"
 #include "base/key_table.hpp"
-#include "lists/list_maker.hpp"
+#include "leaves/leaf_source.hpp"
+#include "leaves/leaf_source.hpp"
+#include "lists/list_finder.hpp"
 #include "engines/size_classes.hpp"
 
 namespace dch::detail {
@@ -29,6 +31,8 @@ class SizedSearch final : public PairSearch {
   void list(const ListParams& params, NeighborList& out) override { make_lists({&params, 1}, {&out}); }
   void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
   using PairSearch::list;
+  using PairSearch::lists;
+  std::string validate() override;
 
   const SearchStats& stats() const override;
   std::string name() const override { return "dch"; }
@@ -37,6 +41,7 @@ class SizedSearch final : public PairSearch {
   /// The particles of one class.
   struct Group {
     std::unique_ptr<DchSearch> search;
+    LeafSource source;
     std::vector<std::int32_t> particle;  ///< by id in the group's hierarchy
     std::vector<Vec3> positions;
     std::vector<std::uint64_t> keys;
@@ -63,10 +68,11 @@ class SizedSearch final : public PairSearch {
   double largest_radius_ = 0;
   double host_error_ = 0;            ///< largest ListParams::cutoff_error() of the requests [length]
   bool told_apart_ = false;          ///< whether there may be several classes
-  std::uint64_t names_version_ = 0;  ///< see ParticleNames
+  std::uint64_t ids_version_ = 0;  ///< see ParticleIds
   SizeClasses classes_;
   std::vector<Group> groups_;
   ListFinder list_finder_;
+  std::vector<LeafSource*> sources_;  ///< of the groups
   std::int64_t updates_ = 0;
   double maintain_seconds_ = 0, list_seconds_ = 0;
   SearchStats retired_;  ///< of hierarchies that are no more

@@ -27,7 +27,7 @@ inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMostBl
 /// Level S_0: the points, in blocks of kBlock slots. The points of one cluster (a node of level 1, their
 /// parent) fill a chain of blocks of their own, each from its first slot on, so that lists can be made of
 /// whole blocks; reorder() puts points that are close together into one block.
-struct PointBlocks {
+struct LeafBlocks {
   std::vector<Vec3> position;         ///< by slot; wrapped into the cell
   std::vector<std::int32_t> id;       ///< by slot; the caller's name of the point, kNone in an empty slot
   std::vector<std::int32_t> cluster;  ///< by block: the parent of its points, kNone for a block not in use

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "geometry/metric.hpp"
+#include "geometry/tolerance.hpp"
 
 namespace dch::detail {
 namespace {
 
 /// Parts of the work for each thread, so that none waits long for the last one.
 constexpr int kPartsPerThread = 4;
-constexpr double kInflate = 1 + 1e-12;
 constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 void start(NeighborList& list) {
@@ -25,10 +25,10 @@ void start(NeighborList& list) {
 
 /// The finest units in which the rows of source `s` can be found.
 ListUnits units_for(const ListScene& scene, std::size_t s) {
-  const ClusterPoints& own = *scene.sources[s].points;
+  const MeasuredLeaves& own = scene.sources[s]->measured();
   double widest = 0, farthest = 0;
   for (std::size_t a = 0; a <= s; ++a) {
-    const ClusterPoints& other = *scene.sources[a].points;
+    const MeasuredLeaves& other = scene.sources[a]->measured();
     const double reach = scene.reach_of(s, a);
     // The largest difference of coordinates that is taken: between a point of a cluster and one within reach
     // of the cluster's box, or between the middle of the box and a point of a block within reach of it.
@@ -48,27 +48,29 @@ std::int16_t box_limit(double reach, const ListUnits& units) {
 }  // namespace
 
 template <class Metric>
-void ClusterRows::find(const Metric& metric, const ListScene& scene,
+void LeafRows::find(const Metric& metric, const ListScene& scene,
                        const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out) {
   for (NeighborList* list : out) start(*list);
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   const double largest = *std::max_element(scene.reach.begin(), scene.reach.end());
   if (scene.box.any_periodic() && (largest + 2 * scene.error) * kInflate >= scene.box.max_cutoff()) {
     for (std::size_t r = 0; r < out.size(); ++r)
-      find_by_distance(metric, scene.sources.front(), *filters[r], *out[r]);
+      find_by_distance(metric, *scene.sources[0], *filters[r], *out[r]);
     return;
   }
-  for (const ListSource& source : scene.sources)
-    source.points->name(*source.blocks, source.names, *filters.front(), scene.executor);
+  const ListParams& params = filters.front()->params();
+  const ParticleLabels labels{filters.front()->by(), params.radii, params.types, params.first_ghost};
+  for (LeafSource* source : scene.sources)
+    source->labelled.label(source->measured(), source->structure->points, source->ids, labels, scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
     RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};
     for (std::size_t turn = 0; turn <= s; ++turn) {
       const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
-      const ListSource& source = scene.sources[a];
-      source.points->quantize(units, scene.executor);
+      LeafSource& source = *scene.sources[a];
+      source.quantized.quantize(source.measured(), source.labelled, units, scene.executor);
       const double reach = scene.reach_of(s, a);
-      const double extents = scene.sources[s].points->largest_extent + source.points->largest_extent;
+      const double extents = scene.sources[s]->measured().largest_extent + source.measured().largest_extent;
       const bool one_image =
           !scene.box.any_periodic() || (reach + extents) * kInflate < scene.box.max_cutoff();
       rows.near.push_back({&source, reach, box_limit(reach, units), one_image});
@@ -85,7 +87,7 @@ void ClusterRows::find(const Metric& metric, const ListScene& scene,
 }
 
 template <class Metric>
-void ClusterRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
+void LeafRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
                             const std::vector<NeighborList*>& out) {
   const Level& centers = scene.rows().centers();
   const auto find_part = [&](Part& part, std::int32_t first, std::int32_t last) {
@@ -117,7 +119,7 @@ void ClusterRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* exe
 }
 
 /// Puts what the parts found behind each other.
-void ClusterRows::append_pieces(Executor& executor, std::size_t list, NeighborList& out) {
+void LeafRows::append_pieces(Executor& executor, std::size_t list, NeighborList& out) {
   std::vector<std::size_t> first_row(parts_.size() + 1, out.particle.size());
   std::vector<std::size_t> first_entry(parts_.size() + 1, static_cast<std::size_t>(out.first.back()));
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -146,10 +148,10 @@ void ClusterRows::append_pieces(Executor& executor, std::size_t list, NeighborLi
 
 /// Where lists reach half the box, with the nearest image found pair by pair.
 template <class Metric>
-void ClusterRows::find_by_distance(const Metric& metric, const ListSource& source, const PairFilter& filter,
+void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
                                    NeighborList& out) {
   const Level& clusters = source.centers();
-  const PointBlocks& points = *source.blocks;
+  const LeafBlocks& points = source.structure->points;
   std::vector<std::int32_t> own, others;
   for (std::int32_t k = 0; k < clusters.size(); ++k) {
     if (!clusters.is_alive(k)) continue;
@@ -175,13 +177,13 @@ void ClusterRows::find_by_distance(const Metric& metric, const ListSource& sourc
   }
 }
 
-RowFinder::Work ClusterRows::work() const {
-  RowFinder::Work work;
+ListWork LeafRows::work() const {
+  ListWork work;
   for (const Part& part : parts_) work += part.finder.work();
   return work;
 }
 
-std::size_t ClusterRows::memory_bytes() const {
+std::size_t LeafRows::memory_bytes() const {
   std::size_t bytes = 0;
   for (const Part& part : parts_) {
     bytes += part.finder.memory_bytes();
@@ -194,7 +196,7 @@ std::size_t ClusterRows::memory_bytes() const {
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                           \
-  template void ClusterRows::find(const Metric&, const ListScene&, const std::vector<const PairFilter*>&, \
+  template void LeafRows::find(const Metric&, const ListScene&, const std::vector<const PairFilter*>&, \
                                   const std::vector<NeighborList*>&);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)

@@ -8,7 +8,7 @@
 #include <dch/base/executor.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
-#include "lists/leaf_search.hpp"
+#include "leaves/leaf_source.hpp"
 #include "lists/pair_filter.hpp"
 #include "lists/row_finder.hpp"
 
@@ -18,13 +18,13 @@ namespace dch::detail {
 struct ListScene {
   const Box& box;
   /// Hierarchies, that of the smallest cutoffs first. The rows of one hold its pairs with those before it.
-  std::vector<ListSource> sources;
+  Span<LeafSource* const> sources;
   /// Largest list radius of the points of two sources, row-major, at most half the box where there is more
   /// than one source [length].
   std::vector<double> reach;
   double error;  ///< how far the distance of two positions may be from their pair distance [length]
   Executor* executor;
-  std::vector<std::int32_t> lone = {};  ///< particles in no cluster, since they have no neighbors: empty rows
+  std::vector<std::int32_t> lone = {};  ///< particles in no leaf, since they have no neighbors: empty rows
 
   double reach_of(std::size_t a, std::size_t b) const { return reach[a * sources.size() + b]; }
 };
@@ -36,7 +36,7 @@ struct ListScene {
 /// instructions, and its precision does not depend on the box. What such a test leaves open, a band of about
 /// a thousandth of the cutoff, is decided by the pair distance in double. The integer arithmetic is the same
 /// on every instruction set, so the rows are too; and they do not depend on the number of threads.
-class ClusterRows {
+class LeafRows {
  public:
   /// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like
   /// all others. What the filters' cutoffs depend on must be the same for all, and the first one's list
@@ -45,7 +45,7 @@ class ClusterRows {
   void find(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
             const std::vector<NeighborList*>& out);
   /// Of all searches so far, with the present number of threads.
-  RowFinder::Work work() const;
+  ListWork work() const;
   std::size_t memory_bytes() const;
 
  private:
@@ -54,7 +54,7 @@ class ClusterRows {
                  const std::vector<NeighborList*>& out);
   void append_pieces(Executor& executor, std::size_t list, NeighborList& out);
   template <class Metric>
-  static void find_by_distance(const Metric& metric, const ListSource& source, const PairFilter& filter,
+  static void find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
                                NeighborList& out);
 
   /// What one part of the work found, where there is more than one.

@@ -4,47 +4,32 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/base/span.hpp>
-
-#include "hierarchy/leaf_points.hpp"
-#include "hierarchy/level.hpp"
-#include "hierarchy/leaf_blocks.hpp"
+#include "geometry/tolerance.hpp"
+#include "leaves/leaf_source.hpp"
 
 namespace dch::detail {
 
-/// A hierarchy as lists are made from it.
-struct ListSource {
-  const std::vector<Level>* levels;
-  const PointBlocks* blocks;
-  ClusterPoints* points;  ///< measured
-  ParticleNames names;
-  double motion = 0;  ///< how far a node may be from where it was when parents were in order [length]
-
-  const Level& centers() const { return (*levels)[1]; }
-};
-
-/// Calls f(cluster) for every node of level 1 that is within `radius` of a point, and some more. A descent:
+/// Calls f(leaf) for every node of level 1 that is within `radius` of a point, and some more. A descent:
 /// nodes of level i have those of level 1 that are below them within R_1 + ... + R_{i-1}, and twice the
 /// motion a level.
 template <class Metric, class F>
-void for_each_cluster_near(const Metric& metric, const ListSource& source, Vec3 at, double radius,
+void for_each_leaf_near(const Metric& metric, const LeafSource& source, Vec3 at, double radius,
                            const F& f) {
-  const std::vector<Level>& levels = *source.levels;
-  constexpr double kInflate = 1 + 1e-12;
+  const std::vector<Level>& levels = source.structure->levels;
   const auto visit = [&](const auto& self, int level, std::int32_t node, double reach) -> void {
     if (metric.distance2(at, levels[level].position[node]) > reach * reach) return;
     if (level == 1) {
       f(node);
       return;
     }
-    const double below = reach - (levels[level - 1].radius + 2 * source.motion) * kInflate;
+    const double below = reach - (levels[level - 1].radius + 2 * source.motion()) * kInflate;
     for (std::int32_t child = levels[level].first_child[node]; child != kNone;
          child = levels[level - 1].next_sibling[child])
       self(self, level - 1, child, below);
   };
   const int top = static_cast<int>(levels.size()) - 1;
   double reach = radius * kInflate;
-  for (int level = 1; level < top; ++level) reach += (levels[level].radius + 2 * source.motion) * kInflate;
+  for (int level = 1; level < top; ++level) reach += (levels[level].radius + 2 * source.motion()) * kInflate;
   for (std::int32_t root = 0; root < levels[top].size(); ++root)
     if (levels[top].is_alive(root)) visit(visit, top, root, reach);
 }

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 
 namespace dch::detail {
 

@@ -50,7 +50,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
     margin = std::max(margin, rounding.margin(pair_reach, sum));
   };
   switch (by) {
-    case PairFilter::By::one_cutoff:
+    case CutoffBy::one_cutoff:
       all.in = rounding.in(largest);
       all.out = rounding.out(largest);
       near.in = near.out = rounding.nearest(largest - params.shell);
@@ -58,7 +58,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       off = rounding.off();
       widen(largest, all.out - 1);
       return;
-    case PairFilter::By::radii: {
+    case CutoffBy::radii: {
       // The kernels round two radii and the skin, hence their sum by up to 3/2 (rounding in float adds 0.01
       // at most), and its square once more.
       constexpr double kOff = 1.51;
@@ -73,7 +73,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       widen(least, rounding.limit(least + kOff * point_unit) + 0.5 + all.band);
       return;
     }
-    case PairFilter::By::types:
+    case CutoffBy::types:
       break;
   }
   const int types = params.cutoffs.types();

@@ -25,7 +25,7 @@ struct ListLimits {
     std::vector<TypeLimits> type_in, type_out;  ///< by types
   };
 
-  PairFilter::By by;
+  CutoffBy by;
   PairLimits all;
   /// Of those that come first in their row; `in` and `out` are the same, so nothing is left open.
   PairLimits near;

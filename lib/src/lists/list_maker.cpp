@@ -1,135 +1,61 @@
 // SPDX-License-Identifier: MIT
-#include "lists/list_maker.hpp"
+#include <dch/lists/list_maker.hpp>
 
 #include <algorithm>
-#include <numeric>
 
-#include "geometry/metric.hpp"
-#include "lists/pair_filter.hpp"
+#include "geometry/tolerance.hpp"
+#include "hierarchy/structure.hpp"
+#include "leaves/leaf_source.hpp"
+#include "lists/list_assembly.hpp"
+#include "lists/list_check.hpp"
+#include "lists/list_finder.hpp"
+#include "lists/reach.hpp"
 
-namespace dch::detail {
-namespace {
+namespace dch {
 
-template <class T>
-bool is_same(Span<T> a, Span<T> b) {
-  return a.data() == b.data() && a.size() == b.size();
-}
+struct ListMaker::Impl {
+  detail::LeafSource source;
+  detail::ListFinder finder;
 
-/// Whether the cutoffs of two requests depend on the same thing, and ghosts are the same.
-bool are_alike(const ListParams& a, const ListParams& b) {
-  return is_same(a.radii, b.radii) && is_same(a.types, b.types) && a.first_ghost == b.first_ghost &&
-         a.cutoffs.types() == b.cutoffs.types();
-}
-
-bool is_ready_as_found(const ListParams& request) {
-  return request.order == RowOrder::by_structure && request.kind == ListKind::half && request.first_ghost < 0;
-}
-
-/// From rows that hold each pair once, in either row, rows of the same particles in the same order that hold
-/// it in the rows of both (full) or of the one that is not a ghost. Near ones stay first.
-void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, std::int32_t first_ghost,
-                      NeighborList& out) {
-  const std::size_t rows = found.particle.size();
-  const bool has_shell = !found.near_end.empty();
-  const auto may_own = [&](std::int32_t particle) { return first_ghost < 0 || particle < first_ghost; };
-  const auto take_row = [&](std::size_t r, std::int64_t first, std::int64_t last, const auto& f) {
-    const std::int32_t i = found.particle[r];
-    for (std::int64_t k = first; k < last; ++k) {  // f(owner, other)
-      const std::int32_t j = found.j[static_cast<std::size_t>(k)];
-      if (may_own(i)) f(i, j);
-      if (may_own(j) && (kind == ListKind::full || !may_own(i))) f(j, i);
+  void lists(const detail::Structure& hierarchy, Span<const ListParams> requests,
+             const std::vector<NeighborList*>& out) {
+    double reach = 0, host_error = 0;
+    for (const ListParams& request : requests) {
+      detail::check_list_params(request, hierarchy.raw.size(), hierarchy.params.radius);
+      reach = std::max(reach, request.list_radius());
+      host_error = std::max(host_error, request.cutoff_error());
     }
-  };
-  std::vector<std::int32_t> row_of(n, kNone);
-  for (std::size_t r = 0; r < rows; ++r) row_of[found.particle[r]] = static_cast<std::int32_t>(r);
-  out.kind = kind;
-  out.particle = found.particle;
-  out.first.assign(rows + 1, 0);
-  const auto count = [&](std::int32_t owner, std::int32_t) { ++out.first[row_of[owner] + 1]; };
-  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.first[r], found.first[r + 1], count);
-  for (std::size_t r = 0; r < rows; ++r) out.first[r + 1] += out.first[r];
-  if (out.j.size() < static_cast<std::size_t>(out.first.back()))
-    out.j.resize(static_cast<std::size_t>(out.first.back()));
-  std::vector<std::int64_t> next(out.first.begin(), out.first.end());
-  const auto put = [&](std::int32_t owner, std::int32_t other) { out.j[next[row_of[owner]]++] = other; };
-  for (std::size_t r = 0; r < rows; ++r)
-    take_row(r, found.first[r], has_shell ? found.near_end[r] : found.first[r + 1], put);
-  out.near_end.clear();
-  if (!has_shell) return;
-  out.near_end.assign(next.begin(), next.end() - 1);
-  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.near_end[r], found.first[r + 1], put);
-}
-
-}  // namespace
-
-void ListFinder::find(const ListScene& scene, Span<const Vec3> positions, Span<const ListParams> requests,
-                      const std::vector<NeighborList*>& out) {
-  const bool alike = std::all_of(requests.begin(), requests.end(),
-                                 [&](const ListParams& request) { return are_alike(request, requests[0]); });
-  std::vector<const ListParams*> together;
-  for (std::size_t r = 0; r < requests.size(); ++r) {
-    if (alike) {
-      together.push_back(&requests[r]);
-    } else {
-      find_alike(scene, positions, {&requests[r]}, {out[r]});
-    }
+    detail::make_or_empty(out, [&] {
+      source.structure = &hierarchy;
+      detail::LeafSource* const sources[] = {&source};
+      const double error = detail::distance_error(hierarchy) + host_error;
+      const detail::ListScene scene{hierarchy.box, {sources, 1},
+                                    {(reach + error) * detail::kInflate},
+                                    error,         hierarchy.params.executor,
+                                    hierarchy.lone_points()};
+      finder.find(scene, hierarchy.raw, requests, out);
+    });
   }
-  if (alike && !together.empty()) find_alike(scene, positions, together, out);
+};
+
+ListMaker::ListMaker() : impl_(std::make_unique<Impl>()) {}
+ListMaker::~ListMaker() = default;
+ListMaker::ListMaker(ListMaker&&) noexcept = default;
+ListMaker& ListMaker::operator=(ListMaker&&) noexcept = default;
+
+void ListMaker::list(const HierarchyView& hierarchy, const ListParams& params, NeighborList& out) {
+  impl_->lists(hierarchy.structure(), {&params, 1}, {&out});
 }
 
-void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
-                            const std::vector<const ListParams*>& requests,
-                            const std::vector<NeighborList*>& out) {
-  std::vector<std::size_t> by_radius(requests.size());  // the largest first
-  std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
-  std::stable_sort(by_radius.begin(), by_radius.end(), [&](std::size_t a, std::size_t b) {
-    return requests[a]->list_radius() > requests[b]->list_radius();
-  });
-  std::vector<PairFilter> filters;
-  filters.reserve(requests.size());
-  std::vector<const PairFilter*> sorted_filters;
-  std::vector<NeighborList*> rows;
-  found_.resize(std::max(found_.size(), requests.size()));
-  for (const std::size_t r : by_radius) {
-    sorted_filters.push_back(&filters.emplace_back(positions, scene.box, *requests[r], scene.error));
-    rows.push_back(is_ready_as_found(*requests[r]) ? out[r] : &found_[r]);
-  }
-  with_metric(scene.box,
-              [&](const auto& metric) { cluster_rows_.find(metric, scene, sorted_filters, rows); });
-  for (NeighborList* list : rows) {
-    for (const std::int32_t particle : scene.lone) {
-      list->particle.push_back(particle);
-      list->first.push_back(list->first.back());
-      if (!list->near_end.empty()) list->near_end.push_back(list->first.back());
-    }
-  }
-  for (std::size_t r = 0; r < requests.size(); ++r)
-    if (!is_ready_as_found(*requests[r])) put_in_order(*requests[r], positions.size(), found_[r], *out[r]);
+void ListMaker::lists(const HierarchyView& hierarchy, Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  each.reserve(out.size());
+  for (NeighborList& list : out) each.push_back(&list);
+  impl_->lists(hierarchy.structure(), requests, each);
 }
 
-void ListFinder::put_in_order(const ListParams& request, std::size_t n, const NeighborList& found,
-                              NeighborList& out) {
-  if (request.order == RowOrder::by_structure) {
-    distribute_pairs(found, n, request.kind, request.first_ghost, out);
-    out.margin = found.margin;
-    return;
-  }
-  const auto for_each_pair = [&](const auto& f) {
-    for (std::size_t r = 0; r < found.particle.size(); ++r) {
-      const std::int32_t i = found.particle[r];
-      for (const std::int32_t j : found.row(r)) f(std::min(i, j), std::max(i, j));
-    }
-  };
-  assembler_.assemble(n, request.kind, request.first_ghost, for_each_pair, out);
-  out.margin = found.margin;
-}
+ListWork ListMaker::work() const { return impl_->finder.work(); }
+std::size_t ListMaker::memory_bytes() const { return impl_->source.memory_bytes() + impl_->finder.memory_bytes(); }
 
-std::size_t ListFinder::memory_bytes() const {
-  std::size_t bytes = cluster_rows_.memory_bytes() + assembler_.memory_bytes();
-  for (const NeighborList& list : found_)
-    bytes += (list.first.capacity() + list.near_end.capacity()) * sizeof(std::int64_t) +
-             (list.particle.capacity() + list.j.capacity()) * sizeof(std::int32_t);
-  return bytes;
-}
-
-}  // namespace dch::detail
+}  // namespace dch

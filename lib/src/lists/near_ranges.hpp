@@ -6,14 +6,13 @@
 
 #include <dch/geometry/box.hpp>
 
-#include "hierarchy/leaf_points.hpp"
-#include "lists/leaf_search.hpp"
+#include "leaves/leaf_source.hpp"
 
 namespace dch::detail {
 
 /// A hierarchy whose points may be in the rows of a cluster.
 struct NearSource {
-  const ListSource* source;
+  const LeafSource* source;
   double reach;            ///< largest list radius of its points with those of the rows [length]
   std::int16_t box_limit;  ///< see ListKernels::collect
   bool one_image;          ///< whether only the nearest image of a cluster can matter to another one
@@ -23,16 +22,17 @@ struct NearSource {
 template <class Metric>
 class NearRanges {
  public:
-  using Cluster = ClusterPoints::Cluster;
+  using Leaf = MeasuredLeaves::Leaf;
 
   /// @param rows the hierarchy of the cluster k
-  NearRanges(const Metric& metric, const Box& box, const ListSource& rows, std::int32_t k,
+  NearRanges(const Metric& metric, const Box& box, const LeafSource& rows, std::int32_t k,
              std::vector<BlockRange>& ranges)
       : metric_(metric),
         box_(box),
         rows_(rows),
         k_(k),
-        own_(rows.points->clusters[k]),
+        own_(rows.measured().leaves[k]),
+        own_owned_(rows.labelled.leaf_owned[k] != 0),
         center_(rows.centers().position[k]),
         ranges_(ranges) {}
 
@@ -44,14 +44,15 @@ class NearRanges {
 
  private:
   void add_images(const NearSource& near, std::int32_t other);
-  void add_if_near(const NearSource& near, const Cluster& other, Vec3 between);
-  void add(const ClusterPoints& points, const Cluster& other, Vec3 between);
+  void add_if_near(const NearSource& near, const Leaf& other, Vec3 between);
+  void add(const LeafSource& leaves, const Leaf& other, Vec3 between);
 
   const Metric& metric_;
   const Box& box_;
-  const ListSource& rows_;
+  const LeafSource& rows_;
   std::int32_t k_;
-  const Cluster& own_;
+  const Leaf& own_;
+  bool own_owned_;  ///< whether a point of it is not a ghost
   Vec3 center_;
   std::vector<BlockRange>& ranges_;
 };

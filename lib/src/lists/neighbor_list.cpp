@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 namespace dch {

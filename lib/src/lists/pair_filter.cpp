@@ -27,11 +27,11 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       near_cutoff_(params.near_cutoff),
       exclusions_(params.exclusions != nullptr && !params.exclusions->empty() ? params.exclusions : nullptr),
       first_ghost_(params.first_ghost),
-      by_(!params.radii.empty()         ? By::radii
-          : params.cutoffs.types() == 1 ? By::one_cutoff
-                                        : By::types),
+      by_(!params.radii.empty()         ? CutoffBy::radii
+          : params.cutoffs.types() == 1 ? CutoffBy::one_cutoff
+                                        : CutoffBy::types),
       restricted_(exclusions_ != nullptr || first_ghost_ >= 0) {
-  if (by_ == By::radii) {
+  if (by_ == CutoffBy::radii) {
     largest_ = band_within(params.list_radius()).out_above;
     least_radius_ = *std::min_element(params.radii.begin(), params.radii.end());
   } else {
@@ -81,12 +81,12 @@ PairFilter::Band PairFilter::band_within(double reach) const {
 }
 
 PairFilter::Band PairFilter::band_of(std::int32_t i, std::int32_t j) const {
-  if (by_ == By::radii) return band_within(params_.radii[i] + params_.radii[j] + params_.skin);
+  if (by_ == CutoffBy::radii) return band_within(params_.radii[i] + params_.radii[j] + params_.skin);
   return bands_[std::size_t{1} * params_.types[i] * params_.cutoffs.types() + params_.types[j]];
 }
 
 bool PairFilter::accept(std::int32_t i, std::int32_t j) const {
-  const Band band = by_ == By::one_cutoff ? bands_.front() : band_of(i, j);
+  const Band band = by_ == CutoffBy::one_cutoff ? bands_.front() : band_of(i, j);
   return !(restricted_ && !is_wanted(i, j)) && is_within(i, j, band.cutoff2);
 }
 

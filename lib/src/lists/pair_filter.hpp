@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <dch/geometry/box.hpp>
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/base/span.hpp>
+
+#include "leaves/cutoff_by.hpp"
 
 namespace dch::detail {
 
@@ -28,7 +30,7 @@ class PairFilter {
 
   /// @param distance2 of the nearest wrapped images of i and j [length^2].
   bool accept(std::int32_t i, std::int32_t j, double distance2) const {
-    const Band band = by_ == By::one_cutoff ? bands_.front() : band_of(i, j);
+    const Band band = by_ == CutoffBy::one_cutoff ? bands_.front() : band_of(i, j);
     if (distance2 > band.out_above) return false;
     if (restricted_ && !is_wanted(i, j)) return false;
     return distance2 <= band.in_below || is_within(i, j, band.cutoff2);
@@ -37,9 +39,7 @@ class PairFilter {
   /// The same for a pair whose distance is not known.
   bool accept(std::int32_t i, std::int32_t j) const;
 
-  /// What the cutoff of a pair depends on.
-  enum class By { one_cutoff, radii, types };
-  By by() const { return by_; }
+  CutoffBy by() const { return by_; }
   const ListParams& params() const { return params_; }
   /// Smallest of the radii, where cutoffs go by them [length].
   double least_radius() const { return least_radius_; }
@@ -78,7 +78,7 @@ class PairFilter {
   const PairTest* near_cutoff_;
   const Exclusions* exclusions_;
   std::int32_t first_ghost_;
-  By by_;
+  CutoffBy by_;
   bool restricted_;          ///< by exclusions or ghosts
   std::vector<Band> bands_;  ///< by pair of types
   double largest_ = -1;

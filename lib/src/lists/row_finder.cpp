@@ -31,15 +31,15 @@ std::int32_t rounded_up(std::int32_t n, std::int32_t multiple) {
 
 }  // namespace
 
-/// The points of blocks near the box of a part of the cluster are put side by side and those near the box
+/// The points of blocks near the box of a part of the leaf are put side by side and those near the box
 /// itself kept; of these, for each list, first those within its own reach.
 template <class Metric>
 void RowFinder::append_rows(const Scene<Metric>& scene, std::int32_t k, NeighborList* lists) {
-  const ClusterPoints& points = *scene.rows().points;
-  const Cluster& cluster = points.clusters[k];
+  const LeafSource& leaves = scene.rows();
+  const Leaf& leaf = leaves.measured().leaves[k];
   find_ranges(scene, k);
-  for_each_group(cluster.first_block, cluster.blocks, kPart, [&](std::int32_t first, std::int32_t last) {
-    const Part part = part_of(points, cluster, first, last);
+  for_each_group(leaf.first_block, leaf.blocks, kPart, [&](std::int32_t first, std::int32_t last) {
+    const Part part = part_of(leaves, k, first, last);
     const std::int32_t count = collect(scene, part);
     append_part(scene, scene.requests[0], part, around_part_.at(0), count, lists[0]);
     for (std::size_t r = 1; r < scene.requests.size(); ++r) {
@@ -52,7 +52,7 @@ void RowFinder::append_rows(const Scene<Metric>& scene, std::int32_t k, Neighbor
   });
 }
 
-// --- points near a cluster
+// --- points near a leaf
 
 Candidates RowFinder::CandidateStore::at(std::int32_t k) {
   return {x.data() + k, y.data() + k, z.data() + k, id.data() + k, tag.data() + k};
@@ -73,10 +73,10 @@ std::size_t RowFinder::CandidateStore::memory_bytes() const {
   return 4 * x.capacity() * sizeof(x[0]) + id.capacity() * sizeof(id[0]);
 }
 
-RowFinder::Part RowFinder::part_of(const ClusterPoints& points, const Cluster& cluster, std::int32_t first,
+RowFinder::Part RowFinder::part_of(const LeafSource& leaves, std::int32_t k, std::int32_t first,
                                    std::int32_t last) {
-  return {first, last, cluster.owned, points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last),
-          points.span_of(first, last)};
+  return {first, last, leaves.labelled.leaf_owned[k] != 0, leaves.largest_tag(first, last),
+          leaves.quantized.span_of(first, last)};
 }
 
 /// Fills ranges_.
@@ -94,10 +94,10 @@ void RowFinder::find_ranges(const Scene<Metric>& scene, std::int32_t k) {
 }
 
 /// Fills around_part_ and returns how many there are. The part's own points come first, in order, then those
-/// of the cluster's parts after it.
+/// of the leaf's parts after it.
 template <class Metric>
 std::int32_t RowFinder::collect(const Scene<Metric>& scene, const Part& part) {
-  const BlockSpan box = scene.rows().points->box_of(part.first, part.last);
+  const BlockSpan box = scene.rows().quantized.box_of(part.first, part.last);
   BlockRange& own = ranges_[0][0];
   own.count -= part.first - own.first;
   own.first = part.first;
@@ -112,11 +112,11 @@ std::int32_t RowFinder::collect(const Scene<Metric>& scene, const Part& part) {
 }
 
 /// Puts the points of blocks near the box behind those that there are `already`, and returns the number of
-/// blocks. If the cluster's points are all ghosts, blocks of ghosts are left out, since two ghosts are no
+/// blocks. If the leaf's points are all ghosts, blocks of ghosts are left out, since two ghosts are no
 /// pair.
 std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<BlockRange>& ranges,
                                      const BlockSpan& box, bool owned, std::int32_t already) {
-  const ClusterPoints& points = *near.source->points;
+  const LeafSource& leaves = *near.source;
   std::int64_t lanes_near = already;
   for (const BlockRange& range : ranges) lanes_near += std::int64_t{kBlock} * range.count;
   index_count(lanes_near, "points and images of points near one cluster", "take a smaller cutoff",
@@ -131,26 +131,26 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   range_end_.resize(std::max(range_end_.size(), ranges.size()));
 
   const auto range_count = static_cast<std::int32_t>(ranges.size());
-  std::int32_t collected = kernels_->collect(box, near.box_limit, points.boxes(), ranges.data(), range_count,
+  std::int32_t collected = kernels_->collect(box, near.box_limit, leaves.quantized.boxes(), ranges.data(), range_count,
                                              block_.data(), range_end_.data());
-  if (!owned) collected = leave_out_ghosts(points, range_count);
+  if (!owned) collected = leave_out_ghosts(leaves, range_count);
   around_part_.make_room(static_cast<std::size_t>(already) + static_cast<std::size_t>(collected) * kBlock +
                          kChunk);
-  kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, points.points.data(),
-                   points.ids.data()->data(), points.tags.empty() ? nullptr : points.tags.data()->data(),
+  kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, leaves.quantized.points.data(),
+                   leaves.labelled.particle.data()->data(), leaves.tags() == nullptr ? nullptr : leaves.tags()->data(),
                    around_part_.at(already));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
-  for (std::int32_t n = 0; n < collected; ++n) lanes[n] = points.lanes[block_[n]];
+  for (std::int32_t n = 0; n < collected; ++n) lanes[n] = leaves.measured().lanes[block_[n]];
   return collected;
 }
 
 /// Of the blocks that have been collected.
-std::int32_t RowFinder::leave_out_ghosts(const ClusterPoints& points, std::int32_t range_count) {
+std::int32_t RowFinder::leave_out_ghosts(const LeafSource& leaves, std::int32_t range_count) {
   std::int32_t kept = 0, n = 0;
   for (std::int32_t r = 0; r < range_count; ++r) {
     for (; n < range_end_[r]; ++n) {
       block_[kept] = block_[n];
-      kept += points.owned[block_[n]];
+      kept += leaves.labelled.owned[block_[n]];
     }
     range_end_[r] = kept;
   }
@@ -161,10 +161,10 @@ std::int32_t RowFinder::leave_out_ghosts(const ClusterPoints& points, std::int32
 std::int32_t RowFinder::filter(const ListLimits& limits, const BlockSpan& span, std::int16_t size,
                                const Candidates& from, const std::uint32_t* valid, std::int32_t count,
                                const Candidates& to) const {
-  if (limits.by == PairFilter::By::radii)
+  if (limits.by == CutoffBy::radii)
     return kernels_->filter_by_size(span, static_cast<std::int16_t>(size + limits.all.skin), limits.all.band,
                                     from, valid, count, to);
-  if (limits.by == PairFilter::By::types && !limits.per_pair)
+  if (limits.by == CutoffBy::types && !limits.per_pair)
     return kernels_->filter_by_type(span, limits.farthest, from, valid, count, to);
   return kernels_->filter(span, limits.all.out, from, valid, count, to);
 }
@@ -175,14 +175,14 @@ std::int32_t RowFinder::filter(const ListLimits& limits, const BlockSpan& span, 
 template <class Metric>
 void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, const Part& part,
                             const Candidates& around_part, std::int32_t count, NeighborList& out) {
-  const ClusterPoints& points = *scene.rows().points;
+  const LeafSource& leaves = scene.rows();
   around_group_.make_room(static_cast<std::size_t>(count) + kChunk);
   std::int32_t own_before = 0;
   for_each_group(part.first, part.last - part.first, kGroup, [&](std::int32_t first, std::int32_t last) {
-    const std::int16_t size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(first, last);
+    const std::int16_t size = leaves.largest_tag(first, last);
     const Candidates from{around_part.x + own_before, around_part.y + own_before, around_part.z + own_before,
                           around_part.id + own_before, around_part.tag + own_before};
-    const std::int32_t near = filter(request.limits, points.span_of(first, last), size, from, nullptr,
+    const std::int32_t near = filter(request.limits, leaves.quantized.span_of(first, last), size, from, nullptr,
                                      count - own_before, around_group_.at(0));
     make_room_for_tests(near);
     // All blocks are thinned before the first is tested: its candidates have left the store queue by then,
@@ -190,20 +190,20 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
     std::int32_t before = 0;
     for (std::int32_t own = first; own < last; ++own) {
       BlockTest& test = tests_[own - first];
-      const std::int16_t own_size = points.tags.empty() ? std::int16_t{0} : points.largest_tag(own, own + 1);
-      test.count = filter(request.limits, points.spans[own], own_size, around_group_.at(before), nullptr,
+      const std::int16_t own_size = leaves.largest_tag(own, own + 1);
+      test.count = filter(request.limits, leaves.quantized.spans[own], own_size, around_group_.at(before), nullptr,
                           near - before, test.near.at(0));
-      if (part.owned) before += points.count[own];
+      if (part.owned) before += leaves.measured().count[own];
     }
     open_count_ = 0;  // there may be some of a list that was not finished
     for (std::int32_t own = first; own < last; ++own) {
-      test_block(request, points, own, tests_[own - first]);
-      note_open_pairs(request, points, own, tests_[own - first]);
+      test_block(request, leaves, own, tests_[own - first]);
+      note_open_pairs(request, leaves, own, tests_[own - first]);
     }
     settle(*request.filter);
-    ask_for_exclusions(*request.filter, points, first, last);
+    ask_for_exclusions(*request.filter, leaves, first, last);
     for (std::int32_t own = first; own < last; ++own)
-      append_block(request, points, own, part.owned, tests_[own - first], out);
+      append_block(request, leaves, own, part.owned, tests_[own - first], out);
     own_before += before;
   });
 }
@@ -223,31 +223,31 @@ void RowFinder::make_room_for_tests(std::int32_t count) {
 }
 
 /// Tests a block against the candidates near it.
-void RowFinder::test_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+void RowFinder::test_block(const Request& request, const LeafSource& leaves, std::int32_t block,
                            BlockTest& test) {
   test.chunks = rounded_up(test.count, kChunk) / kChunk;
   work_.tested += std::int64_t{kBlock} * test.count;
   // First, since unsettled_ has to be left as the other test leaves it.
   if (request.limits.has_shell)
-    test_against(request.limits, request.limits.near, points, block, test, test.near_mask.data());
-  test.left = test_against(request.limits, request.limits.all, points, block, test, test.mask.data());
+    test_against(request.limits, request.limits.near, leaves, block, test, test.near_mask.data());
+  test.left = test_against(request.limits, request.limits.all, leaves, block, test, test.mask.data());
 }
 
 std::int32_t RowFinder::test_against(const ListLimits& limits, const PairLimits& pairs,
-                                     const ClusterPoints& points, std::int32_t block, BlockTest& test,
+                                     const LeafSource& leaves, std::int32_t block, BlockTest& test,
                                      std::uint32_t* mask) {
   const Candidates candidates = test.near.at(0);
-  if (limits.by == PairFilter::By::radii) {
-    std::array<std::int16_t, kBlock> sizes = points.tags[block];
+  if (limits.by == CutoffBy::radii) {
+    std::array<std::int16_t, kBlock> sizes = leaves.tags()[block];
     for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + pairs.skin);
-    return kernels_->test_by_size(points.points[block], sizes.data(), candidates, test.count, pairs.band,
+    return kernels_->test_by_size(leaves.quantized.points[block], sizes.data(), candidates, test.count, pairs.band,
                                   mask, test.chunks, unsettled_.data());
   }
-  if (limits.by == PairFilter::By::types && !limits.per_pair)
-    return kernels_->test_by_type(points.points[block], points.tags[block].data(), candidates, test.count,
+  if (limits.by == CutoffBy::types && !limits.per_pair)
+    return kernels_->test_by_type(leaves.quantized.points[block], leaves.tags()[block].data(), candidates, test.count,
                                   pairs.type_in.data(), pairs.type_out.data(), mask, test.chunks,
                                   unsettled_.data());
-  return kernels_->test(points.points[block], candidates, test.count, pairs.in, pairs.out, mask, test.chunks,
+  return kernels_->test(leaves.quantized.points[block], candidates, test.count, pairs.in, pairs.out, mask, test.chunks,
                         unsettled_.data());
 }
 
@@ -263,20 +263,20 @@ double RowFinder::squared_distance(const BlockPoints& points, std::int32_t row, 
 }
 
 /// Of a point of a block with one that has this tag [units].
-double RowFinder::cutoff_of(const ListLimits& limits, const ClusterPoints& points, std::int32_t block,
+double RowFinder::cutoff_of(const ListLimits& limits, const LeafSource& leaves, std::int32_t block,
                             std::int32_t row, std::int16_t tag) {
   switch (limits.by) {
-    case PairFilter::By::radii:
-      return points.tags[block][row] + tag + limits.all.skin;
-    case PairFilter::By::types:
-      return limits.type_cutoff[points.tags[block][row]][tag];
+    case CutoffBy::radii:
+      return leaves.tags()[block][row] + tag + limits.all.skin;
+    case CutoffBy::types:
+      return limits.type_cutoff[leaves.tags()[block][row]][tag];
     default:
       return limits.cutoff;
   }
 }
 
 /// Decides what the test of a block has left open, or puts it into open_ if that takes the positions.
-void RowFinder::note_open_pairs(const Request& request, const ClusterPoints& points, std::int32_t block,
+void RowFinder::note_open_pairs(const Request& request, const LeafSource& leaves, std::int32_t block,
                                 BlockTest& test) {
   const ListLimits& limits = request.limits;
   if (request.filter->params().superset || limits.per_pair) {
@@ -288,17 +288,17 @@ void RowFinder::note_open_pairs(const Request& request, const ClusterPoints& poi
     const auto [row, chunk, open] = unsettled_[u];
     std::uint32_t& mask = test.mask[row * test.chunks + chunk];
     if (open_.size() < open_count_ + kChunk) open_.resize(2 * open_count_ + kChunk);
-    for (std::uint32_t rest = row < points.count[block] ? open : 0; rest != 0; rest &= rest - 1) {
+    for (std::uint32_t rest = row < leaves.measured().count[block] ? open : 0; rest != 0; rest &= rest - 1) {
       // Without branches: whether a pair is near enough is hard to foretell.
       const int lane = __builtin_ctz(rest);
       const std::int32_t at = chunk * kChunk + lane;
-      const double d2 = squared_distance(points.points[block], row, test.near, at);
-      const double cutoff = cutoff_of(limits, points, block, row, test.near.tag[at]);
+      const double d2 = squared_distance(leaves.quantized.points[block], row, test.near, at);
+      const double cutoff = cutoff_of(limits, leaves, block, row, test.near.tag[at]);
       const double less = std::max(cutoff - limits.off, 0.0), more = cutoff + limits.off;
       const bool is_in = d2 < less * less;
       mask |= static_cast<std::uint32_t>(is_in) << lane;
       OpenPair& pair = open_[open_count_];
-      pair = {points.ids[block][row], test.near.id[at], &mask, 1u << lane};
+      pair = {leaves.labelled.particle[block][row], test.near.id[at], &mask, 1u << lane};
       request.filter->ask_for(pair.i, pair.j);
       open_count_ += static_cast<std::size_t>(!is_in) & static_cast<std::size_t>(d2 <= more * more);
     }
@@ -312,19 +312,19 @@ void RowFinder::settle(const PairFilter& filter) {
 }
 
 /// Whom the points of blocks [first, last) are excluded with is likely in no cache: asked for together.
-void RowFinder::ask_for_exclusions(const PairFilter& filter, const ClusterPoints& points, std::int32_t first,
+void RowFinder::ask_for_exclusions(const PairFilter& filter, const LeafSource& leaves, std::int32_t first,
                                    std::int32_t last) {
   if (filter.params().exclusions == nullptr) return;
   for (std::int32_t block = first; block < last; ++block)
-    for (std::int32_t row = 0; row < points.count[block]; ++row)
-      __builtin_prefetch(filter.excluded_with(points.ids[block][row]).data());
+    for (std::int32_t row = 0; row < leaves.measured().count[block]; ++row)
+      __builtin_prefetch(filter.excluded_with(leaves.labelled.particle[block][row]).data());
 }
 
 /// The rows of one block's points.
-void RowFinder::append_block(const Request& request, const ClusterPoints& points, std::int32_t block,
+void RowFinder::append_block(const Request& request, const LeafSource& leaves, std::int32_t block,
                              bool meets_itself, BlockTest& test, NeighborList& out) {
-  const std::int32_t rows = points.count[block];
-  const std::array<std::int32_t, kBlock>& ids = points.ids[block];
+  const std::int32_t rows = leaves.measured().count[block];
+  const std::array<std::int32_t, kBlock>& ids = leaves.labelled.particle[block];
   auto written = static_cast<std::size_t>(out.first.back());
   const std::size_t most =
       written + std::size_t{kBlock * kChunk} * static_cast<std::size_t>(test.chunks) + kChunk;

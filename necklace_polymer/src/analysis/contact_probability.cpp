@@ -6,7 +6,7 @@
 
 #include <dch/necklace/contact_probability.hpp>
 
-#include "chains/bead_places.hpp"
+#include "analysis/bead_places.hpp"
 #include "chains/parameter_check.hpp"
 
 namespace dch::necklace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/necklace/closest_pair.hpp>
 
 #include "chains/bead_check.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/necklace/contact_finder.hpp>
 
 #include "chains/bead_check.hpp"

@@ -89,7 +89,7 @@ const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positi
   }
   staleTest->forget();
   search->update(positions, box);  // checks them
-  dch::hierarchy_of(*search)->cluster_pairs(request, pairs);
+  search->cluster_pairs(request, pairs);
   ++searchCount;
   if (box.any_periodic()) rememberPeriods(positions, box);
   staleTest->remember(positions, box);

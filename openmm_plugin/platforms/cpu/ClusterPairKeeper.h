@@ -9,7 +9,7 @@
 
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/stale_test.hpp>
 
 namespace OpenMMDCH {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ReferenceDCHKernels.h"
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace OpenMMDCH {
 namespace {

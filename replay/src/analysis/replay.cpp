@@ -230,17 +230,14 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
   subject.frame = &frame;
   subject.list = &list;
   subject.list_is_new = record.list_rebuilt;
-  subject.hierarchy = engine_.hierarchy;
+  subject.structure = engine_.keeps_hierarchy ? engine_.search.get() : nullptr;
   const Stopwatch watch;
   verifier_->check(subject);
   report_.verify_ms += watch.milliseconds();
 }
 
 void Replay::note_levels() {
-  const Hierarchy* hierarchy = engine_.hierarchy;
-  for (int level = 0; hierarchy && level < hierarchy->levels(); ++level) {
-    report_.levels.push_back(hierarchy->level(level));
-  }
+  report_.levels = engine_.search->levels();
 }
 
 }  // namespace

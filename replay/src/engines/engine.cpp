@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
 
@@ -52,6 +53,8 @@ class TimedSearch final : public PairSearch {
     list_seconds_ += watch.seconds();
     refresh();
   }
+  std::string validate() override { return inner_->validate(); }
+  std::vector<LevelInfo> levels() override { return inner_->levels(); }
   const SearchStats& stats() const override { return stats_; }
   std::string name() const override { return inner_->name(); }
 
@@ -127,7 +130,7 @@ Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<
     params.policy = options.policy;
     params.executor = engine.threads.get();
     engine.search = make_dch_search(params);
-    engine.hierarchy = hierarchy_of(*engine.search);
+    engine.keeps_hierarchy = true;
   }
   engine.search = std::make_unique<TimedSearch>(std::move(engine.search));
   return engine;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/engines/pair_search.hpp>
 
 namespace dch::cli {
@@ -23,11 +22,11 @@ struct EngineOptions {
 std::string to_string(EngineKind kind);           ///< as on the command line: "dch", "cell", "allpairs"
 std::string to_string(MaintenancePolicy policy);  ///< "auto", "repair", "rebuild"
 
-/// An engine, with a view of its hierarchy where it keeps one.
+/// An engine, and whether it keeps a hierarchy.
 struct Engine {
   std::unique_ptr<Executor> threads;     ///< that search works with; null for one
   std::unique_ptr<PairSearch> search;    ///< its times cover update() and list() of every kind alike
-  const Hierarchy* hierarchy = nullptr;  ///< owned by search; null for cell and allpairs
+  bool keeps_hierarchy = false;          ///< not so for cell and allpairs
 };
 
 /// @param radius cutoff + skin of the lists to come [length]

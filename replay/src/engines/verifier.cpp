@@ -106,9 +106,9 @@ void Verifier::check_sample(const Subject& subject, const ListParams& params) {
 
 void Verifier::check_structure(const Subject& subject) {
   const bool is_current = subject.list_is_new;  // a kept list leaves the hierarchy at the earlier frame too
-  if (!subject.hierarchy || !is_current || subject.frame->positions.size() > kMostValidatedAtoms) return;
+  if (!subject.structure || !is_current || subject.frame->positions.size() > kMostValidatedAtoms) return;
   ++result_.structure_checks;
-  std::string violation = subject.hierarchy->validate();
+  std::string violation = subject.structure->validate();
   if (violation.empty()) return;
   Mismatch mismatch;
   mismatch.frame = subject.index;

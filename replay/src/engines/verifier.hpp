@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <dch/geometry/box.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/trajectory/frame.hpp>
 
@@ -34,7 +35,7 @@ struct VerifyResult {
   std::uint64_t seed = 0;             ///< of the sampled atoms
   std::vector<std::int64_t> frames;   ///< indices of the frames checked
   std::int64_t rows = 0;              ///< atoms whose neighbors were compared, summed over the frames
-  std::int64_t structure_checks = 0;  ///< frames whose hierarchy was checked by Hierarchy::validate()
+  std::int64_t structure_checks = 0;  ///< frames whose hierarchy was checked by PairSearch::validate()
   std::int64_t mismatches = 0;  ///< rows' entries missing or extra, rows out of order, broken structures
   std::vector<Mismatch> first;  ///< the first kMostReported of them
 };
@@ -50,7 +51,7 @@ class Verifier {
   static constexpr std::int64_t kSampledFrames = 10;
   static constexpr std::size_t kSampledAtoms = 1000;
   static constexpr std::uint64_t kSeed = 20060517;
-  /// Hierarchy::validate() takes n^2 steps a level; larger hierarchies are checked through their lists alone.
+  /// PairSearch::validate() takes n^2 steps a level; larger hierarchies are checked through their lists alone.
   static constexpr std::size_t kMostValidatedAtoms = 5000;
 
   /// @param params of the list under test; outlives the verifier
@@ -64,7 +65,7 @@ class Verifier {
     const trajectory::Frame* frame = nullptr;
     const NeighborList* list = nullptr;
     bool list_is_new = true;               ///< built from this very frame
-    const Hierarchy* hierarchy = nullptr;  ///< null if the engine has none
+    PairSearch* structure = nullptr;       ///< the engine, if it keeps a hierarchy
   };
   void check(const Subject& subject);
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "dch_command.h"
 #include "dch_register.h"

@@ -126,12 +126,12 @@ class FaultyFiller : public ClusterListFiller {
         forgotten_(lammps),
         forgetful_(lammps, special, forgotten_) {}
 
-  void fill(AtomPoints& points, dch::Hierarchy& hierarchy, double skin, ClusterList& list) override {
+  void fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list) override {
     const bool is_faulty = ++fills_ >= 3;
-    if (is_faulty && fault == "exclusions") return forgetful_.fill(points, hierarchy, skin, list);
+    if (is_faulty && fault == "exclusions") return forgetful_.fill(points, search, skin, list);
     const int flag_of_bonds = neighbor->special_flag[1];
     if (is_faulty && fault == "bonds") neighbor->special_flag[1] = 1;
-    ClusterListFiller::fill(points, hierarchy, skin, list);
+    ClusterListFiller::fill(points, search, skin, list);
     neighbor->special_flag[1] = flag_of_bonds;
     if (!is_faulty) return;
     if (fault == "drop") drop(points, list);

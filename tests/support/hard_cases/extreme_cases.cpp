@@ -4,9 +4,10 @@
 #include <cmath>
 #include <functional>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/lists/pair_list.hpp>
 
@@ -75,7 +76,7 @@ Finding back_from_far_away() {
   params.radius = 1;
   params.base_radius = 0.3;
   params.policy = MaintenancePolicy::always_repair;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   scenes::Random random(5);
   std::vector<Vec3> points = scenes::uniform_in(box, 200, 6);
   hierarchy.build(points, box);
@@ -177,7 +178,7 @@ std::vector<Case> refusals() {
                 HierarchyParams params;
                 params.radius = 0.4;
                 params.base_radius = 1e6;
-                Hierarchy hierarchy(params);
+                ListedHierarchy hierarchy(params);
                 hierarchy.build(std::vector<Vec3>{{0, 0, 0}}, Box::orthorhombic({1, 1e9, 1e9}));
               }),
       refused("chains over 2^31 particles", "2147483648 particles",

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"
@@ -37,7 +37,7 @@ struct Lists {
     for (const auto& search : {dch.get(), cells.get()}) search->update(scene.points, scene.box);
     list = dch->list(within(scene.radius));
     fault = malformation(list, scene.points.size());
-    if (fault.empty()) fault = hierarchy_of(*dch)->validate();
+    if (fault.empty()) fault = dch->validate();
     if (!fault.empty()) return;
     const std::string difference = first_difference(cells->list(within(scene.radius)), list);
     if (!difference.empty()) fault = "cell list: " + difference;

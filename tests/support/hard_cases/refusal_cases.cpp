@@ -6,8 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 #include <dch/necklace/wrapped_hierarchy.hpp>
 
 #include "hard_case.hpp"
@@ -81,7 +82,7 @@ std::vector<Case> positions_and_radii() {
               [=] {
                 HierarchyParams params;
                 params.radius = 1e-10;
-                Hierarchy h(params);
+                ListedHierarchy h(params);
                 h.build(two, Box::none());
                 ListParams list;
                 list.cutoffs = TypeCutoffs(1e-10);

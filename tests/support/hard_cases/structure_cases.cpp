@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"
@@ -35,7 +35,7 @@ ListParams within(double radius) {
 std::string or_valid(const std::string& fault) { return fault.empty() ? "valid" : fault; }
 
 Finding coincident() {
-  Hierarchy h(with(1, 0));
+  ListedHierarchy h(with(1, 0));
   h.build(std::vector<Vec3>(40, Vec3{1, 2, 3}), Box::none());
   NeighborList list;
   h.list(within(1), list);
@@ -48,7 +48,7 @@ Finding coincident() {
 /// Lemma 5.3.1(6), corrected: at most ceil(lg alpha) + 2 levels, with R_0 in the place of the closest pair;
 /// and those that are no longer needed go.
 Finding levels_of(double far) {
-  Hierarchy h(with(1, 0.5));
+  ListedHierarchy h(with(1, 0.5));
   h.build(std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {far, 0, 0}}, Box::none());
   const int levels = h.levels(),
             limit = static_cast<int>(std::ceil(std::log2(far / h.level(0).covering_radius))) + 2;
@@ -62,7 +62,7 @@ Finding levels_of(double far) {
 
 /// Back and forth over the covering radius.
 Finding exactly_the_covering_radius() {
-  Hierarchy h(with(3, 1));
+  ListedHierarchy h(with(3, 1));
   const std::vector<Vec3> at{{0, 0, 0}, {1, 0, 0}}, beyond{{0, 0, 0}, {std::nextafter(1.0, 2.0), 0, 0}};
   h.build(at, Box::none());
   std::string counts = std::to_string(h.level(1).nodes), fault = h.validate();
@@ -78,7 +78,7 @@ Finding exactly_the_covering_radius() {
 Finding no_oscillation() {
   const Box box = Box::orthorhombic({5, 5, 5});
   const std::vector<Vec3> points = scenes::fcc(box, 0.5, 500);
-  Hierarchy h(with(1, 0.5));
+  ListedHierarchy h(with(1, 0.5));
   h.build(points, box);
   const SearchStats before = h.stats();
   for (int pass = 0; pass < 100; ++pass) h.update(points, box);
@@ -90,7 +90,7 @@ Finding no_oscillation() {
           h.stats().repairs == 100 && promoted == 0 && demoted == 0 && fault.empty()};
 }
 
-bool are_same(const Hierarchy& a, const Hierarchy& b, std::int32_t points) {
+bool are_same(ListedHierarchy& a, ListedHierarchy& b, std::int32_t points) {
   for (std::int32_t id = 0; id < points; ++id) {
     if (a.top_level(id) != b.top_level(id)) return false;
     for (int level = 0; level <= a.top_level(id); ++level)
@@ -103,7 +103,7 @@ bool are_same(const Hierarchy& a, const Hierarchy& b, std::int32_t points) {
 Finding deterministic() {
   const Box box = Box::orthorhombic({5, 5, 5});
   const std::vector<Vec3> points = scenes::fcc(box, 0.5, 500);
-  Hierarchy a(with(1, 0.5)), b(with(1, 0.5));
+  ListedHierarchy a(with(1, 0.5)), b(with(1, 0.5));
   a.build(points, box);
   b.build(points, box);
   NeighborList first, second;
@@ -116,7 +116,7 @@ Finding deterministic() {
           same && difference.empty() && fault.empty()};
 }
 
-std::int64_t edges_of(const Hierarchy& h) {
+std::int64_t edges_of(ListedHierarchy& h) {
   std::int64_t edges = 0;
   for (int level = 1; level < h.levels(); ++level) edges += h.level(level).edges;
   return edges;
@@ -127,7 +127,7 @@ Finding repaired(int repairs) {
   const Box box = Box::orthorhombic({5, 5, 5});
   std::vector<Vec3> points = scenes::uniform_in(box, 60, 21);
   scenes::Random random(22);
-  Hierarchy kept(with(1, 0.5)), fresh(with(1, 0.5));
+  ListedHierarchy kept(with(1, 0.5)), fresh(with(1, 0.5));
   kept.build(points, box);
   std::size_t most[2] = {0, 0};  // memory in the first half and in the second
   for (int k = 0; k < repairs; ++k) {

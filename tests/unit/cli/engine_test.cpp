@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(All, Engines,
 TEST_P(Engines, FollowMotionAndGiveTheOraclesLists) {
   const Engine engine = this->engine(2.5);
   EXPECT_EQ(engine.search->name(), to_string(GetParam()));
-  EXPECT_EQ(engine.hierarchy != nullptr, GetParam() == EngineKind::dch);
+  EXPECT_EQ(engine.keeps_hierarchy, GetParam() == EngineKind::dch);
   ListParams params;
   params.cutoffs = TypeCutoffs(2.5);
   trajectory::Frame frame = random_frame(300);

@@ -153,13 +153,11 @@ TEST(Verifier, KeepsTheFirstMismatchesOnlyButCountsAll) {
 TEST(Verifier, ChecksTheHierarchyOfNewLists) {
   const trajectory::Frame frame = random_frame(100);
   const ListParams params = params_of(ListKind::half);
-  HierarchyParams hierarchy_params;
-  hierarchy_params.radius = 2;
-  Hierarchy hierarchy(hierarchy_params);
-  hierarchy.build(frame.positions, frame.box);
+  const auto search = make_dch_search(2);
+  search->update(frame.positions, frame.box);
   const NeighborList list = all_pairs(frame.positions, frame.box, params);
   Verifier verifier(VerifyMode::all, params, 2);
-  Verifier::Subject subject{0, 0, &frame, &list, true, &hierarchy};
+  Verifier::Subject subject{0, 0, &frame, &list, true, search.get()};
   verifier.check(subject);
   subject.list_is_new = false;
   verifier.check(subject);

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include <dch/base/error.hpp>
-#include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/list_params.hpp>
 
 namespace dch {
 namespace {

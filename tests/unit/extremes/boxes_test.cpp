@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "error_message.hpp"
@@ -85,7 +86,7 @@ void expect_lists(const Box& box, Tally& tally) {
   take([&] {
     const auto hierarchy = make_dch_search(radius);
     hierarchy->update(points, box);
-    EXPECT_EQ(hierarchy_of(*hierarchy)->validate(), "");
+    EXPECT_EQ(hierarchy->validate(), "");
     return hierarchy->list(params);
   });
 }
@@ -196,7 +197,7 @@ TEST(ExtremeBoxes, ClustersOfManyPeriodsAreRefused) {
   HierarchyParams params;
   params.radius = 0.4;
   params.base_radius = 1e6;
-  Hierarchy hierarchy(params);
+  ListedHierarchy hierarchy(params);
   const std::vector<Vec3> points{{0, 0, 0}, {100, 0, 0}};
   const Box flat = Box::orthorhombic({1, 1e9, 1e9});
   EXPECT_THAT(test::message_of<InvalidParameter>([&] { hierarchy.build(points, flat); }),

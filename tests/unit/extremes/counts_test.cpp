@@ -36,7 +36,7 @@ TEST(IndexCount, EndsAtTheLargestIndexOrAtTheLimitGiven) {
 }
 
 // The last lane of the last block has a slot that an index names, and so has the number of slots.
-TEST(PointBlocks, SlotsStayBelowTheLargestIndex) {
+TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
   constexpr std::int64_t most = detail::kMostBlocks;
   EXPECT_EQ(most, (std::int64_t{1} << 28) - 1);
   EXPECT_LE(most * detail::kBlock, kMost);
@@ -45,7 +45,7 @@ TEST(PointBlocks, SlotsStayBelowTheLargestIndex) {
               AllOf(HasSubstr("268435456 blocks"), HasSubstr("at most 268435455"), HasSubstr("base_radius")));
 }
 
-TEST(PointBlocks, NumberOfBlocksOfAnyNumberOfPoints) {
+TEST(LeafBlocks, NumberOfBlocksOfAnyNumberOfPoints) {
   for (const std::int32_t points : {0, 1, 7, 8, 9, 16, kMost - 8, kMost - 7, kMost})
     EXPECT_EQ(detail::blocks_for(points), (std::int64_t{points} + 7) / 8) << points;
 }

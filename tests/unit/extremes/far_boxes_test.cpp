@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "error_message.hpp"
 #include "list_compare.hpp"
@@ -130,7 +131,7 @@ TEST(FarBoxes, HierarchyStaysValidWhenPointsComeBack) {
       params.base_radius = 0.3;
       params.policy = MaintenancePolicy::always_repair;
       params.max_roots = 4;
-      Hierarchy hierarchy(params);
+      ListedHierarchy hierarchy(params);
       scenes::Random random(5);
       std::vector<Vec3> points = scenes::uniform_in(box, 200, 6);
       hierarchy.build(points, box);

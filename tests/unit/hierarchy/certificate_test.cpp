@@ -8,7 +8,7 @@
 #include <limits>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "list_compare.hpp"
@@ -34,7 +34,7 @@ class Certificate : public ::testing::Test {
   /// The first points become centers of level 1 if they are more than R_0 apart, whatever comes after them.
   void start(const std::vector<Vec3>& centers, const std::vector<Vec3>& others, int max_roots = 16,
              const Box& box = Box::none()) {
-    hierarchy_ = Hierarchy(params_with(max_roots));
+    hierarchy_ = ListedHierarchy(params_with(max_roots));
     box_ = box;
     points_ = centers;
     hierarchy_.build(points_, box_);
@@ -87,7 +87,7 @@ class Certificate : public ::testing::Test {
 
   HierarchyTestAccess::Impl& inside() { return HierarchyTestAccess::impl(hierarchy_); }
 
-  Hierarchy hierarchy_{params_with(16)};
+  ListedHierarchy hierarchy_{params_with(16)};
   std::vector<Vec3> points_;
   Box box_;
 };
@@ -208,7 +208,7 @@ class CertificateOfLonePoints : public Certificate, public ::testing::WithParamI
   void SetUp() override {
     const int level = GetParam();
     distance_ = std::ldexp(2.5, level);  // between rho_i = 2^(i + 1) - 0.2 and rho_(i + 1)
-    hierarchy_ = Hierarchy(params_with(1));
+    hierarchy_ = ListedHierarchy(params_with(1));
     points_ = {{0, 0, 0}, {-distance_, 0, 0}, {-distance_, 0.5, 0}};
     build_and_fold();
     ASSERT_EQ(inside().lone.size(), 1u);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "list_compare.hpp"
@@ -23,7 +23,7 @@ inline HierarchyParams params_of(EdgeRule rule, int max_roots,
 }
 
 /// That every invariant holds, the list is the oracle's and no more edges are kept than there are.
-inline void expect_right(Hierarchy& h, const std::vector<Vec3>& points, const Box& box) {
+inline void expect_right(ListedHierarchy& h, const std::vector<Vec3>& points, const Box& box) {
   ASSERT_EQ(h.validate(), "");
   ListParams params;
   params.cutoffs = TypeCutoffs(h.params().radius);

@@ -7,7 +7,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"
@@ -29,12 +29,12 @@ ListParams list_of(double cutoff, ListKind kind = ListKind::half) {
 }
 
 TEST(HierarchyTest, RefusesParametersOutOfRange) {
-  EXPECT_THROW(Hierarchy(with_radius(0)), InvalidParameter);
-  EXPECT_THROW(Hierarchy(with_radius(-1)), InvalidParameter);
-  EXPECT_THROW(Hierarchy(with_radius(std::numeric_limits<double>::quiet_NaN())), InvalidParameter);
-  EXPECT_THROW(Hierarchy(with_radius(std::numeric_limits<double>::infinity())), InvalidParameter);
-  EXPECT_THROW(Hierarchy(with_radius(9e-31)), InvalidParameter) << "clusters hold single precision";
-  EXPECT_THROW(Hierarchy(with_radius(1.1e30)), InvalidParameter);
+  EXPECT_THROW(ListedHierarchy(with_radius(0)), InvalidParameter);
+  EXPECT_THROW(ListedHierarchy(with_radius(-1)), InvalidParameter);
+  EXPECT_THROW(ListedHierarchy(with_radius(std::numeric_limits<double>::quiet_NaN())), InvalidParameter);
+  EXPECT_THROW(ListedHierarchy(with_radius(std::numeric_limits<double>::infinity())), InvalidParameter);
+  EXPECT_THROW(ListedHierarchy(with_radius(9e-31)), InvalidParameter) << "clusters hold single precision";
+  EXPECT_THROW(ListedHierarchy(with_radius(1.1e30)), InvalidParameter);
   HierarchyParams params = with_radius(1);
   params.c = 1.04;
   EXPECT_THROW(Hierarchy{params}, InvalidParameter);
@@ -60,7 +60,7 @@ TEST(HierarchyTest, RefusesPositionsThatAreNotNumbersAndIsEmptyAfterwards) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e101}) {
     std::vector<Vec3> points = scenes::uniform(50, {5, 5, 5}, 1);
-    Hierarchy h(with_radius(1));
+    ListedHierarchy h(with_radius(1));
     h.build(points, Box::none());
     points[20].y = bad;
     EXPECT_THROW(h.update(points, Box::none()), InvalidPosition);
@@ -76,7 +76,7 @@ TEST(HierarchyTest, RefusesPositionsThatAreNotNumbersAndIsEmptyAfterwards) {
 
 TEST(HierarchyTest, RefusesRadiiBeyondHalfTheBox) {
   const std::vector<Vec3> points = scenes::uniform(50, {4, 4, 4}, 1);
-  Hierarchy h(with_radius(2.01));
+  ListedHierarchy h(with_radius(2.01));
   EXPECT_THROW(h.build(points, Box::orthorhombic({4, 4, 4})), CutoffTooLarge);
   EXPECT_NO_THROW(h.build(points, Box::orthorhombic({4, 4, 4}, {false, false, false})));
   EXPECT_THROW(h.update(points, Box::orthorhombic({5, 5, 4})), CutoffTooLarge);
@@ -88,7 +88,7 @@ TEST(HierarchyTest, RefusesBaseRadiiFarBeyondTheBoxInUpdatesToo) {
   HierarchyParams params;
   params.radius = 1;
   params.base_radius = 40;
-  Hierarchy h(params);
+  ListedHierarchy h(params);
   EXPECT_THROW(h.build(points, flat), InvalidParameter);
   h.build(points, Box::none());
   EXPECT_THROW(h.update(points, flat), InvalidParameter);
@@ -96,7 +96,7 @@ TEST(HierarchyTest, RefusesBaseRadiiFarBeyondTheBoxInUpdatesToo) {
 }
 
 TEST(HierarchyTest, RefusesUnknownPointsAndLevels) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
   EXPECT_THROW(h.remove(100), InvalidParameter);
   EXPECT_THROW(h.remove(-1), InvalidParameter);
@@ -112,7 +112,7 @@ TEST(HierarchyTest, RefusesUnknownPointsAndLevels) {
 }
 
 TEST(HierarchyTest, RefusesListsBeyondItsRadius) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
   NeighborList list;
   EXPECT_THROW(h.list(list_of(1.1), list), InvalidParameter);
@@ -125,7 +125,7 @@ TEST(HierarchyTest, RefusesListsBeyondItsRadius) {
 
 TEST(HierarchyTest, EmptyAndTinySetsWork) {
   for (const std::size_t n : {0u, 1u, 2u, 16u, 17u}) {
-    Hierarchy h(with_radius(1));
+    ListedHierarchy h(with_radius(1));
     h.build(scenes::uniform(n, {2, 2, 2}, 1), Box::none());
     EXPECT_EQ(h.size(), n);
     EXPECT_EQ(h.validate(), "") << n;
@@ -142,11 +142,11 @@ TEST(HierarchyTest, ThresholdsFollowTheRule) {
   const std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
   params.base_radius = 1;
   params.policy = MaintenancePolicy::always_repair;  // which has no thresholds that allow for motion
-  Hierarchy additive(params);
+  ListedHierarchy additive(params);
   additive.build(points, Box::none());
   params.base_radius = 0;
   params.edge_rule = EdgeRule::thesis;
-  Hierarchy thesis(params);
+  ListedHierarchy thesis(params);
   thesis.build(points, Box::none());
   ASSERT_GE(additive.levels(), 4);
   for (int i = 0; i < 4; ++i) {
@@ -164,7 +164,7 @@ TEST(HierarchyTest, ThresholdsFollowTheRule) {
 TEST(HierarchyTest, NeighborsOfLevelZeroAreTheFullList) {
   const Box box = Box::orthorhombic({6, 6, 6});
   const std::vector<Vec3> points = scenes::uniform(300, {6, 6, 6}, 11);
-  Hierarchy h(with_radius(1.3));
+  ListedHierarchy h(with_radius(1.3));
   h.build(points, box);
   NeighborList list;
   h.list(list_of(1.3, ListKind::full), list);
@@ -175,7 +175,7 @@ TEST(HierarchyTest, NeighborsOfLevelZeroAreTheFullList) {
 }
 
 TEST(HierarchyTest, ParentsLeadToARootInEveryLevel) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   h.build(scenes::uniform(500, {9, 9, 9}, 2), Box::none());
   for (std::int32_t id = 0; id < 500; ++id) {
     std::int32_t at = id;
@@ -196,7 +196,7 @@ TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
   params.max_roots = 1;
   for (const bool fold : {true, false}) {
     params.fold_lone_points = fold;
-    Hierarchy h(params);
+    ListedHierarchy h(params);
     std::vector<Vec3> points = scenes::uniform(200, {5, 5, 5}, 1);
     points.push_back({200, 0, 0});
     h.build(points, Box::none());
@@ -223,7 +223,7 @@ TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
 // Path compression: the box around a droplet and its gas may be as wide as it likes.
 TEST(HierarchyTest, MemoryDoesNotGrowWithTheBox) {
   const auto bytes_in = [](double width) {
-    Hierarchy h(with_radius(1));
+    ListedHierarchy h(with_radius(1));
     std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
     for (const Vec3 f : scenes::uniform(400, {1, 1, 1}, 4)) points.push_back(width * f);
     h.build(points, Box::orthorhombic({width, width, width}));
@@ -237,7 +237,7 @@ TEST(HierarchyTest, MemoryDoesNotGrowWithTheBox) {
 
 TEST(HierarchyTest, RenumberingKeepsTheStructure) {
   std::vector<Vec3> points = scenes::uniform(200, {6, 6, 6}, 4);
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   h.build(points, Box::none());
   std::vector<std::int32_t> reversed(200);
   std::iota(reversed.rbegin(), reversed.rend(), 0);
@@ -255,7 +255,7 @@ TEST(HierarchyTest, RenumberingKeepsTheStructure) {
 }
 
 TEST(HierarchyTest, IdsOfRemovedPointsAreUsedAgain) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   h.build(scenes::uniform(30, {3, 3, 3}, 4), Box::none());
   h.remove(7);
   h.remove(3);
@@ -274,9 +274,9 @@ TEST(HierarchyTest, PolicyIsObeyed) {
   std::vector<Vec3> points = scenes::uniform(500, {8, 8, 8}, 6);
   HierarchyParams params = with_radius(1);
   params.policy = MaintenancePolicy::always_rebuild;
-  Hierarchy rebuilding(params);
+  ListedHierarchy rebuilding(params);
   params.policy = MaintenancePolicy::always_repair;
-  Hierarchy repairing(params);
+  ListedHierarchy repairing(params);
   for (Hierarchy* h : {&rebuilding, &repairing}) {
     h->build(points, Box::none());
     for (int step = 0; step < 5; ++step) h->update(points, Box::none());
@@ -288,7 +288,7 @@ TEST(HierarchyTest, PolicyIsObeyed) {
 }
 
 TEST(HierarchyTest, RepairIsPutOffWhileTheEdgesAreCertified) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   std::vector<Vec3> points = scenes::uniform(3000, {12, 12, 12}, 6);
   const Box box = Box::orthorhombic({12, 12, 12});
   h.build(points, box);
@@ -314,7 +314,7 @@ TEST(HierarchyTest, RepairIsPutOffWhileTheEdgesAreCertified) {
 }
 
 TEST(HierarchyTest, InsertionAndRemovalDoThePendingRepairFirst) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   std::vector<Vec3> points = scenes::uniform(500, {6, 6, 6}, 6);
   h.build(points, Box::none());
   points[3].x += 1e-3;
@@ -334,7 +334,7 @@ TEST(HierarchyTest, InsertionAndRemovalDoThePendingRepairFirst) {
 
 // Counted by hand: with one level all nodes are roots, and a descent tests each of them.
 TEST(HierarchyStats, CountsDistancesOfBuildInsertionRepairAndRemoval) {
-  Hierarchy h(with_radius(1));
+  ListedHierarchy h(with_radius(1));
   auto counted = [&, before = std::int64_t{0}]() mutable {
     return h.stats().distances - std::exchange(before, h.stats().distances);
   };
@@ -360,7 +360,7 @@ class AutomaticPolicyTest : public ::testing::Test {
   AutomaticPolicyTest() : hierarchy_(with_radius(1)), points_(scenes::uniform(20000, {24, 24, 24}, 6)) {
     hierarchy_.build(points_, Box::none());
   }
-  Hierarchy hierarchy_;
+  ListedHierarchy hierarchy_;
   std::vector<Vec3> points_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <dch/hierarchy/hierarchy.hpp>
 
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 

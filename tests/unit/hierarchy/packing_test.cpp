@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"
@@ -36,14 +36,14 @@ double largest_degree(int dimensions, double reach, double separation) {
   return std::pow(2 * reach / separation + 1, dimensions) - 1;
 }
 
-double separation(const Hierarchy& h, int level) { return h.level(level - 1).covering_radius; }
+double separation(ListedHierarchy& h, int level) { return h.level(level - 1).covering_radius; }
 
 /// The longest an edge of a level may be that has not moved.
-double reach(const Hierarchy& h, int level) {
+double reach(ListedHierarchy& h, int level) {
   return h.level(level).edge_threshold + (level > 1 ? kEdgeSlack * h.level(level).covering_radius : 0);
 }
 
-int most_children(const Hierarchy& h, int level) {
+int most_children(ListedHierarchy& h, int level) {
   std::map<std::int32_t, int> children;
   int most = 0;
   for (std::int32_t id = 0; id < static_cast<std::int32_t>(h.size()); ++id)
@@ -52,7 +52,7 @@ int most_children(const Hierarchy& h, int level) {
 }
 
 /// The first level that has a node with more edges or children than there is room for; 0 if none has.
-int overfull_level(const Hierarchy& h, int dimensions) {
+int overfull_level(ListedHierarchy& h, int dimensions) {
   for (int i = 1; i < h.levels(); ++i) {
     if (static_cast<double>(h.level(i).max_degree) >
         largest_degree(dimensions, reach(h, i), separation(h, i)))
@@ -86,7 +86,7 @@ class Packing : public ::testing::TestWithParam<DenseScene> {
 
 TEST_P(Packing, EdgesAndChildrenOfEveryLevelStayWithinTheBound) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    Hierarchy h(params_of(rule));
+    ListedHierarchy h(params_of(rule));
     std::vector<Vec3> at = points();
     h.build(at, Box::none());
     ASSERT_GT(h.levels(), GetParam().full_levels);
@@ -99,7 +99,7 @@ TEST_P(Packing, EdgesAndChildrenOfEveryLevelStayWithinTheBound) {
 
 TEST_P(Packing, TheCheckSeesTooManyEdges) {
   for (int level = 1; level <= GetParam().full_levels; ++level) {
-    Hierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_of(EdgeRule::additive));
     h.build(points(), Box::none());
     join_all(HierarchyTestAccess::impl(h), level);
     EXPECT_EQ(overfull_level(h, GetParam().dimensions), level);
@@ -125,7 +125,7 @@ TEST(PackingOfLines, TheBoundIsReached) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis})
     for (int level = 1; level <= 8; ++level) {
       const HierarchyParams params = params_of(rule);
-      Hierarchy h(params);
+      ListedHierarchy h(params);
       h.build(line_spaced_for(level, params), Box::none());
       ASSERT_EQ(h.level(level).nodes, 64);
       EXPECT_EQ(static_cast<double>(h.level(level).max_degree),
@@ -142,19 +142,19 @@ TEST(PackingOfLines, TheBoundIsReached) {
 TEST(PackingOfLines, TheThesisFormHoldsForTheThesisRule) {
   for (int level = 1; level <= 6; ++level) {
     const HierarchyParams params = params_of(EdgeRule::thesis);
-    Hierarchy h(params);
+    ListedHierarchy h(params);
     h.build(line_spaced_for(level, params), Box::none());
     EXPECT_LE(static_cast<double>(h.neighbors(32, level).size()), 8 * params.c) << level;
   }
   const HierarchyParams params = params_of(EdgeRule::additive);
-  Hierarchy wider(params);
+  ListedHierarchy wider(params);
   wider.build(line_spaced_for(1, params), Box::none());
   EXPECT_GT(wider.level(1).edge_threshold, 4 * params.c * wider.level(0).covering_radius);
 }
 
 // Lemma 5.3.3 speaks of levels whose nodes are separated, which the points are not.
 TEST(PackingOfClusters, LevelOneHasAnyNumberOfChildren) {
-  Hierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_of(EdgeRule::additive));
   h.build(scenes::uniform(400, {0.2, 0.2, 0.2}, 3), Box::none());
   EXPECT_EQ(most_children(h, 1), 400);
   EXPECT_GT(most_children(h, 1), kMostChildren[3]);

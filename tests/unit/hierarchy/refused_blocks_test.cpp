@@ -7,7 +7,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "list_compare.hpp"
@@ -56,7 +56,7 @@ class RefusedBlocks : public ::testing::Test {
 
   Box box_ = Box::orthorhombic({6, 6, 6});
   std::vector<Vec3> points_ = scenes::uniform_in(box_, kPoints, 5);
-  Hierarchy hierarchy_;
+  ListedHierarchy hierarchy_;
 };
 
 TEST_F(RefusedBlocks, InsertChangesNothing) {

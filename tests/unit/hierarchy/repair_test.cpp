@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "exact_scene.hpp"
 #include "scenes.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 TEST(Repair, APointAtTheCoveringRadiusKeepsItsParentAndOneBeyondLosesIt) {
   for (const double x : {1.0, std::nextafter(1.0, 2.0)}) {
-    Hierarchy h(params_of(EdgeRule::additive, 16));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16));
     std::vector<Vec3> points{{0, 0, 0}, {0.5, 0, 0}};
     h.build(points, Box::none());
     const std::int32_t center = h.top_level(0) == 1 ? 0 : 1;
@@ -31,7 +31,7 @@ TEST(Repair, APointAtTheCoveringRadiusKeepsItsParentAndOneBeyondLosesIt) {
 
 TEST(Repair, CentersAtTheSeparationAreMergedAndThoseBeyondStay) {
   for (const double x : {1.0, std::nextafter(1.0, 2.0)}) {
-    Hierarchy h(params_of(EdgeRule::additive, 16));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16));
     std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}, {3.5, 0, 0}, {-0.5, 0, 0}};
     h.build({points.data(), 2}, Box::none());
     for (std::size_t k = 2; k < 4; ++k) h.insert(points[k]);
@@ -47,7 +47,7 @@ TEST(Repair, CentersAtTheSeparationAreMergedAndThoseBeyondStay) {
 
 TEST(Repair, OfTwoCentersAlikeTheOneWithTheSmallerIdStaysWhereverItStands) {
   for (const bool swap : {false, true}) {
-    Hierarchy h(params_of(EdgeRule::additive, 16));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16));
     std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}};
     h.build(points, Box::none());
     if (swap) h.renumber(std::vector<std::int32_t>{1, 0});
@@ -60,7 +60,7 @@ TEST(Repair, OfTwoCentersAlikeTheOneWithTheSmallerIdStaysWhereverItStands) {
 
 // In a cluster that is looked at because another point left it.
 TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
-  Hierarchy h(params_of(EdgeRule::additive, 16));
+  ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}};
   h.build(points, Box::none());
   for (const Vec3 p : {Vec3{0.5, 0, 0}, Vec3{0, 0.5, 0}}) {
@@ -76,7 +76,7 @@ TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
 
 // A cluster that is given up has handed its points on, which are looked at there.
 TEST(Repair, OrphansOfAMergedClusterAreLookedAtOnce) {
-  Hierarchy h(params_of(EdgeRule::additive, 16));
+  ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}, {3.5, 0, 0}};
   h.build({points.data(), 2}, Box::none());
   h.insert(points[2]);
@@ -90,7 +90,7 @@ TEST(Repair, OrphansOfAMergedClusterAreLookedAtOnce) {
 
 // Once a tenth of them have strayed from their siblings.
 TEST(Repair, NodesAreReorderedOnceManyHaveStrayed) {
-  Hierarchy h(params_of(EdgeRule::additive, 16));
+  ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}, {5, 0, 0}};
   h.build(points, Box::none());
   for (int k = 0; k < 8; ++k) {
@@ -122,7 +122,7 @@ struct Pair {
     for (std::size_t k = 2; k < points.size(); ++k) h.insert(points[k]);
   }
   void update() { h.update(points, Box::none()); }
-  Hierarchy h;
+  ListedHierarchy h;
   std::vector<Vec3> points;
 };
 
@@ -156,7 +156,7 @@ TEST(Repair, NodesAtTheSeparationOfTheirLevelAreMergedAndThoseBeyondStay) {
 // It never had a node in level 1, and may get one that others have to give way to.
 TEST(Repair, ALonePointMayFlyToAnyPlaceAmongClusters) {
   for (double x = -2; x < 20; x += 0.25) {
-    Hierarchy h(params_of(EdgeRule::additive, 1));
+    ListedHierarchy h(params_of(EdgeRule::additive, 1));
     std::vector<Vec3> points;
     for (int k = 0; k < 12; ++k) points.push_back({1.5 * k, 0, 0});
     h.build(points, Box::none());
@@ -174,7 +174,7 @@ TEST(Repair, ALonePointMayFlyToAnyPlaceAmongClusters) {
 // Nodes of level 2 approach each other in steps that alone would leave the edges as they are.
 TEST(Repair, MotionOfUpperLevelsAddsUpUntilTheirEdgesAreFoundAnew) {
   for (const double step : {0.02, 0.05, 0.2}) {
-    Hierarchy h(params_of(EdgeRule::additive, 1));
+    ListedHierarchy h(params_of(EdgeRule::additive, 1));
     std::vector<Vec3>
         points;  // two clusters beyond each other's edges at level 2, and more to have levels above
     for (const double x : {0.0, 9.0, 60.0})
@@ -192,7 +192,7 @@ TEST(Repair, MotionOfUpperLevelsAddsUpUntilTheirEdgesAreFoundAnew) {
 
 // A box that shrinks brings nodes together that have not moved.
 TEST(Repair, EdgesAreFoundAnewInAnotherBox) {
-  Hierarchy h(params_of(EdgeRule::additive, 1));
+  ListedHierarchy h(params_of(EdgeRule::additive, 1));
   for (double side = 60; side > 10; side *= 0.98) {
     const Box box = Box::orthorhombic({side, 60, 60});
     const std::vector<Vec3> points{{1, 1, 1},          {1, 1.5, 1}, {side - 1, 1, 1},
@@ -204,7 +204,7 @@ TEST(Repair, EdgesAreFoundAnewInAnotherBox) {
 }
 
 TEST(Repair, KnowsHowFarNodesOfUpperLevelsMovedWithRoomForRounding) {
-  Hierarchy h(params_of(EdgeRule::additive, 1));
+  ListedHierarchy h(params_of(EdgeRule::additive, 1));
   std::vector<Vec3> points{{0, 0, 0}, {0.5, 0, 0}, {50, 0, 0}, {50.5, 0, 0}};
   h.build(points, Box::none());
   ASSERT_GT(h.levels(), 3);

@@ -4,7 +4,7 @@
 // in which every level changes at every step. Small, so that each is checked after each step.
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "exact_scene.hpp"
 #include "scenes.hpp"
@@ -18,7 +18,7 @@ constexpr MaintenancePolicy kPolicies[] = {MaintenancePolicy::automatic, Mainten
 // A build would give every id a point.
 TEST(Update, LeavesRemovedPointsOutWhateverItDoes) {
   for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16, policy));
     h.build(scenes::uniform(300, {9, 9, 9}, 1), Box::none());
     h.remove(5);
     for (std::uint64_t k = 2; k < 8; ++k) {
@@ -33,7 +33,7 @@ TEST(Update, LeavesRemovedPointsOutWhateverItDoes) {
 
 TEST(Update, LeavesRemovedPointsOutWhereAllWereInserted) {
   for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16, policy));
     std::vector<Vec3> points = scenes::uniform(40, {5, 5, 5}, 1);
     for (const Vec3 p : points) h.insert(p);
     h.remove(5);
@@ -47,7 +47,7 @@ TEST(Update, LeavesRemovedPointsOutWhereAllWereInserted) {
 // Their R_0 is that of no points at all.
 TEST(Update, BuildsWhereAllWereInserted) {
   for (const MaintenancePolicy policy : kPolicies) {
-    Hierarchy h(params_of(EdgeRule::additive, 16, policy));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16, policy));
     const std::vector<Vec3> points = scenes::uniform(40, {5, 5, 5}, 1);
     for (const Vec3 p : points) h.insert(p);
     h.update(points, Box::none());
@@ -61,7 +61,7 @@ TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
   for (const bool fold : {true, false}) {
     HierarchyParams params = params_of(EdgeRule::additive, 2);
     params.fold_lone_points = fold;
-    Hierarchy h(params);
+    ListedHierarchy h(params);
     const std::vector<Vec3> points{{0, 0, 0}, {100, 0, 0}, {101.5, 0, 0}};
     h.build(points, Box::none());
     for (int k = 0; k < 2; ++k)
@@ -78,7 +78,7 @@ TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
 
 // In whatever order they stand: its own node may be the first of two children.
 TEST(LoneNodes, HaveNoOtherChild) {
-  Hierarchy h(params_of(EdgeRule::additive, 1));
+  ListedHierarchy h(params_of(EdgeRule::additive, 1));
   const std::vector<Vec3> points{{0, 0, 0}, {60, 0, 0}, {1.5, 0, 0}};
   h.build({points.data(), 2}, Box::none());
   h.insert(points[2]);
@@ -94,14 +94,14 @@ TEST(LoneNodes, HaveNoOtherChild) {
 
 TEST(Insertion, TakesTheNearestOfTheCentersThatCover) {
   for (const double x : {0.6, 0.9}) {
-    Hierarchy h(params_of(EdgeRule::additive, 16));
+    ListedHierarchy h(params_of(EdgeRule::additive, 16));
     h.build(std::vector<Vec3>{{0, 0, 0}, {1.5, 0, 0}}, Box::none());
     EXPECT_EQ(h.parent(h.insert({x, 0, 0}), 0), x < 0.75 ? 0 : 1) << x;
   }
 }
 
 TEST(Insertion, FillsABlockBeforeItTakesAnother) {
-  Hierarchy h(params_of(EdgeRule::additive, 16));
+  ListedHierarchy h(params_of(EdgeRule::additive, 16));
   h.build(std::vector<Vec3>{{0, 0, 0}}, Box::none());
   for (int k = 1; k < 24; ++k) {
     h.insert({0.01 * k, 0, 0});
@@ -141,7 +141,7 @@ class RepairOfSmallScenes : public ::testing::TestWithParam<SmallScene> {
 TEST_P(RepairOfSmallScenes, ValidAfterMotionOfEverySize) {
   for (const MaintenancePolicy policy : {MaintenancePolicy::always_repair, MaintenancePolicy::automatic})
     for (const double step : {0.01, 0.1, 0.5, 2.0, 8.0}) {
-      Hierarchy h(params_of(GetParam().rule, GetParam().max_roots, policy));
+      ListedHierarchy h(params_of(GetParam().rule, GetParam().max_roots, policy));
       std::vector<Vec3> at = points(1);
       scenes::Random random(2);
       h.build(at, box());
@@ -158,7 +158,7 @@ TEST_P(RepairOfSmallScenes, ValidAfterMotionOfEverySize) {
 }
 
 TEST_P(RepairOfSmallScenes, ValidWhilePointsComeAndGo) {
-  Hierarchy h(params_of(GetParam().rule, GetParam().max_roots));
+  ListedHierarchy h(params_of(GetParam().rule, GetParam().max_roots));
   scenes::Random random(3);
   h.build(points(4), box());
   const std::vector<Vec3> more = points(5);

@@ -3,7 +3,7 @@
 // A checker that cannot fail is worthless: every kind of fault is planted once and has to be reported.
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"
@@ -37,7 +37,7 @@ class ValidateTest : public ::testing::Test {
     EXPECT_NE(report.find(part), std::string::npos) << "reported: '" << report << "'";
   }
 
-  Hierarchy hierarchy_;
+  ListedHierarchy hierarchy_;
 };
 
 TEST_F(ValidateTest, SoundHierarchyPasses) {
@@ -158,7 +158,7 @@ class ValidateLonePointsTest : public ::testing::Test {
     const std::string report = hierarchy_.validate();
     EXPECT_NE(report.find(part), std::string::npos) << "reported: '" << report << "'";
   }
-  Hierarchy hierarchy_;
+  ListedHierarchy hierarchy_;
 };
 
 TEST_F(ValidateLonePointsTest, SoundHierarchyPasses) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include <dch/hierarchy/hierarchy.hpp>
+#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "scenes.hpp"
@@ -33,13 +33,13 @@ std::vector<Vec3> uniform_of(std::size_t n, std::uint64_t seed = 1) {
 
 /// Distances of what `work` does.
 template <class Work>
-double distances_of(Hierarchy& h, const Work& work) {
+double distances_of(ListedHierarchy& h, const Work& work) {
   const std::int64_t before = h.stats().distances;
   work();
   return static_cast<double>(h.stats().distances - before);
 }
 
-double distances_of_build(Hierarchy& h, const std::vector<Vec3>& points) {
+double distances_of_build(ListedHierarchy& h, const std::vector<Vec3>& points) {
   return distances_of(h, [&] { h.build(points, Box::none()); }) / static_cast<double>(points.size());
 }
 
@@ -47,7 +47,7 @@ double distances_of_build(Hierarchy& h, const std::vector<Vec3>& points) {
 // more.
 TEST(Work, BuildGrowsWithTheLevelsAlone) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    Hierarchy few(params_of(rule)), many(params_of(rule));
+    ListedHierarchy few(params_of(rule)), many(params_of(rule));
     const double of_few = distances_of_build(few, uniform_of(1000));
     const double of_many = distances_of_build(many, uniform_of(8000));
     EXPECT_GE(many.levels(), few.levels());
@@ -58,7 +58,7 @@ TEST(Work, BuildGrowsWithTheLevelsAlone) {
 
 // Clusters down to a thousandth of the cell: the levels follow the aspect ratio, the work follows the levels.
 TEST(Work, BuildOfClusters) {
-  Hierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_of(EdgeRule::additive));
   const Box box = Box::orthorhombic({200, 200, 200});
   const std::vector<Vec3> points = scenes::clustered(box, 3000, 3);
   const double work = distances_of(h, [&] { h.build(points, box); }) / 3000;
@@ -67,7 +67,7 @@ TEST(Work, BuildOfClusters) {
 
 TEST(Work, InsertionGrowsWithTheLevelsAlone) {
   for (const std::size_t n : {1000u, 8000u}) {
-    Hierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_of(EdgeRule::additive));
     const std::vector<Vec3> points = uniform_of(n), more = uniform_of(n, 2);
     h.build(points, Box::none());
     const double from_the_roots = distances_of(h, [&] {
@@ -88,7 +88,7 @@ TEST(Work, InsertionGrowsWithTheLevelsAlone) {
 
 // A point ten thousand radii away is one distance a level from the others, whatever there is among them.
 TEST(Work, InsertionFarAwayLooksAtNoCluster) {
-  Hierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_of(EdgeRule::additive));
   h.build(uniform_of(8000), Box::none());
   h.insert({1e4, 0, 0});
   const double work = distances_of(h, [&] { h.insert({0, 1e4, 0}); });
@@ -100,11 +100,11 @@ TEST(Work, InsertionFarAwayLooksAtNoCluster) {
 TEST(Work, UpdateWithoutMotionLooksOnceAtEachPoint) {
   for (const std::size_t n : {1000u, 8000u}) {
     const std::vector<Vec3> points = uniform_of(n);
-    Hierarchy certified(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
+    ListedHierarchy certified(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
     certified.build(points, Box::none());
     EXPECT_EQ(distances_of(certified, [&] { certified.update(points, Box::none()); }),
               static_cast<double>(n));
-    Hierarchy repaired(params_of(EdgeRule::additive));
+    ListedHierarchy repaired(params_of(EdgeRule::additive));
     repaired.build(points, Box::none());
     const double work = distances_of(repaired, [&] { repaired.update(points, Box::none()); });
     EXPECT_LE(work / static_cast<double>(n), 190) << n;
@@ -117,7 +117,7 @@ TEST(Work, IsWhatItWas) {
   const Box box = Box::orthorhombic({200, 200, 200});
   std::vector<Vec3> points = scenes::clustered(box, 400, 3);
   for (const Vec3 p : scenes::uniform_in(box, 60, 4)) points.push_back(p);
-  Hierarchy h(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
+  ListedHierarchy h(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
   EXPECT_EQ(distances_of(h, [&] { h.build({points.data(), 440}, box); }), 27726);
   EXPECT_EQ(distances_of(h,
                          [&] {
@@ -148,7 +148,7 @@ TEST(Work, IsWhatItWas) {
 TEST(Work, AChangedBoxCostsOneRepair) {
   const auto box_of = [](double side) { return Box::orthorhombic({side, side, side}); };
   const std::vector<Vec3> points = scenes::uniform(2000, {10, 10, 10}, 1);
-  Hierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_of(EdgeRule::additive));
   h.build(points, box_of(10));
   const double before = distances_of(h, [&] { h.update(points, box_of(10)); });
   const double changed = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
@@ -159,7 +159,7 @@ TEST(Work, AChangedBoxCostsOneRepair) {
 
 TEST(Work, LargeMotionCostsOneRepair) {
   std::vector<Vec3> points = uniform_of(2000);
-  Hierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_of(EdgeRule::additive));
   h.build(points, Box::none());
   const double before = distances_of(h, [&] { h.update(points, Box::none()); });
   for (Vec3& p : points) p.x += 3;
@@ -174,7 +174,7 @@ TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
   const std::vector<Vec3> points = uniform_of(8000);
   const double n = static_cast<double>(points.size());
   for (const std::size_t lost : {0u, 10u, 100u, 1000u}) {
-    Hierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_of(EdgeRule::additive));
     h.build(points, Box::none());
     std::vector<Vec3> moved = points;
     scenes::Random random(4);
@@ -191,7 +191,7 @@ TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
 TEST(Work, SmallMotionLeavesTheEdgesOfUpperLevelsAlone) {
   const std::vector<Vec3> points = uniform_of(8000);
   const auto distances_after = [&](double step) {
-    Hierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_of(EdgeRule::additive));
     h.build(points, Box::none());
     std::vector<Vec3> moved = points;
     scenes::Random random(5);
@@ -209,11 +209,11 @@ struct ListWork {
   ListWork(const std::vector<Vec3>& points, const Box& box, const ListParams& request, double radius) {
     HierarchyParams params;
     params.radius = radius;
-    Hierarchy h(params);
+    ListedHierarchy h(params);
     h.build(points, box);
     NeighborList list;
     h.list(request, list);
-    const auto work = HierarchyTestAccess::impl(h).list_finder.work();
+    const auto work = h.list_maker().work();
     const auto pairs = static_cast<double>(list.pairs());
     gathered = static_cast<double>(work.gathered) / pairs;
     tested = static_cast<double>(work.tested) / pairs;

@@ -6,33 +6,16 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
-#include <dch/lists/neighbor_list.hpp>
 #include <dch/base/span.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/hierarchy/hierarchy_params.hpp>
+#include <dch/hierarchy/hierarchy_view.hpp>
+#include <dch/hierarchy/search_stats.hpp>
+#include <dch/lists/list_params.hpp>
+#include <dch/lists/neighbor_list.hpp>
 
 namespace dch {
-
-/// What an engine did since it was made. Times in seconds of wall clock.
-struct SearchStats {
-  std::int64_t updates = 0;     ///< calls of update()
-  std::int64_t builds = 0;      ///< structures built from scratch
-  std::int64_t refreshes = 0;   ///< updates that needed no repair yet: positions only (DCH)
-  std::int64_t repairs = 0;     ///< structures brought up to date under motion (0 for engines that cannot)
-  std::int64_t promotions = 0;  ///< nodes lifted one level (DCH)
-  std::int64_t demotions = 0;   ///< nodes removed from one level (DCH)
-  std::int64_t reparented =
-      0;  ///< nodes that lost their parent under motion and were given a place again (DCH)
-  /// Distances between two points that were computed to build, repair or change the structure: in descents,
-  /// for edges, and whether parents still cover (DCH). The same on any number of threads and any instruction
-  /// set. Left out is what depends on no position: the sampling of the density, and how far each point moved.
-  std::int64_t distances = 0;
-  std::int64_t inserted = 0;     ///< particles added to a standing structure
-  std::int64_t removed = 0;      ///< particles removed from a standing structure
-  int levels = 0;                ///< height of the hierarchy now (DCH)
-  double maintain_seconds = 0;   ///< spent in update()
-  double list_seconds = 0;       ///< spent in list()
-  std::size_t memory_bytes = 0;  ///< held by the structure now, lists left out
-};
 
 /// An engine that keeps a search structure over moving particles and writes neighbor lists from it.
 ///
@@ -75,9 +58,28 @@ class PairSearch {
     return out;
   }
 
+  /// The pairs within the list radius for SIMD force kernels, at the positions of the last update: whatever their types
+  /// or radii, all of them, except those with a cutoff of 0; params.kind and params.order have no meaning here. The same
+  /// on any number of threads and any instruction set.
+  /// @throws InvalidParameter as list(), if the radius is outside 1e-9..1e9, where single precision might overflow, and
+  ///   from engines that make none: has_cluster_pairs() says which.
+  virtual void cluster_pairs(const ListParams& params, ClusterPairs& out);
+  virtual bool has_cluster_pairs() const { return false; }
+
+  /// Checks the structure against all pairs, in O(n^2). Returns an empty string if all is in order (or no structure is
+  /// kept), else a description of the first fault.
+  virtual std::string validate() { return {}; }
+  /// The levels of the hierarchy, from the lowest on; none of engines without one, or with several.
+  virtual std::vector<LevelInfo> levels() { return {}; }
+
   virtual const SearchStats& stats() const = 0;
   virtual std::string name() const = 0;  ///< "dch", "cell"
 };
+
+/// An engine on a hierarchy of its own; see PairSearch.
+/// @throws as Hierarchy's constructor.
+std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params);
+std::unique_ptr<PairSearch> make_dch_search(double radius);
 
 /// Cell (voxel) list with a hash over occupied cells, built from scratch at every update: the baseline.
 /// Cells are of the reduced box and at least `radius` / `divisions` wide.

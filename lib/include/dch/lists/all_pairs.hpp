@@ -2,6 +2,7 @@
 #pragma once
 
 #include <dch/geometry/box.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/base/span.hpp>
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <dch/geometry/box.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 
 template <class Metric, class IdOf, class PositionOf>
-void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::PointBlocks& blocks,
+void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::LeafBlocks& blocks,
                                     std::vector<std::int32_t>& cluster_of, const IdOf& id_of,
                                     const PositionOf& position_of) {
   Members members;
@@ -76,7 +76,7 @@ void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& member
 }
 
 template <class IdOf, class PositionOf>
-void Hierarchy::Impl::fill_cluster(detail::PointBlocks& blocks, std::int32_t cluster,
+void Hierarchy::Impl::fill_cluster(detail::LeafBlocks& blocks, std::int32_t cluster,
                                    std::vector<detail::LocalPoint>& local, const IdOf& id_of,
                                    const PositionOf& position_of) {
   const auto count = static_cast<std::int32_t>(local.size());

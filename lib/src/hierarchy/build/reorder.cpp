@@ -98,7 +98,7 @@ void Hierarchy::Impl::reorder_points() {
   std::vector<std::int32_t> cluster_of(points.id.size(), kNone);
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
     for_each_child(1, k, [&](std::int32_t slot) { cluster_of[slot] = k; });
-  detail::PointBlocks fresh;
+  detail::LeafBlocks fresh;
   fresh.most = points.most;
   with_metric(box, [&](const auto& metric) {
     fill_clusters(

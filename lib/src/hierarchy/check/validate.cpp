@@ -6,13 +6,19 @@
 #include <cmath>
 #include <sstream>
 
-#include "hierarchy/structure.hpp"
+#include <dch/hierarchy/hierarchy_view.hpp>
+
+#include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
+#include "geometry/tolerance.hpp"
+#include "hierarchy/structure.hpp"
 
 namespace dch {
 
 using detail::kNone;
+using detail::kInflate;
 using detail::Level;
+using detail::Structure;
 using detail::with_metric;
 
 namespace {
@@ -38,9 +44,8 @@ class Verdict {
 };
 
 /// Blocks of points: filled from the front, in the chain of exactly one cluster.
-template <class Impl>
-void check_blocks(const Impl& h, Verdict& verdict) {
-  const detail::PointBlocks& points = h.points;
+void check_blocks(const Structure& h, Verdict& verdict) {
+  const detail::LeafBlocks& points = h.points;
   std::int32_t alive = 0;
   std::vector<char> seen(points.cluster.size(), 0);
   for (std::int32_t k = 0; k < h.levels[1].size(); ++k) {
@@ -63,8 +68,7 @@ void check_blocks(const Impl& h, Verdict& verdict) {
 
 /// Lone nodes: known to their points, without edges and children. That no other node is near is for
 /// check_pairs().
-template <class Impl>
-void check_lone_nodes(const Impl& h, Verdict& verdict) {
+void check_lone_nodes(const Structure& h, Verdict& verdict) {
   for (std::size_t k = 0; k < h.lone.size(); ++k) {
     const auto [i, node] = h.lone[k];
     const std::int32_t place = h.place_of_lone(static_cast<std::int32_t>(k));
@@ -79,8 +83,7 @@ void check_lone_nodes(const Impl& h, Verdict& verdict) {
 
 /// Ids, positions and the links between a point's own nodes: S_0 holds every point, S_{i+1} is a subset of
 /// S_i.
-template <class Impl>
-void check_nesting(const Impl& h, Verdict& verdict) {
+void check_nesting(const Structure& h, Verdict& verdict) {
   std::int64_t count = 0;
   for (std::size_t id = 0; id < h.slot_of_id.size(); ++id) {
     const std::int32_t slot = h.slot_of_id[id];
@@ -118,8 +121,8 @@ void check_nesting(const Impl& h, Verdict& verdict) {
 }
 
 /// Parents cover their children, and the lists of children are exactly the inverse of `parent`.
-template <class Impl, class Metric>
-void check_coverage(const Metric& metric, const Impl& h, Verdict& verdict) {
+template <class Metric>
+void check_coverage(const Metric& metric, const Structure& h, Verdict& verdict) {
   for (int i = 0; i <= h.top(); ++i) {
     for (std::int32_t k = 0; k < h.size(i); ++k) {
       if (!h.is_alive(i, k)) continue;
@@ -180,8 +183,7 @@ struct Member {
   std::int32_t id;
   Vec3 at;
 };
-template <class Impl>
-std::vector<Member> members_of(const Impl& h, int i) {
+std::vector<Member> members_of(const Structure& h, int i) {
   std::vector<Member> members;
   for (std::int32_t k = 0; k < h.size(i); ++k)
     if (h.is_alive(i, k)) members.push_back({k, h.id(i, k), h.position(i, k)});
@@ -191,8 +193,8 @@ std::vector<Member> members_of(const Impl& h, int i) {
 }
 
 /// Separation (5.3.1(2)) and edges (5.3.1(3)), stored or enumerated, of one level against all pairs.
-template <class Impl, class Metric>
-void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
+template <class Metric>
+void check_pairs(const Metric& metric, const Structure& h, int i, Verdict& verdict) {
   const double threshold2 = h.levels[i].threshold2;
   const double separation2 = i == 0 ? -1 : h.levels[i - 1].radius2;  // level 0 may hold coincident points
   for (std::int32_t k = 0; k < h.size(i) && i > 0; ++k)
@@ -232,8 +234,8 @@ void check_pairs(const Metric& metric, const Impl& h, int i, Verdict& verdict) {
 
 /// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined
 /// parents, and lone points have none so near.
-template <class Impl, class Metric>
-void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict) {
+template <class Metric>
+void check_reachable_pairs(const Metric& metric, const Structure& h, Verdict& verdict) {
   Marks joined(h.size(1));
   const auto require_far = [&](double d2, std::int32_t a, std::int32_t b) {
     verdict.require(d2 > h.levels[0].threshold2, 0, "repair is pending, and points ", a, " and ", b,
@@ -259,19 +261,20 @@ void check_reachable_pairs(const Metric& metric, const Impl& h, Verdict& verdict
 
 }  // namespace
 
-std::string Hierarchy::Impl::validate() const {
+std::string validate(const HierarchyView& hierarchy) {
+  const Structure& h = hierarchy.structure();
+  const int top = h.top(), most_roots = h.params.max_roots;
   Verdict verdict;
-  verdict.require(top() == 1 || levels[top() - 1].alive() + lone_above(top() - 1) > params.max_roots, top(),
-                  "is not needed");
-  verdict.require(levels.back().alive() <= params.max_roots, top(), "has ", levels.back().alive(),
-                  " roots, more than ", params.max_roots);
-  check_blocks(*this, verdict);
-  if (!verdict.failed()) check_nesting(*this, verdict);
+  verdict.require(top == 1 || h.levels[top - 1].alive() + h.lone_above(top - 1) > most_roots, top, "is not needed");
+  verdict.require(h.levels.back().alive() <= most_roots, top, "has ", h.levels.back().alive(), " roots, more than ",
+                  most_roots);
+  check_blocks(h, verdict);
+  if (!verdict.failed()) check_nesting(h, verdict);
   if (verdict.failed()) return verdict.text();
-  with_metric(box, [&](const auto& metric) {
-    if (pending) return check_reachable_pairs(metric, *this, verdict);
-    check_coverage(metric, *this, verdict);
-    for (int i = 0; i <= top() && !verdict.failed(); ++i) check_pairs(metric, *this, i, verdict);
+  with_metric(h.box, [&](const auto& metric) {
+    if (h.pending) return check_reachable_pairs(metric, h, verdict);
+    check_coverage(metric, h, verdict);
+    for (int i = 0; i <= top && !verdict.failed(); ++i) check_pairs(metric, h, i, verdict);
   });
   return verdict.text();
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "hierarchy/build/base_radius.hpp"
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 #include "geometry/position_check.hpp"
 #include "base/seconds_since.hpp"
 
@@ -90,7 +90,7 @@ void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
 template <class Metric>
 void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
   refresh_level(metric, 1);
-  cluster_points.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  leaves.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
   stats.distances += points.alive;
   measured = true;
 }
@@ -118,7 +118,7 @@ void Hierarchy::Impl::count_uncovered(const Metric& metric, int i, detail::Maint
   if (i > 1) stats.distances += levels[i - 1].alive();
   for (std::int32_t k = 0; k < level.size(); ++k) {
     if (!level.is_alive(k)) continue;
-    std::int64_t orphans = i == 1 ? cluster_points.clusters[k].uncovered : 0;
+    std::int64_t orphans = i == 1 ? leaves.leaves[k].uncovered : 0;
     if (i > 1)
       for_each_child(i, k, [&](std::int32_t child) {
         orphans += metric.distance2(position(i - 1, child), level.position[k]) > limit2;
@@ -153,7 +153,7 @@ detail::MaintenanceWork Hierarchy::Impl::standing_work() const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) cluster_points.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  if (!measured) leaves.measure(metric, levels[1], points, levels[0].radius2, params.executor);
   measured = true;
 }
 
@@ -170,7 +170,7 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k)) continue;
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
-    if (cluster_points.clusters[k].extent + moved > limit) return false;
+    if (leaves.leaves[k].extent + moved > limit) return false;
     motion = std::max(motion, moved);
   }
   for (const LoneNode& node : lone) {
@@ -180,6 +180,16 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
     if (moved > limit + 0.5 * (level.radius - levels[1].radius) / kInflate) return false;
   }
   return true;
+}
+
+/// Points that lie much farther out than all before would have lists rely on thresholds that do not allow for it.
+void Hierarchy::Impl::allow_for_far_points() {
+  if (detail::WrapError(box).bound(largest_reach) <= wrap_slack) return;
+  set_wrap_slack();
+  with_metric(box, [&](const auto& metric) {
+    refresh_centers(metric);
+    repair(metric);
+  });
 }
 
 void Hierarchy::Impl::repair_if_pending() {
@@ -215,9 +225,7 @@ bool Hierarchy::Impl::exchange_pays(std::size_t particles) const {
   return one * static_cast<double>(particles) <= build_cost(standing_work(), detail::weights_in(box));
 }
 
-#define DCH_INSTANTIATE(Metric)                          \
-  template void Hierarchy::Impl::measure(const Metric&); \
-  template void Hierarchy::Impl::refresh_centers(const Metric&);
+#define DCH_INSTANTIATE(Metric) template void Hierarchy::Impl::measure(const Metric&);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)
 DCH_INSTANTIATE(detail::LatticeMetric)

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 
@@ -48,7 +48,7 @@ void Hierarchy::Impl::repair(const Metric& metric) {
 /// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
 /// since then hold none but those that were found to be near enough.
 bool Hierarchy::Impl::is_known_to_cover(std::int32_t cluster) const {
-  const auto& clusters = cluster_points.clusters;
+  const auto& clusters = leaves.leaves;
   return static_cast<std::size_t>(cluster) >= clusters.size() || clusters[cluster].uncovered == 0;
 }
 
@@ -200,7 +200,7 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
     }
     points.next[last] = level.first_child[heir];
     level.first_child[heir] = level.first_child[node];
-    auto& clusters = cluster_points.clusters;
+    auto& clusters = leaves.leaves;
     if (static_cast<std::size_t>(heir) >= clusters.size())
       clusters.resize(static_cast<std::size_t>(heir) + 1);
     ++clusters[heir].uncovered;  // for all that is known

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 

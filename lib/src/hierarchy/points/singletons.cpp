@@ -4,7 +4,7 @@
 // as its only descendant and no edge stands in no level below in memory. If no node of level i is within
 // rho_i of it, none of level j < i is within rho_j: such a node's ancestor in level i is within R_i - R_j of
 // it, and rho_i >= rho_j + 2 (R_i - R_j).
-#include "hierarchy/structure.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 
@@ -82,18 +82,6 @@ void Hierarchy::Impl::fold() {
       make_lone(level, k);
     }
   }
-}
-
-std::int32_t Hierarchy::Impl::lone_above(int level) const {
-  std::int32_t count = 0;
-  for (const LoneNode& node : lone) count += node.level > level;
-  return count;
-}
-
-std::vector<std::int32_t> Hierarchy::Impl::lone_points() const {
-  std::vector<std::int32_t> ids;
-  for (const LoneNode& node : lone) ids.push_back(levels[node.level].id[node.node]);
-  return ids;
 }
 
 }  // namespace dch

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <dch/geometry/box.hpp>
+#include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/base/span.hpp>
 
@@ -21,7 +22,7 @@ class ListFinder {
   /// @param positions of all particles as given, not wrapped
   void find(const ListScene& scene, Span<const Vec3> positions, Span<const ListParams> requests,
             const std::vector<NeighborList*>& out);
-  RowFinder::Work work() const { return cluster_rows_.work(); }
+  ListWork work() const { return leaf_rows_.work(); }
   std::size_t memory_bytes() const;
 
  private:
@@ -29,7 +30,7 @@ class ListFinder {
                   const std::vector<const ListParams*>& requests, const std::vector<NeighborList*>& out);
   void put_in_order(const ListParams& request, std::size_t n, const NeighborList& found, NeighborList& out);
 
-  ClusterRows cluster_rows_;
+  LeafRows leaf_rows_;
   std::vector<NeighborList> found_;  ///< rows as they were found, where another order is asked for
   ListAssembler assembler_;
 };

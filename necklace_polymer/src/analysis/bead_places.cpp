@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "chains/bead_places.hpp"
+#include "analysis/bead_places.hpp"
 
 #include <string>
 

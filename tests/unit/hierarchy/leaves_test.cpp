@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What lists are made from: each number of it beside its definition, in small scenes that hold every case.
-#include "hierarchy/leaf_points.hpp"
+#include "leaves/leaf_source.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/metric.hpp"
+#include "lists/pair_filter.hpp"
 #include "scenes.hpp"
 
 namespace dch::detail {
@@ -47,25 +48,25 @@ struct Scene {
 
   Box box;
   Level centers;
-  PointBlocks blocks;
+  LeafBlocks blocks;
   std::vector<Vec3> positions;
 };
 
 constexpr double kCovered2 = 25;  // a point of each cluster is exactly there at first
 
-void expect_measured(const ClusterPoints& points, const Scene& scene) {
+void expect_measured(const MeasuredLeaves& points, const Scene& scene) {
   const std::size_t clusters = scene.centers.position.size();
-  std::vector<ClusterPoints::Cluster> expected(clusters);
+  std::vector<MeasuredLeaves::Leaf> expected(clusters);
   std::vector<Vec3> low(clusters), high(clusters);
   std::int32_t blocks = 0;
   scene.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t block) {
-    ClusterPoints::Cluster& cluster = expected[static_cast<std::size_t>(k)];
-    const std::int32_t b = points.clusters[k].first_block + n, count = scene.blocks.count[block];
-    ASSERT_EQ(b, blocks++) << "blocks of clusters side by side";
+    MeasuredLeaves::Leaf& leaf = expected[static_cast<std::size_t>(k)];
+    const std::int32_t b = points.leaves[k].first_block + n, count = scene.blocks.count[block];
+    ASSERT_EQ(b, blocks++) << "blocks of leaves side by side";
     ASSERT_EQ(points.source[b], block);
     ASSERT_EQ(points.count[b], count);
     ASSERT_EQ(points.lanes[b], (1 << count) - 1);
-    ++cluster.blocks;
+    ++leaf.blocks;
     Vec3 least{1e9, 1e9, 1e9}, most{-1e9, -1e9, -1e9};
     for (std::int32_t lane = 0; lane < count; ++lane) {
       const Vec3 at = scene.box.wrap(scene.positions[scene.id(block, lane)]);
@@ -76,26 +77,26 @@ void expect_measured(const ClusterPoints& points, const Scene& scene) {
         least[axis] = std::min(least[axis], offset[axis]);
         most[axis] = std::max(most[axis], offset[axis]);
       }
-      cluster.extent = std::max(cluster.extent, std::sqrt(norm2(offset)));
-      cluster.uncovered += norm2(offset) > kCovered2;
+      leaf.extent = std::max(leaf.extent, std::sqrt(norm2(offset)));
+      leaf.uncovered += norm2(offset) > kCovered2;
     }
     for (int axis = 0; axis < 3; ++axis) {
       ASSERT_NEAR(points.corners[b].low[axis], least[axis], 1e-6);
       ASSERT_NEAR(points.corners[b].high[axis], most[axis], 1e-6);
       low[k][axis] = std::min(low[k][axis], least[axis]);
       high[k][axis] = std::max(high[k][axis], most[axis]);
-      cluster.block_width = std::max(cluster.block_width, most[axis] - least[axis]);
-      cluster.width = std::max(cluster.width, high[k][axis] - low[k][axis]);
+      leaf.block_width = std::max(leaf.block_width, most[axis] - least[axis]);
+      leaf.width = std::max(leaf.width, high[k][axis] - low[k][axis]);
     }
   });
   EXPECT_EQ(points.blocks, blocks);
   double extent = 0, width = 0, block_width = 0;
   for (std::size_t k = 0; k < clusters; ++k) {
-    EXPECT_EQ(points.clusters[k].blocks, expected[k].blocks);
-    EXPECT_NEAR(points.clusters[k].extent, expected[k].extent, 1e-12);
-    EXPECT_NEAR(points.clusters[k].width, expected[k].width, 1e-12);
-    EXPECT_NEAR(points.clusters[k].block_width, expected[k].block_width, 1e-12);
-    EXPECT_EQ(points.clusters[k].uncovered, expected[k].uncovered);
+    EXPECT_EQ(points.leaves[k].blocks, expected[k].blocks);
+    EXPECT_NEAR(points.leaves[k].extent, expected[k].extent, 1e-12);
+    EXPECT_NEAR(points.leaves[k].width, expected[k].width, 1e-12);
+    EXPECT_NEAR(points.leaves[k].block_width, expected[k].block_width, 1e-12);
+    EXPECT_EQ(points.leaves[k].uncovered, expected[k].uncovered);
     extent = std::max(extent, expected[k].extent);
     width = std::max(width, expected[k].width);
     block_width = std::max(block_width, expected[k].block_width);
@@ -111,9 +112,9 @@ const std::vector<Box>& boxes() {
   return all;
 }
 
-TEST(ClusterPoints, MeasuresThemAndTakesNewPositions) {
+TEST(MeasuredLeaves, MeasuresThemAndTakesNewPositions) {
   for (const Box& box : boxes()) {
-    ClusterPoints points;
+    MeasuredLeaves points;
     for (const std::uint64_t seed : {1, 2, 3}) {  // more clusters, then fewer, in the same object
       Scene scene(box,
                   seed == 2 ? std::vector<std::int32_t>{3, 8, 0, 19, 2, 30, 9, 16}
@@ -133,10 +134,10 @@ TEST(ClusterPoints, MeasuresThemAndTakesNewPositions) {
   }
 }
 
-/// Points that have been measured, and filters for them.
-class ClusterPointsNamed : public ::testing::Test {
+/// Leaves that have been measured, and lists that say what to label them with.
+class LabelledLeavesTest : public ::testing::Test {
  protected:
-  ClusterPointsNamed() {
+  LabelledLeavesTest() {
     for (std::size_t i = 0; i < 100; ++i) {
       radii_.push_back(0.1 + 0.05 * static_cast<double>(i));
       types_.push_back(static_cast<std::int32_t>(i % 20));
@@ -148,93 +149,99 @@ class ClusterPointsNamed : public ::testing::Test {
     by_types_.cutoffs = TypeCutoffs(20, std::vector<double>(400, 1.0));
   }
   void measure(Scene& scene) {
-    points_.forget_layout();
-    points_.measure(OpenMetric(scene.box), scene.centers, scene.blocks, kCovered2, nullptr);
+    measured_.forget_layout();
+    measured_.measure(OpenMetric(scene.box), scene.centers, scene.blocks, kCovered2, nullptr);
   }
-  void name(const ListParams& params, std::uint64_t version, Span<const std::int32_t> particles = {}) {
-    points_.name(scene_.blocks, {particles, version}, PairFilter(scene_.positions, scene_.box, params, 0),
-                 nullptr);
+  void label(const Scene& scene, const ListParams& params, std::uint64_t version,
+             Span<const std::int32_t> particles = {}) {
+    const PairFilter filter(scene.positions, scene.box, params, 0);
+    labelled_.label(measured_, scene.blocks, {particles, version},
+                    {filter.by(), params.radii, params.types, params.first_ghost}, nullptr);
   }
-  /// Whether name() does anything.
-  bool names_anew(const ListParams& params, std::uint64_t version) {
-    const std::int32_t before = std::exchange(points_.ids[0][0], -7);
-    name(params, version);
-    return std::exchange(points_.ids[0][0], before) != -7;
+  /// Whether label() does anything.
+  bool labels_anew(const ListParams& params, std::uint64_t version) {
+    const std::int32_t before = std::exchange(labelled_.particle[0][0], -7);
+    label(scene_, params, version);
+    return std::exchange(labelled_.particle[0][0], before) != -7;
   }
-  void expect_named(const ListParams& params, bool reversed = false) const {
+  void expect_labelled(const ListParams& params, bool reversed = false) const {
     const bool by_types = params.cutoffs.types() > 1;
-    ASSERT_EQ(points_.radii.empty(), params.radii.empty());
-    ASSERT_EQ(points_.tags.empty(), params.radii.empty() && !by_types);
-    std::vector<bool> owned(points_.clusters.size());
+    ASSERT_EQ(labelled_.radii.empty(), params.radii.empty());
+    ASSERT_EQ(labelled_.types.empty(), !by_types);
+    std::vector<bool> owned(measured_.leaves.size());
     scene_.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t block) {
-      const std::int32_t b = points_.clusters[k].first_block + n;
+      const std::int32_t b = measured_.leaves[k].first_block + n;
       bool block_owned = false;
       for (std::int32_t lane = 0; lane < kBlock; ++lane) {
-        const bool is_point = lane < points_.count[b];
+        const bool is_point = lane < measured_.count[b];
         const std::int32_t id = scene_.id(block, lane), particle = reversed && is_point ? reversed_[id] : id;
-        ASSERT_EQ(points_.ids[b][lane], particle);
-        if (!points_.radii.empty()) {
-          ASSERT_EQ(points_.radii[b][lane], is_point ? static_cast<float>(radii_[particle]) : 0.0f);
+        ASSERT_EQ(labelled_.particle[b][lane], particle);
+        if (!labelled_.radii.empty()) {
+          ASSERT_EQ(labelled_.radii[b][lane], is_point ? static_cast<float>(radii_[particle]) : 0.0f);
         } else if (by_types) {
-          ASSERT_EQ(points_.tags[b][lane], is_point ? types_[particle] % kKernelTypes : 0);
+          ASSERT_EQ(labelled_.types[b][lane], is_point ? types_[particle] % kKernelTypes : 0);
         }
         block_owned |= is_point && (params.first_ghost < 0 || particle < params.first_ghost);
       }
-      EXPECT_EQ(points_.owned[b] != 0, block_owned);
+      EXPECT_EQ(labelled_.owned[b] != 0, block_owned);
       if (block_owned) owned[static_cast<std::size_t>(k)] = true;
     });
     for (std::size_t k = 0; k < owned.size(); ++k)
-      EXPECT_TRUE(points_.clusters[k].blocks == 0 || points_.clusters[k].owned == owned[k]) << k;
+      EXPECT_TRUE((labelled_.leaf_owned[k] != 0) == owned[k]) << k;
   }
 
   Scene scene_{Box::none(), {3, 8, 0, 19, 2, 30}, 1};
-  ClusterPoints points_;
+  Structure structure_;
+  LeafSource source_{&structure_, {}, {}, {}};
+  MeasuredLeaves& measured_ = structure_.leaves;
+  LabelledLeaves& labelled_ = source_.labelled;
+  QuantizedLeaves& quantized_ = source_.quantized;
   std::vector<double> radii_;
   std::vector<std::int32_t> types_, reversed_;
   ListParams one_, by_radii_, by_types_;
 };
 
-TEST_F(ClusterPointsNamed, ByWhatTheirCutoffsDependOn) {
+TEST_F(LabelledLeavesTest, ByWhatTheirCutoffsDependOn) {
   for (ListParams params : {one_, by_radii_, by_types_, one_})
     for (const std::int32_t first_ghost : {-1, 0, 4, 17, 40})
       for (const bool reversed : {false, true}) {
         params.first_ghost = first_ghost;
         measure(scene_);
-        name(params, 0, reversed ? Span<const std::int32_t>(reversed_) : Span<const std::int32_t>());
-        ASSERT_NO_FATAL_FAILURE(expect_named(params, reversed)) << first_ghost;
+        label(scene_, params, 0, reversed ? Span<const std::int32_t>(reversed_) : Span<const std::int32_t>());
+        ASSERT_NO_FATAL_FAILURE(expect_labelled(params, reversed)) << first_ghost;
       }
 }
 
-TEST_F(ClusterPointsNamed, NothingIsLeftOfFullerBlocks) {
+TEST_F(LabelledLeavesTest, NothingIsLeftOfFullerBlocks) {
   Scene full(Box::none(), std::vector<std::int32_t>(12, kBlock), 2);
   for (const ListParams& params : {by_radii_, by_types_}) {
     measure(full);
-    points_.name(full.blocks, {{}, 0}, PairFilter(full.positions, full.box, params, 0), nullptr);
+    label(full, params, 0);
     measure(scene_);
-    name(params, 0);
-    ASSERT_NO_FATAL_FAILURE(expect_named(params));
+    label(scene_, params, 0);
+    ASSERT_NO_FATAL_FAILURE(expect_labelled(params));
   }
 }
 
-TEST_F(ClusterPointsNamed, AnewIfAnythingHasChanged) {
-  name(one_, 0);
-  EXPECT_FALSE(names_anew(one_, 0));
+TEST_F(LabelledLeavesTest, AnewIfAnythingHasChanged) {
+  label(scene_, one_, 0);
+  EXPECT_FALSE(labels_anew(one_, 0));
   ListParams ghosts = one_;
   ghosts.first_ghost = 9;
-  EXPECT_TRUE(names_anew(ghosts, 0));
-  EXPECT_FALSE(names_anew(ghosts, 0));
-  EXPECT_TRUE(names_anew(one_, 3)) << "other names";
+  EXPECT_TRUE(labels_anew(ghosts, 0));
+  EXPECT_FALSE(labels_anew(ghosts, 0));
+  EXPECT_TRUE(labels_anew(one_, 3)) << "other names";
   measure(scene_);
-  EXPECT_TRUE(names_anew(one_, 3)) << "other places";
-  EXPECT_TRUE(names_anew(by_radii_, 3));
-  EXPECT_FALSE(names_anew(by_radii_, 3));
-  EXPECT_TRUE(names_anew(by_radii_, 4));
-  EXPECT_TRUE(names_anew(by_radii_, 0)) << "nobody knows what the sizes are";
-  EXPECT_TRUE(names_anew(by_radii_, 0));
-  EXPECT_TRUE(names_anew(by_types_, 4));
-  EXPECT_FALSE(names_anew(by_types_, 4));
-  EXPECT_TRUE(names_anew(by_types_, 0));
-  EXPECT_TRUE(names_anew(by_types_, 0));
+  EXPECT_TRUE(labels_anew(one_, 3)) << "other places";
+  EXPECT_TRUE(labels_anew(by_radii_, 3));
+  EXPECT_FALSE(labels_anew(by_radii_, 3));
+  EXPECT_TRUE(labels_anew(by_radii_, 4));
+  EXPECT_TRUE(labels_anew(by_radii_, 0)) << "nobody knows what the sizes are";
+  EXPECT_TRUE(labels_anew(by_radii_, 0));
+  EXPECT_TRUE(labels_anew(by_types_, 4));
+  EXPECT_FALSE(labels_anew(by_types_, 4));
+  EXPECT_TRUE(labels_anew(by_types_, 0));
+  EXPECT_TRUE(labels_anew(by_types_, 0));
 }
 
 /// A box of blocks as `center` and `half_width` [units] beside the lengths that it has to hold.
@@ -243,30 +250,30 @@ void expect_box(double center, double half_width, float low, float high, double 
   EXPECT_NEAR(half_width, 0.5 * (high - low) / unit + 2, 0.51);
 }
 
-TEST_F(ClusterPointsNamed, RoundedToUnits) {
+TEST_F(LabelledLeavesTest, RoundedToUnits) {
   for (const ListParams& params : {by_radii_, by_types_, one_}) {
-    name(params, 0);
+    label(scene_, params, 0);
     const ListUnits units{0.00231, 0.0173};
-    points_.quantize(units, nullptr);
-    EXPECT_EQ(points_.units.point, units.point);
-    EXPECT_DOUBLE_EQ(points_.per_unit.point * units.point, 1);
-    EXPECT_DOUBLE_EQ(points_.per_unit.box * units.box, 1);
-    const BlockSpans boxes = points_.boxes();
-    for (std::int32_t b = 0; b < points_.blocks + kChunk; ++b) ASSERT_EQ(boxes.number[b], b);
-    for (std::int32_t b = 0; b < points_.blocks; ++b) {
-      const std::int16_t* const at[] = {points_.points[b].x, points_.points[b].y, points_.points[b].z};
+    quantized_.quantize(measured_, labelled_, units, nullptr);
+    EXPECT_EQ(quantized_.units.point, units.point);
+    EXPECT_DOUBLE_EQ(quantized_.per_unit.point * units.point, 1);
+    EXPECT_DOUBLE_EQ(quantized_.per_unit.box * units.box, 1);
+    const BlockSpans boxes = quantized_.boxes();
+    for (std::int32_t b = 0; b < measured_.blocks + kChunk; ++b) ASSERT_EQ(boxes.number[b], b);
+    for (std::int32_t b = 0; b < measured_.blocks; ++b) {
+      const std::int16_t* const at[] = {quantized_.points[b].x, quantized_.points[b].y, quantized_.points[b].z};
       for (int axis = 0; axis < 3; ++axis) {
-        const float low = points_.corners[b].low[axis], high = points_.corners[b].high[axis];
-        const BlockSpan& span = points_.spans[b];
+        const float low = measured_.corners[b].low[axis], high = measured_.corners[b].high[axis];
+        const BlockSpan& span = quantized_.spans[b];
         expect_box(span.center[axis], span.half_width[axis], low, high, units.point);
         expect_box(boxes.center[axis][b], boxes.half_width[axis][b], low, high, units.box);
-        for (int lane = 0; lane < points_.count[b]; ++lane) {
-          ASSERT_NEAR(at[axis][lane], points_.offsets[b].axis[axis][lane] / units.point, 0.51);
+        for (int lane = 0; lane < measured_.count[b]; ++lane) {
+          ASSERT_NEAR(at[axis][lane], measured_.offsets[b].axis[axis][lane] / units.point, 0.51);
           ASSERT_LE(std::abs(at[axis][lane] - span.center[axis]), span.half_width[axis]);
         }
       }
-      for (int lane = 0; lane < points_.count[b] && !params.radii.empty(); ++lane)
-        ASSERT_NEAR(points_.tags[b][lane], points_.radii[b][lane] / units.point, 0.51);
+      for (int lane = 0; lane < measured_.count[b] && !params.radii.empty(); ++lane)
+        ASSERT_NEAR(quantized_.radii[b][lane], labelled_.radii[b][lane] / units.point, 0.51);
     }
   }
 }
@@ -289,22 +296,22 @@ void expect_around(const BlockSpan& around, std::int32_t first, std::int32_t las
   }
 }
 
-TEST_F(ClusterPointsNamed, BoxesAndTagsOfSeveralBlocks) {
-  name(by_radii_, 0);
-  points_.quantize({0.00231, 0.0173}, nullptr);
-  const BlockSpans boxes = points_.boxes();
-  for (std::int32_t first = 0; first < points_.blocks; ++first)
-    for (std::int32_t last = first + 1; last <= points_.blocks; ++last) {
-      expect_around(points_.span_of(first, last), first, last, [&](std::int32_t b, int axis) {
-        return std::pair<int, int>(points_.spans[b].center[axis], points_.spans[b].half_width[axis]);
+TEST_F(LabelledLeavesTest, BoxesAndTagsOfSeveralBlocks) {
+  label(scene_, by_radii_, 0);
+  quantized_.quantize(measured_, labelled_, {0.00231, 0.0173}, nullptr);
+  const BlockSpans boxes = quantized_.boxes();
+  for (std::int32_t first = 0; first < measured_.blocks; ++first)
+    for (std::int32_t last = first + 1; last <= measured_.blocks; ++last) {
+      expect_around(quantized_.span_of(first, last), first, last, [&](std::int32_t b, int axis) {
+        return std::pair<int, int>(quantized_.spans[b].center[axis], quantized_.spans[b].half_width[axis]);
       });
-      expect_around(points_.box_of(first, last), first, last, [&](std::int32_t b, int axis) {
+      expect_around(quantized_.box_of(first, last), first, last, [&](std::int32_t b, int axis) {
         return std::pair<int, int>(boxes.center[axis][b], boxes.half_width[axis][b]);
       });
       std::int16_t largest = 0;
       for (std::int32_t b = first; b < last; ++b)
-        for (const std::int16_t tag : points_.tags[b]) largest = std::max(largest, tag);
-      EXPECT_EQ(points_.largest_tag(first, last), largest);
+        for (const std::int16_t tag : quantized_.radii[b]) largest = std::max(largest, tag);
+      EXPECT_EQ(source_.largest_tag(first, last), largest);
     }
 }
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "hierarchy/structure.hpp"
+
+#include "geometry/metric.hpp"
+
+namespace dch::detail {
+
+std::int32_t Structure::node_of(std::int32_t id, int level) const {
+  if (id < 0 || static_cast<std::size_t>(id) >= slot_of_id.size()) return kNone;
+  std::int32_t node = slot_of_id[id];
+  int i = 0;
+  if (is_lone_point(id)) {
+    i = lone[lone_at(node)].level;
+    node = i <= level ? lone[lone_at(node)].node : kNone;
+  }
+  for (; i < level && node != kNone; ++i) node = up(i, node);
+  return node;
+}
+
+std::int32_t Structure::lone_above(int level) const {
+  std::int32_t count = 0;
+  for (const LoneNode& node : lone) count += node.level > level;
+  return count;
+}
+
+std::vector<std::int32_t> Structure::lone_points() const {
+  std::vector<std::int32_t> ids;
+  for (const LoneNode& node : lone) ids.push_back(levels[node.level].id[node.node]);
+  return ids;
+}
+
+template <class Metric>
+void Structure::neighbors(const Metric& metric, int i, std::int32_t node, std::vector<std::int32_t>& nodes) const {
+  if (i > 0) {
+    for (const std::int32_t other : levels[i].edges.row(node))
+      if (i == 1 ||
+          metric.distance2(levels[i].position[node], levels[i].position[other]) <= levels[i].threshold2)
+        nodes.push_back(other);
+    return;
+  }
+  const std::int32_t leaf = points.parent(node);
+  const auto look_at_children = [&](std::int32_t parent) {
+    for_each_child(1, parent, [&](std::int32_t other) {
+      if (other != node &&
+          metric.distance2(points.position[node], points.position[other]) <= levels[0].threshold2)
+        nodes.push_back(other);
+    });
+  };
+  look_at_children(leaf);
+  for (const std::int32_t neighbor : levels[1].edges.row(leaf)) look_at_children(neighbor);
+}
+
+#define DCH_INSTANTIATE(Metric) \
+  template void Structure::neighbors(const Metric&, int, std::int32_t, std::vector<std::int32_t>&) const;
+DCH_INSTANTIATE(OpenMetric)
+DCH_INSTANTIATE(OrthorhombicMetric)
+DCH_INSTANTIATE(LatticeMetric)
+#undef DCH_INSTANTIATE
+
+}  // namespace dch::detail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hierarchy/measured_leaves.hpp"
+#include "hierarchy/structure.hpp"
+#include "leaves/labelled_leaves.hpp"
+#include "leaves/quantized_leaves.hpp"
+
+namespace dch::detail {
+
+/// What lists take from a hierarchy: its leaves, measured by the hierarchy, then labelled, then quantized.
+struct LeafSource {
+  const Structure* structure = nullptr;
+  ParticleIds ids;
+  LabelledLeaves labelled;
+  QuantizedLeaves quantized;
+
+  const MeasuredLeaves& measured() const { return structure->leaves; }
+  const Level& centers() const { return structure->levels[1]; }
+  /// How far a node may be from where it was when parents were in order [length].
+  double motion() const { return structure->pending ? structure->motion : 0.0; }
+
+  /// What the cutoffs of points depend on, by block: radii in units or types; null if nothing.
+  const std::array<std::int16_t, kBlock>* tags() const {
+    if (!quantized.radii.empty()) return quantized.radii.data();
+    return labelled.types.empty() ? nullptr : labelled.types.data();
+  }
+  /// Largest tag in blocks [first, last); 0 if there are no tags.
+  std::int16_t largest_tag(std::int32_t first, std::int32_t last) const {
+    std::int16_t largest = 0;
+    const auto* const all = tags();
+    for (std::int32_t b = first; b < last && all != nullptr; ++b)
+      largest = std::max(largest, *std::max_element(all[b].begin(), all[b].end()));
+    return largest;
+  }
+  std::size_t memory_bytes() const { return labelled.memory_bytes() + quantized.memory_bytes(); }
+};
+
+}  // namespace dch::detail

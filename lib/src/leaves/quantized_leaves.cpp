@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "leaves/quantized_leaves.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "leaves/rounding.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// Holds the rounded points between the corners, and the corners themselves.
+BlockSpan span_around(const MeasuredLeaves::Corners& corners, float per_unit) {
+  BlockSpan span{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = corners.low[axis] * per_unit, high = corners.high[axis] * per_unit;
+    span.center[axis] = rounded(0.5f * (low + high));
+    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5f * (high - low)) + 2);
+  }
+  return span;
+}
+
+/// Around those of blocks [first, last), whose center and half width along an axis span_of(block, axis)
+/// gives.
+template <class SpanOf>
+BlockSpan around(std::int32_t first, std::int32_t last, const SpanOf& span_of) {
+  BlockSpan span{};
+  for (int axis = 0; axis < 3; ++axis) {
+    int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::lowest();
+    for (std::int32_t b = first; b < last; ++b) {
+      const auto [center, half_width] = span_of(b, axis);
+      least = std::min(least, center - half_width);
+      most = std::max(most, center + half_width);
+    }
+    span.center[axis] = static_cast<std::int16_t>((least + most) / 2);
+    span.half_width[axis] = static_cast<std::int16_t>((most - least + 1) / 2);
+  }
+  return span;
+}
+
+}  // namespace
+
+void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const ListUnits& to_units,
+                               Executor* executor) {
+  units = to_units;
+  per_unit = {1 / units.point, 1 / units.box};
+  const auto all = static_cast<std::size_t>(measured.blocks);
+  points.resize(all);
+  spans.resize(all);
+  radii.resize(labelled.radii.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    box_center_[axis].resize(all + kChunk);
+    box_half_width_[axis].resize(all + kChunk);
+  }
+  if (number_.size() < all + kChunk) {
+    number_.resize(all + kChunk);
+    std::iota(number_.begin(), number_.end(), 0);
+  }
+  for_ranges(executor, measured.blocks, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t b = first; b < last; ++b) quantize_block(measured, labelled, b);
+  });
+}
+
+void QuantizedLeaves::quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, std::int32_t b) {
+  const auto per_point = static_cast<float>(per_unit.point), per_box = static_cast<float>(per_unit.box);
+  const auto round_all = [&](const float* from, std::int16_t* to) {
+    for (int lane = 0; lane < kBlock; ++lane) to[lane] = rounded(from[lane] * per_point);
+  };
+  round_all(measured.offsets[b].axis[0], points[b].x);  // whatever empty lanes hold
+  round_all(measured.offsets[b].axis[1], points[b].y);
+  round_all(measured.offsets[b].axis[2], points[b].z);
+  if (!radii.empty()) round_all(labelled.radii[b].data(), radii[b].data());
+  spans[b] = span_around(measured.corners[b], per_point);
+  const BlockSpan box = span_around(measured.corners[b], per_box);
+  for (int axis = 0; axis < 3; ++axis) {
+    box_center_[axis][b] = box.center[axis];
+    box_half_width_[axis][b] = box.half_width[axis];
+  }
+}
+
+BlockSpan QuantizedLeaves::span_of(std::int32_t first, std::int32_t last) const {
+  return around(first, last, [&](std::int32_t b, int axis) {
+    return std::pair<int, int>(spans[b].center[axis], spans[b].half_width[axis]);
+  });
+}
+
+BlockSpan QuantizedLeaves::box_of(std::int32_t first, std::int32_t last) const {
+  return around(first, last, [&](std::int32_t b, int axis) {
+    return std::pair<int, int>(box_center_[axis][b], box_half_width_[axis][b]);
+  });
+}
+
+BlockSpans QuantizedLeaves::boxes() const {
+  return {{box_center_[0].data(), box_center_[1].data(), box_center_[2].data()},
+          {box_half_width_[0].data(), box_half_width_[1].data(), box_half_width_[2].data()},
+          number_.data()};
+}
+
+std::size_t QuantizedLeaves::memory_bytes() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  std::size_t bytes = bytes_of(number_) + bytes_of(points) + bytes_of(spans) + bytes_of(radii);
+  for (int axis = 0; axis < 3; ++axis) bytes += bytes_of(box_center_[axis]) + bytes_of(box_half_width_[axis]);
+  return bytes;
+}
+
+}  // namespace dch::detail
