@@ -22,7 +22,8 @@ CellImages::CellImages(const Box& box) {
 }
 
 Vec3 CellImages::integers(Vec3 v) const {
-  return {std::nearbyint(dot(dual_[0], v)), std::nearbyint(dot(dual_[1], v)), std::nearbyint(dot(dual_[2], v))};
+  return {std::nearbyint(dot(dual_[0], v)), std::nearbyint(dot(dual_[1], v)),
+          std::nearbyint(dot(dual_[2], v))};
 }
 
 }  // namespace dch::detail

@@ -45,8 +45,8 @@ TEST(CellImages, GoByThePeriodicVectorsAlone) {
       EXPECT_EQ(images.integers(v), n) << box.description() << ", " << periods;
       EXPECT_EQ(images.vector({periods, periods, periods}) == Vec3{}, !box.any_periodic());
     }
-    EXPECT_EQ(images.vector({box.periodic(0) ? 0.0 : 1.0, box.periodic(1) ? 0.0 : 1.0,
-                             box.periodic(2) ? 0.0 : 1.0}),
+    EXPECT_EQ(images.vector(
+                  {box.periodic(0) ? 0.0 : 1.0, box.periodic(1) ? 0.0 : 1.0, box.periodic(2) ? 0.0 : 1.0}),
               Vec3{});
   }
 }
