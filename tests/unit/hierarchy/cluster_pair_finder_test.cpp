@@ -200,8 +200,8 @@ TEST(ClusterPairFinder, PutsPaddingAndPositionsIntoSlots) {
     const std::int32_t i = pairs.particle[s];
     EXPECT_EQ(i < 0, slot >= 2);
     EXPECT_EQ(pairs.type[s], i < 0 ? 0 : types[static_cast<std::size_t>(i)]) << "0 for padding";
-    const Vec3 at = scene.positions[static_cast<std::size_t>(pairs.particle[i < 0 ? 0 : s])] -
-                    scene.nodes.position[0];
+    const Vec3 at =
+        scene.positions[static_cast<std::size_t>(pairs.particle[i < 0 ? 0 : s])] - scene.nodes.position[0];
     EXPECT_NEAR(pairs.at[0].x[slot], at.x, 1e-7);
     EXPECT_NEAR(pairs.at[0].y[slot], at.y, 1e-7);
     EXPECT_NEAR(pairs.at[0].z[slot], at.z, 1e-7);
