@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <dch/box.hpp>
 #include <dch/cluster_pairs.hpp>
 #include <dch/executor.hpp>
+#include <dch/index_count.hpp>
 #include <dch/neighbor_list.hpp>
 
 #include "block_order.hpp"
@@ -37,23 +39,52 @@ class ClusterPairFinder {
     double reach;  ///< within which wrapped points may be a pair [length]
   };
 
+  /// What a search has looked at: the work, counted alike on every machine.
+  struct Work {
+    std::int64_t beside_nodes = 0;     ///< boxes of clusters, each beside that of a node
+    std::int64_t beside_clusters = 0;  ///< boxes of clusters, each beside that of a cluster
+    std::int64_t by_points = 0;        ///< pairs of clusters whose points were compared
+    std::int64_t by_slots = 0;  ///< pairs of clusters whose slots exclusions, ghosts or types may forbid
+
+    void operator+=(const Work& more) {
+      beside_nodes += more.beside_nodes;
+      beside_clusters += more.beside_clusters;
+      by_points += more.by_points;
+      by_slots += more.by_slots;
+    }
+  };
+
+  /// Most things that 32-bit indices are to name; fewer in tests alone.
+  struct Limits {
+    std::int64_t slots = kMaxIndexCount, shifts = kMaxIndexCount;
+  };
+
   template <class Metric>
   void find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
+  /// Of the last find().
+  Work work() const;
   std::size_t memory_bytes() const;
 
+  Limits limits;
+
  private:
+  /// Lower corner, then the upper one.
+  using Corners = std::array<float, 6>;
   /// A node of level 1; its number is also that of its origin.
   struct Node {
     std::int32_t first = 0, clusters = 0;
     double extent = 0;  ///< distance of the farthest point from the center [length]
-    float box[6]{};     ///< around its points, relative to the center
+    Corners box{};      ///< around its points, relative to the center
   };
   /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
   struct Boxes {
-    std::vector<float> side[6];
+    std::array<std::vector<float>, 6> side;
     void make_room(std::size_t count);
-    void set(std::size_t k, const float* box) {
-      for (int s = 0; s < 6; ++s) side[s][k] = box[s];
+    void set(std::size_t k, const Corners& box) {
+      for (std::size_t s = 0; s < side.size(); ++s) side[s][k] = box[s];
+    }
+    Corners at(std::size_t k) const {
+      return {side[0][k], side[1][k], side[2][k], side[3][k], side[4][k], side[5][k]};
     }
     BoxArrays from(std::int32_t k) const;
   };
@@ -72,6 +103,7 @@ class ClusterPairFinder {
     std::vector<Source> source;  ///< of `near`
     std::vector<std::int32_t> chosen;
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
+    Work work;
   };
 
   /// Some of ClusterPairs::shift.
@@ -115,6 +147,7 @@ class ClusterPairFinder {
                          Part& part) const;
   static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
                                              const ClusterPairs& clusters);
+  std::int32_t shift_count(std::size_t shifts) const;
   double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
   void append_parts(ClusterPairs& out) const;
