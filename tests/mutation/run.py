@@ -44,12 +44,14 @@ HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierar
 STALE_TEST = (["unit/core/dch_unit_core"], ["*StaleTest*:*VerletList*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
+CELL_IMAGES = (["unit/core/dch_unit_core"], ["CellImages.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
 CLUSTER_POINTS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
                   ["ClusterPoints*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
-CLUSTER_PAIRS = (["property/dch_property_clusters"],
-                 ["ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
+CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_clusters"],
+                 ["ClusterPairFinder.*:Work.OfClusterPairs*",
+                  "ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
                   "*PartsName*/orthorhombic_ppf",
                   "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
                   "*ClusterPairsScenes.*/triclinic_ppp"])
@@ -62,6 +64,7 @@ FILES = {
     "stale_test.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
     "pair_filter.cpp": PAIR_FILTER,
+    "cell_images.cpp": CELL_IMAGES,
     "list_limits.cpp": LIST_LIMITS,
     "cluster_points.cpp": CLUSTER_POINTS,
     "cluster_pair_finder.cpp": CLUSTER_PAIRS,

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include <dch/base/index_count.hpp>
-
 #include "geometry/binary_grid.hpp"
 #include "clusters/cluster_pair_finder.hpp"
+#include "leaves/leaf_source.hpp"
 #include "geometry/metric.hpp"
 
 namespace dch::detail {
@@ -35,7 +34,7 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
       points += scene.points.count[b];
     node.clusters = points / kSlots + (points % kSlots != 0);
     index_count(std::int64_t{kSlots} * clusters + std::int64_t{kSlots} * node.clusters,
-                "slots of clusters of four", "take fewer points");
+                "slots of clusters of four", "take fewer points", limits.slots);
     cuts_.of_node[static_cast<std::size_t>(k)] = {clusters * kSlots, points, 0};
     clusters += node.clusters;
   }
@@ -97,10 +96,9 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
     out.origin_of[static_cast<std::size_t>(c)] = k;
     put_cluster(ordered.data() + std::ptrdiff_t{n} * kSlots, ids, std::min(kSlots, count - n * kSlots), c,
                 scene.request, out);
-    for (int s = 0; s < 6; ++s) {
-      const float side = boxes_.side[s][static_cast<std::size_t>(c)];
-      node.box[s] = n == 0 ? side : s < 3 ? std::min(node.box[s], side) : std::max(node.box[s], side);
-    }
+    const Corners box = boxes_.at(static_cast<std::size_t>(c));
+    for (std::size_t s = 0; s < 6; ++s)
+      node.box[s] = n == 0 ? box[s] : s < 3 ? std::min(node.box[s], box[s]) : std::max(node.box[s], box[s]);
   }
 }
 
@@ -125,11 +123,11 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, const std::int32_t
   ClusterOfFour<double>& at = out.at[cluster];
   ClusterOfFour<float>& rounded = out.at_float[cluster];
   std::uint32_t ghosts = 0;
-  float box[6];
-  for (int axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
+  Corners box{};
+  for (std::size_t axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
   for (int slot = 0; slot < kSlots; ++slot) {
     const LocalPoint& point = points[slot < count ? slot : 0];
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       box[axis] = std::min(box[axis], point.at[axis]);
       box[axis + 3] = std::max(box[axis + 3], point.at[axis]);
     }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <dch/base/index_count.hpp>
-
 #include "geometry/lattice.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
@@ -24,11 +22,6 @@ std::uint32_t spread(std::uint32_t slots) {
   return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
 }
 
-std::int32_t shift_count(std::size_t shifts) {
-  return index_count(static_cast<std::int64_t>(shifts), "pairs of nodes near each other",
-                     "take a smaller cutoff or fewer points");
-}
-
 }  // namespace
 
 void ClusterPairFinder::Boxes::make_room(std::size_t count) {
@@ -37,8 +30,13 @@ void ClusterPairFinder::Boxes::make_room(std::size_t count) {
 
 BoxArrays ClusterPairFinder::Boxes::from(std::int32_t k) const {
   BoxArrays arrays{};
-  for (int s = 0; s < 6; ++s) arrays.side[s] = side[s].data() + k;
+  for (std::size_t s = 0; s < side.size(); ++s) arrays.side[s] = side[s].data() + k;
   return arrays;
+}
+
+std::int32_t ClusterPairFinder::shift_count(std::size_t shifts) const {
+  return index_count(static_cast<std::int64_t>(shifts), "pairs of nodes near each other",
+                     "take a smaller cutoff or fewer points", limits.shifts);
 }
 
 template <class Metric>
@@ -47,14 +45,13 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   cut_into_clusters(scene, executor, out);
   double largest_extent = 0;
   for (const Node& node : nodes_) largest_extent = std::max(largest_extent, node.extent);
-  // Points, shifts between nodes, their sums and differences each round once in single precision; none is
-  // longer than `longest`.
-  const double longest = scene.reach + 4 * largest_extent;
-  const double reach = (scene.reach + 16 * kFloatRounding * longest) * (1 + 8 * kFloatRounding);
-  limit2_ = static_cast<float>(reach * reach * (1 + 2 * kFloatRounding));
+  // With extents e and the reach r, two points, the vector between their nodes and its sum with one of them
+  // are up to e, e, r + 2 e and r + e long when each is rounded to single precision; their difference, its
+  // square and the limit round by up to 3 r more.
+  const double reach = scene.reach + 6 * kFloatRounding * (scene.reach + largest_extent);
+  limit2_ = static_cast<float>(reach * reach);
   images_ = CellImages(scene.box);
-  one_image_ =
-      !scene.box.any_periodic() || (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
+  one_image_ = (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
   for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
     for (int b = 0; b < scene.request.cutoffs.types(); ++b)
@@ -69,6 +66,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
     part.rows.clear();
     part.entries.clear();
     part.shift.clear();
+    part.work = {};
     part.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
     for (std::int32_t k = cut(p); k < cut(p + 1); ++k)
       if (scene.nodes.is_alive(k)) find_around(scene, k, out, part);
@@ -93,7 +91,7 @@ void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, 
   };
   part.near.clear();
   part.source.clear();
-  const std::int32_t first_shift = shift_count(part.shift.size());
+  const auto first_shift = static_cast<std::int32_t>(part.shift.size());
   collect(k, k, Vec3{}, Vec3{}, clusters, part);
   const auto add = [&](std::int32_t other, Vec3 between) {
     collect(k, other, between, images_.integers(between - (center[other] - center[k])), clusters, part);
@@ -119,14 +117,15 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
   const Node& node = nodes_[static_cast<std::size_t>(other)];
   const float by[3] = {static_cast<float>(between.x), static_cast<float>(between.y),
                        static_cast<float>(between.z)};
-  float box[6];
-  for (int s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
+  Corners box{};
+  for (std::size_t s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
   part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
   const std::int32_t found =
-      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box, limit2_, part.chosen.data());
+      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box.data(), limit2_, part.chosen.data());
+  part.work.beside_nodes += node.clusters;
   if (found == 0) return;
-  const std::int32_t shift = shift_count(part.shift.size());
   part.shift.push_back({k, other, image});
+  const std::int32_t shift = shift_count(part.shift.size()) - 1;
   part.boxes.make_room(part.near.size() + static_cast<std::size_t>(found) + kBoxesAtOnce);
   for (std::int32_t n = 0; n < found; ++n) {
     const std::int32_t c = node.first + part.chosen[static_cast<std::size_t>(n)];
@@ -137,7 +136,10 @@ void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between
       moved.y[slot] += by[1];
       moved.z[slot] += by[2];
     }
-    for (int s = 0; s < 6; ++s) part.boxes.side[s][part.near.size()] = boxes_.side[s][cluster] + by[s % 3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      part.boxes.side[axis][part.near.size()] = boxes_.side[axis][cluster] + by[axis];
+      part.boxes.side[axis + 3][part.near.size()] = boxes_.side[axis + 3][cluster] + by[axis];
+    }
     part.near.push_back(moved);
     part.source.push_back({c, shift, filled_[cluster], ghost_[cluster]});
   }
@@ -150,15 +152,17 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   const auto count = static_cast<std::int32_t>(part.near.size()) - own;
   part.chosen.resize(std::max(part.chosen.size(), static_cast<std::size_t>(count + kBoxesAtOnce)));
   std::int32_t* const chosen = part.chosen.data();
-  float box[6];
-  for (int s = 0; s < 6; ++s) box[s] = part.boxes.side[s][static_cast<std::size_t>(own)];
-  std::int32_t found = kernels_->near_boxes(part.boxes.from(own), count, box, limit2_, chosen);
+  const Corners box = part.boxes.at(static_cast<std::size_t>(own));
+  std::int32_t found = kernels_->near_boxes(part.boxes.from(own), count, box.data(), limit2_, chosen);
+  part.work.beside_clusters += count;
+  part.work.by_points += found;
   found = kernels_->near_clusters(part.near.data() + own, part.near[static_cast<std::size_t>(own)], limit2_,
                                   chosen, found);
   const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
   const bool any_shift = part.source.back().shift - first_shift < kMostShifts;
   if (!excludes && !drops_types_ && ghost_[static_cast<std::size_t>(c)] == 0 && any_shift)
     return append_whole_row(c, own, first_shift, found, part);
+  part.work.by_slots += found;
   if (excludes) mark_exclusions(*request.exclusions, c, clusters, part);
   const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
   const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
@@ -207,6 +211,12 @@ void ClusterPairFinder::append_whole_row(std::int32_t c, std::int32_t own, std::
   if (within != 0) to[0].mask = static_cast<std::uint16_t>(within);
 }
 
+ClusterPairFinder::Work ClusterPairFinder::work() const {
+  Work work;
+  for (const Part& part : parts_) work += part.work;
+  return work;
+}
+
 /// All parts behind each other.
 void ClusterPairFinder::join(ClusterPairs& out) {
   out.rows.clear();
@@ -234,13 +244,13 @@ void ClusterPairFinder::append_parts(ClusterPairs& out) const {
     entries += part.entries.size();
     shifts += part.shift.size();
   }
+  shift_count(shifts);
   out.rows.reserve(rows + 1);
   out.entries.reserve(entries);
   out.shift.reserve(shifts);
   for (const Part& part : parts_) {
     const auto first_entry = static_cast<std::int64_t>(out.entries.size());
-    const std::int32_t first_shift = shift_count(out.shift.size());
-    shift_count(out.shift.size() + part.shift.size());
+    const auto first_shift = static_cast<std::int32_t>(out.shift.size());
     for (const ClusterPairs::Row& row : part.rows)
       out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
     out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());

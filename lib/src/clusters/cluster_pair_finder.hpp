@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <dch/geometry/box.hpp>
+#include <dch/clusters/cluster_pair_maker.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
+#include <dch/base/index_count.hpp>
 #include <dch/lists/list_params.hpp>
 
 #include "hierarchy/build/block_order.hpp"
@@ -37,23 +40,39 @@ class ClusterPairFinder {
     double reach;  ///< within which wrapped points may be a pair [length]
   };
 
+  using Work = ClusterPairWork;
+
+  /// Most things that 32-bit indices are to name; fewer in tests alone.
+  struct Limits {
+    std::int64_t slots = kMaxIndexCount, shifts = kMaxIndexCount;
+  };
+
   template <class Metric>
   void find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
+  /// Of the last find().
+  Work work() const;
   std::size_t memory_bytes() const;
 
+  Limits limits;
+
  private:
+  /// Lower corner, then the upper one.
+  using Corners = std::array<float, 6>;
   /// A node of level 1; its number is also that of its origin.
   struct Node {
     std::int32_t first = 0, clusters = 0;
     double extent = 0;  ///< distance of the farthest point from the center [length]
-    float box[6]{};     ///< around its points, relative to the center
+    Corners box{};      ///< around its points, relative to the center
   };
   /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
   struct Boxes {
-    std::vector<float> side[6];
+    std::array<std::vector<float>, 6> side;
     void make_room(std::size_t count);
-    void set(std::size_t k, const float* box) {
-      for (int s = 0; s < 6; ++s) side[s][k] = box[s];
+    void set(std::size_t k, const Corners& box) {
+      for (std::size_t s = 0; s < side.size(); ++s) side[s][k] = box[s];
+    }
+    Corners at(std::size_t k) const {
+      return {side[0][k], side[1][k], side[2][k], side[3][k], side[4][k], side[5][k]};
     }
     BoxArrays from(std::int32_t k) const;
   };
@@ -72,6 +91,7 @@ class ClusterPairFinder {
     std::vector<Source> source;  ///< of `near`
     std::vector<std::int32_t> chosen;
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
+    Work work;
   };
 
   /// Some of ClusterPairs::shift.
@@ -115,6 +135,7 @@ class ClusterPairFinder {
                          Part& part) const;
   static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
                                              const ClusterPairs& clusters);
+  std::int32_t shift_count(std::size_t shifts) const;
   double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
   void append_parts(ClusterPairs& out) const;

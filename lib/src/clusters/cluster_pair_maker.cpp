@@ -51,6 +51,7 @@ void ClusterPairMaker::make(const HierarchyView& view, const ListParams& params,
   }
 }
 
+ClusterPairWork ClusterPairMaker::work() const { return impl_->finder.work(); }
 std::size_t ClusterPairMaker::memory_bytes() const { return impl_->finder.memory_bytes(); }
 
 }  // namespace dch

@@ -12,13 +12,13 @@ std::size_t first_slot(std::int32_t cluster) { return static_cast<std::size_t>(c
 
 }  // namespace
 
-/// Calls f(cluster, bit) for each pair of a slot of cluster c with an excluded partner.
+/// Calls f(cluster, bit) for each pair of a slot of cluster c with an excluded partner. Padding, which is no
+/// particle, has none.
 template <class F>
 void ClusterPairFinder::for_each_excluded(const Exclusions& exclusions, std::int32_t c,
                                           const ClusterPairs& clusters, const F& f) const {
   for (int slot = 0; slot < kSlots; ++slot) {
     const std::int32_t i = clusters.particle[first_slot(c) + static_cast<std::size_t>(slot)];
-    if (i == kNone) continue;
     for (const std::int32_t j : exclusions.partners(i)) {
       const std::int32_t other = slot_of_[static_cast<std::size_t>(j)];
       if (other != kNone) f(static_cast<std::size_t>(other / kSlots), 1u << (kSlots * slot + other % kSlots));

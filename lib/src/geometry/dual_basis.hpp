@@ -16,7 +16,9 @@ inline std::array<Vec3, 3> dual_basis(const std::array<Vec3, 3>& given, int rank
   std::array<Vec3, 3> v{}, dual{};
   std::array<double, 3> scale{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) {
-    scale[k] = std::ldexp(1, -std::ilogb(std::sqrt(norm2(given[k]))));
+    int exponent = 0;  // stays so for a vector that is 0 or not finite, which a box is refused for
+    std::frexp(std::sqrt(norm2(given[k])), &exponent);
+    scale[k] = std::ldexp(1, 1 - exponent);
     v[k] = scale[k] * given[k];
   }
   if (rank == 1) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/dual_basis.hpp"
-
 namespace dch::detail {
 namespace {
 
@@ -14,8 +12,6 @@ constexpr double kRounding = 1e-14;  ///< relative error of a squared distance, 
 double image_distance2(Vec3 d, Vec3 n, const std::array<Vec3, 3>& cell) {
   return norm2(((d + n.x * cell[0]) + n.y * cell[1]) + n.z * cell[2]);
 }
-
-Vec3 rounded(Vec3 v) { return {std::nearbyint(v.x), std::nearbyint(v.y), std::nearbyint(v.z)}; }
 
 }  // namespace
 
@@ -30,7 +26,9 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       by_(!params.radii.empty()         ? CutoffBy::radii
           : params.cutoffs.types() == 1 ? CutoffBy::one_cutoff
                                         : CutoffBy::types),
-      restricted_(exclusions_ != nullptr || first_ghost_ >= 0) {
+      restricted_(exclusions_ != nullptr || first_ghost_ >= 0),
+      cell_{box.vector(0), box.vector(1), box.vector(2)},
+      images_(box) {
   if (by_ == CutoffBy::radii) {
     largest_ = band_within(params.list_radius()).out_above;
     least_radius_ = *std::min_element(params.radii.begin(), params.radii.end());
@@ -45,38 +43,15 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
     }
   }
 
-  std::array<Vec3, 3> periods{};
-  std::array<std::size_t, 3> axes{};
-  int rank = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    cell_[static_cast<std::size_t>(axis)] = box.vector(axis);
-    if (!box.periodic(axis)) continue;
-    periods[static_cast<std::size_t>(rank)] = box.vector(axis);
-    axes[static_cast<std::size_t>(rank)] = static_cast<std::size_t>(axis);
-    ++rank;
-  }
-  const auto dual = dual_basis(periods, rank);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) dual_[axes[k]] = dual[k];
-
-  if (box.kind() != Box::Kind::triclinic) {
-    constexpr double kClear = 0.5 * (1 - 1e-9);
-    for (int axis = 0; axis < 3; ++axis)
-      clear_half_[axis] = box.periodic(axis) ? kClear * box.vector(axis)[axis] : kMaxCoordinate * 4;
-  }
   // Two images of a particle can both be at the cutoff only if it is half a lattice vector, a shortest one.
-  if (rank > 0 && 2 * std::sqrt(largest_) >= box.shortest_period() * (1 - kRounding)) {
-    for (const Vec3 v : box.relevant()) {
-      const Vec3 n = rounded({dot(dual_[0], v), dot(dual_[1], v), dot(dual_[2], v)});
-      other_images_.push_back(n);
-      other_images_.push_back(-1.0 * n);
-    }
-  }
+  if (2 * std::sqrt(largest_) >= box.shortest_period())
+    for (const Vec3 v : box.relevant()) other_images_.push_back(images_.integers(v));
 }
 
 PairFilter::Band PairFilter::band_within(double reach) const {
   const double inside = reach - error_, outside = reach + error_;
-  // With an error beyond the reach no distance says that a pair is within it, not even 0.
-  const double in_below = inside < 0 ? -1 : inside * inside * (1 - kRounding);
+  // With an error as large as the reach no distance says that a pair is within it, not even 0.
+  const double in_below = inside <= 0 ? -1 : inside * inside * (1 - kRounding);
   return {in_below, outside * outside * (1 + kRounding), reach * reach};
 }
 
@@ -87,7 +62,7 @@ PairFilter::Band PairFilter::band_of(std::int32_t i, std::int32_t j) const {
 
 bool PairFilter::accept(std::int32_t i, std::int32_t j) const {
   const Band band = by_ == CutoffBy::one_cutoff ? bands_.front() : band_of(i, j);
-  return !(restricted_ && !is_wanted(i, j)) && is_within(i, j, band.cutoff2);
+  return is_wanted(i, j) && is_within(i, j, band.cutoff2);
 }
 
 bool PairFilter::is_wanted(std::int32_t i, std::int32_t j) const {
@@ -95,17 +70,18 @@ bool PairFilter::is_wanted(std::int32_t i, std::int32_t j) const {
   return exclusions_ == nullptr || !exclusions_->excluded(i, j);
 }
 
+/// The same for (j, i): displacements and their nearest images are exactly the opposite then, as all
+/// roundings are.
 bool PairFilter::is_within(std::int32_t i, std::int32_t j, double cutoff2) const {
   if (near_cutoff_ != nullptr) return cutoff2 >= 0 && near_cutoff_->accepts(i, j);
-  if (i > j) std::swap(i, j);
   const Vec3 d = positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)];
-  if (std::abs(d.x) < clear_half_.x && std::abs(d.y) < clear_half_.y && std::abs(d.z) < clear_half_.z)
-    return norm2(d) <= cutoff2;  // the nearest image, and no other one is as near
-  const Vec3 shift = box_.nearest_image(d) - d;
-  const Vec3 n = rounded({dot(dual_[0], shift), dot(dual_[1], shift), dot(dual_[2], shift)});
-  if (image_distance2(d, n, cell_) <= cutoff2) return true;
+  const Vec3 nearest = box_.nearest_image(d);
+  if (nearest == d && other_images_.empty()) return norm2(d) <= cutoff2;
+  const Vec3 n = images_.integers(nearest - d);
+  const auto is_near = [&](Vec3 m) { return image_distance2(d, m, cell_) <= cutoff2; };
+  if (is_near(n)) return true;
   return std::any_of(other_images_.begin(), other_images_.end(),
-                     [&](Vec3 m) { return image_distance2(d, n + m, cell_) <= cutoff2; });
+                     [&](Vec3 m) { return is_near(n + m) || is_near(n - m); });
 }
 
 }  // namespace dch::detail

@@ -11,6 +11,8 @@
 
 #include "leaves/cutoff_by.hpp"
 
+#include "geometry/lattice.hpp"
+
 namespace dch::detail {
 
 /// Decides whether a pair belongs in a list, exactly as ListParams defines it.
@@ -84,11 +86,10 @@ class PairFilter {
   double largest_ = -1;
   double least_radius_ = 0;
 
-  std::array<Vec3, 3> cell_{};  ///< as given
-  std::array<Vec3, 3> dual_{};  ///< gives the integers of a lattice vector; zero along open axes
-  Vec3 clear_half_{};           ///< displacements below these along each axis are those of the nearest image
+  std::array<Vec3, 3> cell_;  ///< as given
+  CellImages images_;
   std::vector<Vec3>
-      other_images_;  ///< integers of the lattice vectors that may lead to another image as near
+      other_images_;  ///< integers of one of each +-pair of lattice vectors between two images as near
 };
 
 }  // namespace dch::detail

@@ -54,7 +54,12 @@ class VerifierModes : public testing::TestWithParam<std::tuple<VerifyMode, ListK
 };
 INSTANTIATE_TEST_SUITE_P(SampleAndAll, VerifierModes,
                          testing::Combine(testing::Values(VerifyMode::sample, VerifyMode::all),
-                                          testing::Values(ListKind::half, ListKind::full)));
+                                          testing::Values(ListKind::half, ListKind::full)),
+                         [](const auto& modes) {
+                           const bool sample = std::get<0>(modes.param) == VerifyMode::sample;
+                           const bool half = std::get<1>(modes.param) == ListKind::half;
+                           return std::string(sample ? "sample_" : "all_") + (half ? "half" : "full");
+                         });
 
 TEST_P(VerifierModes, FindsNothingInARightList) {
   const trajectory::Frame frame = random_frame(200);

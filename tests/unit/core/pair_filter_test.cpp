@@ -104,22 +104,57 @@ TEST(PairFilter, ImagesOnBothSidesAtHalfTheBox) {
   expect_agreement(points, box, params, "halves");
 }
 
+// Coordinates with few digits, for which nothing rounds: a distance of the cutoff is within it, the next
+// larger one is not, be it of the positions, of an image or of two images half a period away.
+TEST(PairFilter, ADistanceOfExactlyTheCutoffIsWithinIt) {
+  const Vec3 a{8, 0, 0}, b{4, 8, 0}, c{0, 4, 16};
+  for (const Box& box : {Box::none(), Box::orthorhombic({8, 16, 16}), Box::triclinic(a, b, c),
+                         Box::triclinic(a, b, c, {true, false, false})})
+    for (const double cutoff : {0.625, 2.5, 4.0}) {
+      if (cutoff > box.max_cutoff()) continue;
+      std::vector<Vec3> points{{1, 1, 1}};
+      for (const double sign : {-1.0, 1.0}) {
+        points.push_back({1 + sign * cutoff, 1, 1});
+        points.push_back({1, 1 + sign * cutoff, 1});
+        if (cutoff < 4) points.push_back({1 + sign * 3 * cutoff / 5, 1, 1 + sign * 4 * cutoff / 5});
+      }
+      const std::size_t within = points.size();
+      for (std::size_t k = 1; k < within; ++k) {
+        if (cutoff < 4) points.push_back(points[0] + (1 + 1e-15) * (points[k] - points[0]));
+        points.push_back(points[k]);
+        if (box.periodic(0)) points.back().x += (k % 2 == 0 ? 24 : -24);
+      }
+      ListParams params;
+      params.cutoffs = TypeCutoffs(cutoff);
+      ASSERT_NO_FATAL_FAILURE(expect_agreement(points, box, params, box.description()));
+      const PairFilter filter(points, box, params, 0);
+      for (std::size_t k = 1; k < within; ++k)
+        EXPECT_TRUE(filter.accept(0, static_cast<std::int32_t>(k))) << box.description() << ", " << cutoff;
+    }
+}
+
 TEST(PairFilter, EitherImageAtHalfTheBoxMayBeTheOneWithinTheCutoff) {
   // Of two images at half a period, rounding can put the one that seems the nearer beyond the cutoff.
   scenes::Random random(2);
-  for (int trial = 0; trial < 500; ++trial) {
+  for (int trial = 0; trial < 900; ++trial) {
     const double side = random.uniform(1, 2);
-    const Box box = trial % 2 == 0 ? Box::orthorhombic({side, 3, 3})
-                                   : Box::triclinic({side, 0, 0}, {5 * side, 3, 0}, {0, 1, 3});
+    const Vec3 u{1 / 3.0, 2 / 3.0, 2 / 3.0}, v{2 / 3.0, 1 / 3.0, -2 / 3.0}, w{2 / 3.0, -2 / 3.0, 1 / 3.0};
+    const Box box = trial % 3 == 0   ? Box::orthorhombic({side, 3, 3})
+                    : trial % 3 == 1 ? Box::triclinic({side, 0, 0}, {5 * side, 3, 0}, {0, 1, 3})
+                                     : Box::triclinic(side * u, 3.0 * v, 3.0 * w);
     std::vector<Vec3> points;
     for (int k = 0; k < 5; ++k) {
-      const Vec3 p{random.uniform(-10, 10), 0, 0};
+      const Vec3 p = random.uniform(-1, 1) * (k < 2 ? 10.0 : 1.0) * u;
       points.push_back(p);
-      points.push_back({p.x + (random.uniform() < 0.5 ? 0.5 : 1.5) * side, 0, 0});
+      points.push_back(p + (random.uniform() < 0.5 ? 0.5 : 1.5) * box.vector(0));
     }
+    // On either side, since which of the two images seems the nearer goes by the sign of the displacement.
+    std::vector<Vec3> mirrored;
+    for (const Vec3 p : points) mirrored.push_back(-1.0 * p);
     ListParams params;
     params.cutoffs = TypeCutoffs(box.max_cutoff());
     ASSERT_NO_FATAL_FAILURE(expect_agreement(points, box, params, "trial " + std::to_string(trial)));
+    ASSERT_NO_FATAL_FAILURE(expect_agreement(mirrored, box, params, "mirrored " + std::to_string(trial)));
   }
 }
 
@@ -194,6 +229,17 @@ TEST(PairFilter, TheHostDecidesNearTheCutoffAlone) {
     params.radii = radii;
     const PairFilter by_radii(points, Box::none(), params, params.cutoff_error());
     EXPECT_EQ(by_radii.accept(1, 3), answer) << "points without a size at one place are at their cutoff";
+  }
+}
+
+TEST(PairFilter, TheHostDecidesAboutCoincidentPointsWhereItsErrorIsTheCutoff) {
+  const std::vector<Vec3> points{{0, 0, 0}, {0, 0, 0}};
+  for (const bool answer : {false, true}) {
+    const Always host(1, answer);
+    ListParams params;
+    params.near_cutoff = &host;
+    const PairFilter filter(points, Box::none(), params, params.cutoff_error());
+    EXPECT_EQ(filter.accept(0, 1, 0), answer);
   }
 }
 

@@ -242,5 +242,28 @@ TEST(Work, OfListsGrowsWithTheirPairsAlone) {
   }
 }
 
+// Boxes and points that the search of cluster pairs looks at for each pair of clusters that it finds.
+TEST(Work, OfClusterPairsGrowsWithTheirNumberAlone) {
+  for (const std::size_t n : {4000u, 32000u}) {
+    const double side = std::cbrt(0.1 * static_cast<double>(n));
+    const Box box = Box::orthorhombic({side, side, side});
+    HierarchyParams params;
+    params.radius = 1;
+    Hierarchy h(params);
+    h.build(scenes::uniform_in(box, n, 4), box);
+    ClusterPairs pairs;
+    h.cluster_pairs(ListParams(), pairs);
+    const auto work = h.pair_maker().work();
+    const auto found = static_cast<double>(pairs.entries.size());
+    const double of_nodes = static_cast<double>(work.beside_nodes) / found;
+    const double of_clusters = static_cast<double>(work.beside_clusters) / found;
+    const double of_points = static_cast<double>(work.by_points) / found;
+    EXPECT_LE(of_nodes, 1.25) << n;
+    EXPECT_LE(of_clusters, 9.5) << n;
+    EXPECT_LE(of_points, 1.75) << n;
+    EXPECT_EQ(work.by_slots, 0) << n;
+  }
+}
+
 }  // namespace
 }  // namespace dch
