@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Moved to <dch/clusters/cluster_pairs.hpp>; this file goes with the next version.
+#pragma once
+
+#include <dch/clusters/cluster_pairs.hpp>
