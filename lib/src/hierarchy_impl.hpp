@@ -66,7 +66,8 @@ struct Hierarchy::Impl {
   /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
-  std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
+  std::vector<Vec3> anchors;      ///< while pending: where the nodes of level 1 were when it was in order
+  detail::MaintenanceWork ahead;  ///< what the last choice between repair and build went by
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   detail::ClusterPoints cluster_points;
   bool measured = false;     ///< whether cluster_points holds the points as they are now
@@ -284,6 +285,7 @@ struct Hierarchy::Impl {
   bool exchange_pays(std::size_t particles) const;
 
   // hierarchy_repair.cpp
+  /// Points must have been measured since they moved last.
   template <class Metric>
   void repair(const Metric& metric);
   bool is_known_to_cover(std::int32_t cluster) const;
@@ -331,9 +333,10 @@ struct Hierarchy::Impl {
   Hint batch_hint;                        ///< of settle_batch(): where the last batch was
   std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
   std::vector<Vec3> batch_centers;
-  std::vector<std::vector<Near>> near;                 ///< of find_near(): by level, the nodes within reach
-  std::vector<std::array<std::int32_t, 2>> too_close;  ///< of a level: pairs that separate_level() settles
-  std::vector<std::int32_t> strays;                    ///< of cover_points(): ids
+  std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
+  std::vector<std::array<std::int32_t, 2>>
+      too_close;  ///< of a level: pairs for separate_level(), each once, the smaller node first
+  std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;

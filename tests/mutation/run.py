@@ -26,16 +26,14 @@ import mutate
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SOURCES = ROOT / "lib" / "src"
-# What is reported of memory, and the choice between repair and build, which has tests of its own and changes what is
-# done, never what comes of it.
-SKIPPED_FUNCTIONS = {"memory_bytes", "repair_pays", "work_ahead", "count_uncovered", "count_demoted", "standing_work",
-                     "exchange_pays"}
+# What is reported of memory.
+SKIPPED_FUNCTIONS = {"memory_bytes"}
 # What is only measured and counted; tests of the counts alone see it.
 SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
 
 # What is run for a file: objects of test programs, and which of their tests, stage by stage.
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
-             ["*Certificate*:Repair.*:Update.*:LoneNodes.*:Insertion.*:PackingOf*:*RepairOfSmallScenes*",
+             ["*Certificate*:Repair.*:Maintenance*:Update.*:LoneNodes.*:Insertion.*:PackingOf*:*RepairOfSmallScenes*",
               "Work.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
               "*/Packing.TheCheck*/D1",
               "HierarchyMotion.NoMotion*:HierarchyMotion.Boxes*:HierarchyChurn.*:HierarchySparse*:"
