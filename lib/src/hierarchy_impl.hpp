@@ -198,6 +198,7 @@ struct Hierarchy::Impl {
   }
   bool is_lone_point(std::int32_t id) const { return slot_of_id[id] < detail::kNone; }
   void make_lone(int level, std::int32_t node);
+  /// The node's point needs another place.
   void forget_lone(int level, std::int32_t node);
   void unfold(int level, std::int32_t node);
   /// Unfolds the lone nodes of a level that have edges now.
