@@ -244,15 +244,15 @@ struct Hierarchy::Impl {
   void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
   /// The same for a point, which gets a slot.
   template <class Metric>
-  void settle_point(const Metric& metric, std::int32_t id, Vec3 at, Cover cover);
+  void settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover);
   template <class Metric>
   void connect(const Metric& metric, int level, std::int32_t node);
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  void insert(const Metric& metric, std::int32_t id, Vec3 at, Hint hint);
+  void insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint);
   template <class Metric>
-  void remove(const Metric& metric, std::int32_t id);
+  void remove(const Metric& metric, std::int32_t point);
   void trim_top();
 
   // hierarchy_refresh.cpp
