@@ -66,7 +66,8 @@ struct Hierarchy::Impl {
   /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
-  std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
+  std::vector<Vec3> anchors;      ///< while pending: where the nodes of level 1 were when it was in order
+  detail::MaintenanceWork ahead;  ///< what the last choice between repair and build went by
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   detail::ClusterPoints cluster_points;
   bool measured = false;     ///< whether cluster_points holds the points as they are now
@@ -197,6 +198,7 @@ struct Hierarchy::Impl {
   }
   bool is_lone_point(std::int32_t id) const { return slot_of_id[id] < detail::kNone; }
   void make_lone(int level, std::int32_t node);
+  /// The node's point needs another place.
   void forget_lone(int level, std::int32_t node);
   void unfold(int level, std::int32_t node);
   /// Unfolds the lone nodes of a level that have edges now.
@@ -242,15 +244,15 @@ struct Hierarchy::Impl {
   void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
   /// The same for a point, which gets a slot.
   template <class Metric>
-  void settle_point(const Metric& metric, std::int32_t id, Vec3 at, Cover cover);
+  void settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover);
   template <class Metric>
   void connect(const Metric& metric, int level, std::int32_t node);
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  void insert(const Metric& metric, std::int32_t id, Vec3 at, Hint hint);
+  void insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint);
   template <class Metric>
-  void remove(const Metric& metric, std::int32_t id);
+  void remove(const Metric& metric, std::int32_t point);
   void trim_top();
 
   // hierarchy_refresh.cpp
@@ -284,6 +286,7 @@ struct Hierarchy::Impl {
   bool exchange_pays(std::size_t particles) const;
 
   // hierarchy_repair.cpp
+  /// Points must have been measured since they moved last.
   template <class Metric>
   void repair(const Metric& metric);
   bool is_known_to_cover(std::int32_t cluster) const;
@@ -331,9 +334,10 @@ struct Hierarchy::Impl {
   Hint batch_hint;                        ///< of settle_batch(): where the last batch was
   std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
   std::vector<Vec3> batch_centers;
-  std::vector<std::vector<Near>> near;                 ///< of find_near(): by level, the nodes within reach
-  std::vector<std::array<std::int32_t, 2>> too_close;  ///< of a level: pairs that separate_level() settles
-  std::vector<std::int32_t> strays;                    ///< of cover_points(): ids
+  std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
+  std::vector<std::array<std::int32_t, 2>>
+      too_close;  ///< of a level: pairs for separate_level(), each once, the smaller node first
+  std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;

@@ -59,11 +59,11 @@ void NearRanges<Metric>::find_own(const NearSource& near) {
 }
 
 template <class Metric>
-void NearRanges<Metric>::find_others(const NearSource& near) {
+std::int64_t NearRanges<Metric>::find_others(const NearSource& near) {
   const ClusterPoints& others = *near.source->points;
   ranges_.clear();
   const double radius = (near.reach + own_.extent + others.largest_extent) * kInflateReach;
-  for_each_cluster_near(metric_, *near.source, center_, radius, [&](std::int32_t other) {
+  return for_each_cluster_near(metric_, *near.source, center_, radius, [&](std::int32_t other) {
     if (!(own_.owned || others.clusters[other].owned)) return;
     if (near.one_image) {
       add_if_near(near, others.clusters[other],

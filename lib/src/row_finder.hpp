@@ -38,10 +38,14 @@ class RowFinder {
 
   /// What has been looked at for all rows so far: the work, counted alike on every machine.
   struct Work {
+    std::int64_t nodes = 0;     ///< of other hierarchies, in descents to clusters near one of the rows
+    std::int64_t boxes = 0;     ///< of blocks, beside that of a part of a cluster
     std::int64_t gathered = 0;  ///< points of blocks near the box of a part of a cluster
     std::int64_t tested = 0;    ///< pairs of a block's lanes and points near the block
 
     void operator+=(const Work& more) {
+      nodes += more.nodes;
+      boxes += more.boxes;
       gathered += more.gathered;
       tested += more.tested;
     }
