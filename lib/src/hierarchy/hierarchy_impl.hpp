@@ -117,6 +117,7 @@ struct Hierarchy::Impl : detail::Structure {
 
   // points/singletons.cpp: points on their own
   void make_lone(int level, std::int32_t node);
+  /// The node's point needs another place.
   void forget_lone(int level, std::int32_t node);
   void unfold(int level, std::int32_t node);
   /// Unfolds the lone nodes of a level that have edges now.
@@ -152,15 +153,15 @@ struct Hierarchy::Impl : detail::Structure {
   void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
   /// The same for a point, which gets a slot.
   template <class Metric>
-  void settle_point(const Metric& metric, std::int32_t id, Vec3 at, Cover cover);
+  void settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover);
   template <class Metric>
   void connect(const Metric& metric, int level, std::int32_t node);
   template <class Metric>
   void grow_top(const Metric& metric);
   template <class Metric>
-  void insert(const Metric& metric, std::int32_t id, Vec3 at, Hint hint);
+  void insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint);
   template <class Metric>
-  void remove(const Metric& metric, std::int32_t id);
+  void remove(const Metric& metric, std::int32_t point);
   void trim_top();
 
   // motion/refresh.cpp
@@ -195,6 +196,7 @@ struct Hierarchy::Impl : detail::Structure {
   bool exchange_pays(std::size_t particles) const;
 
   // motion/repair.cpp
+  /// Points must have been measured since they moved last.
   template <class Metric>
   void repair(const Metric& metric);
   bool is_known_to_cover(std::int32_t cluster) const;
@@ -218,6 +220,8 @@ struct Hierarchy::Impl : detail::Structure {
   std::vector<std::int32_t> reorder_levels();
   void reorder_points();
 
+  detail::MaintenanceWork ahead;  ///< what the last choice between repair and build went by
+
   // Scratch space, kept to avoid allocation.
   struct Near {
     std::int32_t node;
@@ -226,9 +230,10 @@ struct Hierarchy::Impl : detail::Structure {
   Hint batch_hint;                        ///< of settle_batch(): where the last batch was
   std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
   std::vector<Vec3> batch_centers;
-  std::vector<std::vector<Near>> near;                 ///< of find_near(): by level, the nodes within reach
-  std::vector<std::array<std::int32_t, 2>> too_close;  ///< of a level: pairs that separate_level() settles
-  std::vector<std::int32_t> strays;                    ///< of cover_points(): ids
+  std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
+  std::vector<std::array<std::int32_t, 2>>
+      too_close;  ///< of a level: pairs for separate_level(), each once, the smaller node first
+  std::vector<std::int32_t> strays;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;

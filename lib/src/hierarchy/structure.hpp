@@ -44,7 +44,7 @@ struct Structure {
   /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
-  std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
+  std::vector<Vec3> anchors;      ///< while pending: where the nodes of level 1 were when it was in order
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   MeasuredLeaves leaves;
   bool measured = false;     ///< whether `leaves` holds the points as they are now

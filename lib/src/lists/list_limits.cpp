@@ -88,7 +88,6 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
   all.type_in.resize(static_cast<std::size_t>(types));
   all.type_out.resize(static_cast<std::size_t>(types));
   near.type_in.resize(static_cast<std::size_t>(types));
-  farthest = {};
   std::fill_n(farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
   for (int a = 0; a < types; ++a) {
     for (int b = 0; b < types; ++b) {

@@ -55,11 +55,11 @@ void NearRanges<Metric>::find_own(const NearSource& near) {
 }
 
 template <class Metric>
-void NearRanges<Metric>::find_others(const NearSource& near) {
+std::int64_t NearRanges<Metric>::find_others(const NearSource& near) {
   const MeasuredLeaves& others = near.source->measured();
   ranges_.clear();
   const double radius = (near.reach + own_.extent + others.largest_extent) * kInflate;
-  for_each_leaf_near(metric_, *near.source, center_, radius, [&](std::int32_t other) {
+  return for_each_leaf_near(metric_, *near.source, center_, radius, [&](std::int32_t other) {
     if (!(own_owned_ || near.source->labelled.leaf_owned[other])) return;
     if (near.one_image) {
       add_if_near(near, others.leaves[other],

@@ -39,8 +39,8 @@ class NearRanges {
   /// Clusters of the same hierarchy, each pair once: in the turn of the one that comes first. A cluster meets
   /// itself once, first of all, and in each of half of its images.
   void find_own(const NearSource& near);
-  /// Clusters of another hierarchy.
-  void find_others(const NearSource& near);
+  /// Clusters of another hierarchy. Returns how many of its nodes were looked at.
+  std::int64_t find_others(const NearSource& near);
 
  private:
   void add_images(const NearSource& near, std::int32_t other);

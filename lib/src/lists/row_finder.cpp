@@ -88,7 +88,7 @@ void RowFinder::find_ranges(const Scene<Metric>& scene, std::int32_t k) {
     if (s == 0) {
       ranges.find_own(scene.near[s]);
     } else {
-      ranges.find_others(scene.near[s]);
+      work_.nodes += ranges.find_others(scene.near[s]);
     }
   }
 }
@@ -122,6 +122,7 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   index_count(lanes_near, "points and images of points near one cluster", "take a smaller cutoff",
               kMaxIndexCount - 2 * kChunk);  // as many as that are rounded up to whole chunks
   const auto most = static_cast<std::int32_t>((lanes_near - already) / kBlock);
+  work_.boxes += most;
   const auto blocks = static_cast<std::size_t>(rounded_up(most, kBlocksInChunk)) + kChunk;
   if (block_room_ < blocks) {
     block_.resize(blocks);

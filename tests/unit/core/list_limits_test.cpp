@@ -170,5 +170,28 @@ TEST(ListLimits, OfRadii) {
   });
 }
 
+// At lengths where a sum lies just above a whole number, so that the least part of it counts, down to the
+// room for the last digits of these sums.
+TEST(ListLimits, LeaveNothingOfTheirErrorsOut) {
+  constexpr double kSizes = 1.51, kRoom = 1e-6;
+  const double off = off_of(1, 0);
+  for (int steps = 100; steps < 30000; steps += 997) {
+    ListParams params;  // (L^2 + 2 off L + off^2) / S + 3/2 is whole but for half of that room
+    params.cutoffs = TypeCutoffs(std::sqrt(kScale * (steps - 1.5 - kRoom / 2)) - off);
+    EXPECT_EQ(limits_of(params, 1, 0).all.out, steps + 1);
+  }
+  for (int steps = 3; steps < 10; ++steps) {
+    // (2 off L + off^2) / S + 3/2 + (2 sizes L + sizes^2) / S + 1/2 is whole but for a small part of sizes^2
+    // / S.
+    const double missing = 0.1 * kSizes * kSizes / kScale;
+    const double length =
+        (kScale * (steps + missing - 2 - kRoom) - off * off - kSizes * kSizes) / (2 * (off + kSizes));
+    const std::vector<double> radii(40, 0.5 * length);
+    ListParams params;
+    params.radii = radii;
+    EXPECT_EQ(limits_of(params, 1, 0).all.band, steps + 1);
+  }
+}
+
 }  // namespace
 }  // namespace dch::detail

@@ -9,7 +9,6 @@
 
 #include "listed_hierarchy.hpp"
 
-#include "hierarchy_test_access.hpp"
 #include "scenes.hpp"
 
 namespace dch {
@@ -204,44 +203,6 @@ TEST(Work, SmallMotionLeavesTheEdgesOfUpperLevelsAlone) {
   EXPECT_LE(distances_after(1e-1), 340);
 }
 
-/// What a list costs for each of its pairs.
-struct ListWork {
-  ListWork(const std::vector<Vec3>& points, const Box& box, const ListParams& request, double radius) {
-    HierarchyParams params;
-    params.radius = radius;
-    ListedHierarchy h(params);
-    h.build(points, box);
-    NeighborList list;
-    h.list(request, list);
-    const auto work = h.list_maker().work();
-    const auto pairs = static_cast<double>(list.pairs());
-    gathered = static_cast<double>(work.gathered) / pairs;
-    tested = static_cast<double>(work.tested) / pairs;
-  }
-  double gathered, tested;
-};
-
-// Candidates of a pair, at ten points in the unit of volume: as many for few points as for many, whatever
-// cutoffs go by.
-TEST(Work, OfListsGrowsWithTheirPairsAlone) {
-  for (const std::size_t n : {4000u, 32000u}) {
-    const double side = std::cbrt(0.1 * static_cast<double>(n));
-    const Box box = Box::orthorhombic({side, side, side});
-    const std::vector<Vec3> points = scenes::uniform_in(box, n, 4);
-    const std::vector<double> radii(n, 0.5);
-    const std::vector<std::int32_t> types(n, 1);
-    ListParams one_cutoff, by_radii, by_types;
-    by_radii.radii = radii;
-    by_types.types = types;
-    by_types.cutoffs = TypeCutoffs(2, {0.5, 1, 1, 1});
-    for (const ListParams& request : {one_cutoff, by_radii, by_types}) {
-      const ListWork work(points, box, request, 1);
-      EXPECT_LE(work.gathered, 0.41) << n;
-      EXPECT_LE(work.tested, 4.7) << n;
-    }
-  }
-}
-
 // Boxes and points that the search of cluster pairs looks at for each pair of clusters that it finds.
 TEST(Work, OfClusterPairsGrowsWithTheirNumberAlone) {
   for (const std::size_t n : {4000u, 32000u}) {
@@ -249,7 +210,7 @@ TEST(Work, OfClusterPairsGrowsWithTheirNumberAlone) {
     const Box box = Box::orthorhombic({side, side, side});
     HierarchyParams params;
     params.radius = 1;
-    Hierarchy h(params);
+    ListedHierarchy h(params);
     h.build(scenes::uniform_in(box, n, 4), box);
     ClusterPairs pairs;
     h.cluster_pairs(ListParams(), pairs);

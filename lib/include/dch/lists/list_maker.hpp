@@ -15,10 +15,14 @@ namespace dch {
 
 /// What has been looked at for lists: the work, counted alike on every machine.
 struct ListWork {
+  std::int64_t nodes = 0;     ///< of other hierarchies, in descents to leaves near one of the rows
+  std::int64_t boxes = 0;     ///< of blocks, beside that of a part of a leaf
   std::int64_t gathered = 0;  ///< points of blocks near the box of a part of a leaf
   std::int64_t tested = 0;    ///< pairs of a block's lanes and points near the block
 
   void operator+=(const ListWork& more) {
+    nodes += more.nodes;
+    boxes += more.boxes;
     gathered += more.gathered;
     tested += more.tested;
   }

@@ -116,8 +116,7 @@ void Hierarchy::Impl::count_uncovered(const Metric& metric, int i, detail::Maint
   const Level& level = levels[i];
   const double limit2 = levels[i - 1].radius2;
   if (i > 1) stats.distances += levels[i - 1].alive();
-  for (std::int32_t k = 0; k < level.size(); ++k) {
-    if (!level.is_alive(k)) continue;
+  for (std::int32_t k = 0; k < level.size(); ++k) {  // a dead node has no children
     std::int64_t orphans = i == 1 ? leaves.leaves[k].uncovered : 0;
     if (i > 1)
       for_each_child(i, k, [&](std::int32_t child) {
@@ -164,11 +163,9 @@ void Hierarchy::Impl::measure(const Metric& metric) {
 template <class Metric>
 bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
-  measure(metric);
   const double limit = 0.5 * (levels[1].threshold - wrap_slack - params.radius) / kInflate;
   motion = 0;
-  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k)) continue;
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {  // dead ones have no extent and stay where they were
     const double moved = std::sqrt(metric.distance2(anchors[k], levels[1].position[k]));
     if (leaves.leaves[k].extent + moved > limit) return false;
     motion = std::max(motion, moved);
@@ -205,9 +202,9 @@ void Hierarchy::Impl::repair_if_pending() {
 
 template <class Metric>
 bool Hierarchy::Impl::repair_pays(const Metric& metric) {
-  const detail::MaintenanceWork work = work_ahead(metric);
+  ahead = work_ahead(metric);
   const detail::MaintenanceWeights& weights = detail::weights_in(box);
-  return repair_cost(work, weights) <= build_cost(work, weights);
+  return repair_cost(ahead, weights) <= build_cost(ahead, weights);
 }
 
 // A particle that comes needs a parent, as do those with one that goes if it is a center; where, is not known

@@ -23,7 +23,6 @@ using detail::Level;
 template <class Metric>
 void Hierarchy::Impl::repair(const Metric& metric) {
   const std::int64_t reparented_before = stats.reparented;
-  measure(metric);
   for (int i = top(); i > 0; --i) {
     if (i < top()) cover_level(metric, i);
     if (edges_are_complete(i)) {
@@ -35,7 +34,6 @@ void Hierarchy::Impl::repair(const Metric& metric) {
     separate_level(i);
   }
   cover_points(metric);  // which have no separation to keep, and whose edges are the lists
-  grow_top(metric);
   trim_top();
   fold();
   ++stats.repairs;
@@ -77,15 +75,14 @@ void Hierarchy::Impl::cover_points(const Metric& metric) {
 
 template <class Metric>
 void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
-  // Sizes are read anew on each turn: settling may grow the levels above, never this one.
+  // Sizes are read anew on each turn: settling may grow the levels above, never this one. All have a parent,
+  // since demote() hands the children on.
   for (std::int32_t k = 0; k < levels[i].size(); ++k) {
     const Level& level = levels[i];
     if (!level.is_alive(k) || level.up[k] != kNone) continue;
     const std::int32_t parent = level.parent[k];
-    stats.distances += parent != kNone;
-    if (parent != kNone &&
-        metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2)
-      continue;
+    ++stats.distances;
+    if (metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2) continue;
     settle(metric, i, k, locate(metric, level.position[k], i + 1, {i + 1, parent}));
     ++stats.reparented;
     grow_top(metric);
@@ -148,8 +145,7 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   const double reach = (level.reach + level.radius) * kInflate,
                parent_reach = (level.reach + 2 * level.radius) * kInflate;
   siblings.fill(level, above);
-  for (std::int32_t parent = 0; parent < above.size(); ++parent) {
-    if (!above.is_alive(parent)) continue;
+  for (std::int32_t parent = 0; parent < above.size(); ++parent) {  // dead ones have no children and no edges
     candidates.clear();
     const Vec3 center = above.position[parent];
     const auto gather = [&](std::int32_t cluster) {

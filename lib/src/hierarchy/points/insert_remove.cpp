@@ -23,7 +23,7 @@ using detail::OrthorhombicMetric;
 template <class Metric>
 Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, int target, double reach,
                                                  Hint hint) {
-  if (near.size() < levels.size()) near.resize(levels.size());
+  near.resize(std::max(near.size(), levels.size()));
   const double less = levels[target].radius;
   // Climb until the hint's surroundings are wide enough.
   Hint start = hint.node == kNone ? Hint{top(), kNone} : hint;
@@ -78,7 +78,7 @@ void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, do
 // R_{t-1}, and so is a parent in level l, which has to be within R_{l-1}.
 template <class Metric>
 Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, int target, Hint hint) {
-  if (target > top()) return {top() + 1, kNone};
+  if (target > top()) return {target, kNone};
   const double reach = 0.5 * levels[target].radius;
   Hint guide = find_near(metric, at, target, reach, hint);
   for (int level = target; level <= top(); ++level) {
@@ -195,7 +195,7 @@ template <class Metric>
 void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
   // Take the point out of every level first; the children it leaves behind are settled from the top down.
   std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
-  std::vector<Hint> hint(levels.size() + 1);  // by level: a node there or above that stays and is not far
+  std::vector<Hint> hint(levels.size());  // by level: a node there or above that stays and is not far
   const Hint lowest = lowest_node(point);
   std::int32_t node = lowest.node;
   if (is_lone_point(point)) {
@@ -222,16 +222,14 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
         points.free_block(block);
       }
     }
-    const std::int32_t own_above = at.up[node];
     at.retire(node);
-    if (own_above != kNone) levels[level + 1].down[own_above] = kNone;
-    node = own_above;
+    node = at.up[node];
   }
   slot_of_id[point] = kNone;
   while (top() > 1 && levels.back().alive() == 0) pop_level();
   for (int level = top() - 1; level > 0; --level)
     if (hint[level].node == kNone) hint[level] = hint[level + 1];
-  for (int level = top(); level > 0; --level)
+  for (int level = top(); level > 0; --level)  // there are some in the top level if it was not that before
     for (const std::int32_t orphan : left[level])
       settle(metric, level, orphan,
              locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
@@ -247,7 +245,7 @@ void Hierarchy::Impl::trim_top() {
   while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
          levels[top() - 1].alive() + lone_above(top() - 1) <= params.max_roots) {
     for (std::int32_t root = 0; root < levels.back().size(); ++root)
-      if (levels.back().is_alive(root) && is_lone(top(), root)) unfold(top(), root);
+      if (is_lone(top(), root)) unfold(top(), root);
     pop_level();
   }
 }

@@ -12,8 +12,7 @@ void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) 
   Level& above = levels[level + 1];
   const std::int32_t first = above.first_child[parent];
   below.parent[node] = parent;
-  below.prev_sibling[node] = kNone;
-  below.next_sibling[node] = first;
+  below.next_sibling[node] = first;  // one before it has neither a new node nor one that was detached
   if (first != kNone) below.prev_sibling[first] = node;
   above.first_child[parent] = node;
 }

@@ -20,7 +20,6 @@ void Hierarchy::Impl::make_lone(int level, std::int32_t node) {
 void Hierarchy::Impl::forget_lone(int level, std::int32_t node) {
   const std::int32_t place = levels[level].down[node];
   levels[level].down[node] = kNone;
-  slot_of_id[levels[level].id[node]] = kNone;
   const LoneNode last = lone.back();
   lone.pop_back();
   if (lone_at(place) == static_cast<std::int32_t>(lone.size())) return;
@@ -50,15 +49,14 @@ void Hierarchy::Impl::unfold(int level, std::int32_t node) {
 
 void Hierarchy::Impl::unfold_joined(int level) {
   for (std::int32_t k = 0; k < levels[level].size(); ++k)
-    if (levels[level].is_alive(k) && is_lone(level, k) && !levels[level].edges.row(k).empty())
-      unfold(level, k);
+    if (is_lone(level, k) && !levels[level].edges.row(k).empty()) unfold(level, k);
 }
 
 /// Whether a node of level 2 or above has no edge and no other descendant than itself, of which the levels
 /// below know already if it is lone there.
 bool Hierarchy::Impl::could_be_lone(int level, std::int32_t node) const {
-  if (is_lone(level, node) || !levels[level].edges.row(node).empty()) return false;
-  const std::int32_t below = levels[level].down[node];
+  if (!levels[level].edges.row(node).empty()) return false;
+  const std::int32_t below = levels[level].down[node];  // of one that is lone already it is no child
   if (levels[level].first_child[node] != below || levels[level - 1].next_sibling[below] != kNone)
     return false;
   if (level > 2) return is_lone(level - 1, below);
