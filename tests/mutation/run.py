@@ -48,8 +48,8 @@ PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orth
 CELL_IMAGES = (["unit/core/dch_unit_core"], ["CellImages.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
-CLUSTER_POINTS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
-                  ["ClusterPoints*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
+LEAVES = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
+                  ["MeasuredLeaves*:LabelledLeaves*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
 CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_clusters"],
                  ["ClusterPairFinder.*:Work.OfClusterPairs*",
                   "ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
@@ -57,20 +57,22 @@ CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_cl
                   "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
                   "*ClusterPairsScenes.*/triclinic_ppp"])
 FILES = {
-    "hierarchy_refresh.cpp": HIERARCHY,
-    "hierarchy_repair.cpp": HIERARCHY,
-    "hierarchy_update.cpp": HIERARCHY,
-    "hierarchy_links.cpp": HIERARCHY,
-    "hierarchy_lone.cpp": HIERARCHY,
-    "stale_test.cpp": STALE_TEST,
+    "hierarchy/motion/refresh.cpp": HIERARCHY,
+    "hierarchy/motion/repair.cpp": HIERARCHY,
+    "hierarchy/points/insert_remove.cpp": HIERARCHY,
+    "hierarchy/points/links.cpp": HIERARCHY,
+    "hierarchy/points/singletons.cpp": HIERARCHY,
+    "lists/stale_test.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
-    "pair_filter.cpp": PAIR_FILTER,
-    "cell_images.cpp": CELL_IMAGES,
-    "list_limits.cpp": LIST_LIMITS,
-    "cluster_points.cpp": CLUSTER_POINTS,
-    "cluster_pair_finder.cpp": CLUSTER_PAIRS,
-    "cluster_pair_cuts.cpp": CLUSTER_PAIRS,
-    "cluster_pair_masks.cpp": CLUSTER_PAIRS,
+    "lists/pair_filter.cpp": PAIR_FILTER,
+    "geometry/lattice.cpp": CELL_IMAGES,
+    "lists/list_limits.cpp": LIST_LIMITS,
+    "hierarchy/measured_leaves.cpp": LEAVES,
+    "leaves/labelled_leaves.cpp": LEAVES,
+    "leaves/quantized_leaves.cpp": LEAVES,
+    "clusters/cluster_pair_finder.cpp": CLUSTER_PAIRS,
+    "clusters/cluster_pair_cuts.cpp": CLUSTER_PAIRS,
+    "clusters/cluster_pair_masks.cpp": CLUSTER_PAIRS,
 }
 SLACK_SECONDS = 2
 WALL_FACTOR = 20  # of a busy machine
@@ -126,7 +128,7 @@ class Program:
         """Those that are compiled anew: the file, or those that include it."""
         if self.file.endswith(".cpp"):
             return [SOURCES / self.file]
-        include = f'#include "{pathlib.Path(self.file).name}"'
+        include = f'#include "{self.file}"'
         return [p for p in sorted((SOURCES / self.file).parent.glob("*.cpp"))
                 if include in p.read_text() and str(p) in self.commands]
 
@@ -142,7 +144,7 @@ class Program:
         words[words.index("-c") + 1] = str(copy)
         words = [w for w in words if w != "-Werror" and not w.startswith("-W")]
         words += ["-O1", "-g0"]  # compiled once for hundreds of short runs
-        words[1:1] = ["-w", "-fmax-errors=0", "-D_GLIBCXX_ASSERTIONS", f"-I{HERE}", f"-I{source.parent}"]
+        words[1:1] = ["-w", "-fmax-errors=0", "-D_GLIBCXX_ASSERTIONS", f"-I{HERE}", f"-I{self.scratch / 'src'}"]
         done = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True)
         if done.returncode == 0:
             return out
@@ -159,7 +161,8 @@ class Program:
         if not runtime.exists():
             subprocess.run([compiler, "-O2", "-c", str(HERE / "mutants.cpp"), "-o", str(runtime)], check=True)
         subprocess.run([compiler, "-o", str(self.path), *map(str, objects_of(self.build, self.programs)),
-                        *map(str, objects), str(runtime), str(self.build / "lib" / "libdch_core.a"),
+                        *map(str, objects), str(runtime), str(self.build / "forces" / "libdch_forces.a"),
+                        str(self.build / "lib" / "libdch_core.a"),
                         "-lgtest_main", "-lgmock", "-lgtest", "-lpthread"], check=True)
 
     def run(self, number, stage, limit):
