@@ -41,8 +41,7 @@ struct Kernels<float> {
 
 /// Clusters that worker `worker` of `workers` prepares.
 ClusterPairs::Range share(std::int32_t clusters, int worker, int workers) {
-  const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{clusters} * k / workers); };
-  return {cut(worker), cut(worker + 1)};
+  return {share_begin(clusters, worker, workers), share_begin(clusters, worker + 1, workers)};
 }
 
 template <class Real>

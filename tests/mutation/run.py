@@ -45,7 +45,7 @@ HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierar
 STALE_TEST = (["unit/core/dch_unit_core"], ["*StaleTest*:*VerletList*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
-CELL_IMAGES = (["unit/core/dch_unit_core"], ["CellImages.*"])
+LATTICE = (["unit/core/dch_unit_core"], ["Lattice.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
 LEAVES = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
@@ -65,7 +65,7 @@ FILES = {
     "lists/stale_test.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
     "lists/pair_filter.cpp": PAIR_FILTER,
-    "geometry/lattice.cpp": CELL_IMAGES,
+    "geometry/lattice.cpp": LATTICE,
     "lists/list_limits.cpp": LIST_LIMITS,
     "hierarchy/measured_leaves.cpp": LEAVES,
     "leaves/labelled_leaves.cpp": LEAVES,

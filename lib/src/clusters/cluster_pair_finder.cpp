@@ -50,7 +50,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   // square and the limit round by up to 3 r more.
   const double reach = scene.reach + 6 * kFloatRounding * (scene.reach + largest_extent);
   limit2_ = static_cast<float>(reach * reach);
-  images_ = CellImages(scene.box);
+  images_ = Lattice(scene.box);
   one_image_ = (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
   for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
@@ -61,14 +61,13 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   parts_.resize(static_cast<std::size_t>(count));
   const std::int32_t nodes = scene.nodes.size();
   const auto search = [&](int p) {
-    const auto cut = [&](int k) { return static_cast<std::int32_t>(std::int64_t{nodes} * k / count); };
     Part& part = parts_[static_cast<std::size_t>(p)];
     part.rows.clear();
     part.entries.clear();
     part.shift.clear();
     part.work = {};
     part.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
-    for (std::int32_t k = cut(p); k < cut(p + 1); ++k)
+    for (std::int32_t k = share_begin(nodes, p, count); k < share_begin(nodes, p + 1, count); ++k)
       if (scene.nodes.is_alive(k)) find_around(scene, k, out, part);
   };
   if (count == 1) {

@@ -143,7 +143,7 @@ class ClusterPairFinder {
   void append_ranges(Shifts shifts, std::int32_t first_cluster, ClusterPairs& out);
 
   const ClusterSearchKernels* kernels_ = nullptr;
-  CellImages images_{Box()};
+  Lattice images_{Box()};
   bool one_image_ = true;     ///< whether only the nearest image of a node can matter to another one
   bool drops_types_ = false;  ///< whether some pair of types has no cutoff
   float limit2_ = 0;          ///< squared reach with its margin

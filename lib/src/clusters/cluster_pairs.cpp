@@ -104,7 +104,7 @@ class TornClusters {
   ClusterPairs& pairs_;
   Span<const Vec3> positions_;
   const Box& now_;
-  detail::CellImages images_;
+  detail::Lattice images_;
   detail::BinaryGrid grid_;
   double safe2_;
 };
@@ -158,7 +158,7 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
 }
 
 void ClusterPairs::refresh_shifts(const Box& now) {
-  const detail::CellImages images(now);
+  const detail::Lattice images(now);
   const detail::BinaryGrid grid(list_radius);
   for (std::size_t s = 0; s < shift.size(); ++s) {
     const Vec3 between =

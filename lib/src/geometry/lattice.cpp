@@ -8,7 +8,7 @@
 
 namespace dch::detail {
 
-CellImages::CellImages(const Box& box) {
+Lattice::Lattice(const Box& box) {
   std::array<Vec3, 3> periods{};
   std::array<std::size_t, 3> axes{};
   int rank = 0;
@@ -21,7 +21,7 @@ CellImages::CellImages(const Box& box) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) dual_[axes[k]] = dual[k];
 }
 
-Vec3 CellImages::integers(Vec3 v) const {
+Vec3 Lattice::integers(Vec3 v) const {
   return {std::nearbyint(dot(dual_[0], v)), std::nearbyint(dot(dual_[1], v)),
           std::nearbyint(dot(dual_[2], v))};
 }

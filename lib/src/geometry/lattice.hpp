@@ -8,9 +8,9 @@
 namespace dch::detail {
 
 /// Lattice vectors as integer multiples of the cell vectors as given; along open axes the integers are 0.
-class CellImages {
+class Lattice {
  public:
-  explicit CellImages(const Box& box);
+  explicit Lattice(const Box& box);
 
   /// Of a lattice vector up to rounding.
   Vec3 integers(Vec3 v) const;

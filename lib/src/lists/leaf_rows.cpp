@@ -107,13 +107,10 @@ void LeafRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* execut
   const int parts = kPartsPerThread * executor->threads();
   parts_.resize(static_cast<std::size_t>(parts));
   executor->run(parts, [&](int p) {
-    const auto cut = [&](int k) {
-      return static_cast<std::int32_t>(std::int64_t{centers.size()} * k / parts);
-    };
     Part& part = parts_[static_cast<std::size_t>(p)];
     part.lists.resize(out.size());
     for (NeighborList& list : part.lists) start(list);
-    find_part(part, cut(p), cut(p + 1));
+    find_part(part, share_begin(centers.size(), p, parts), share_begin(centers.size(), p + 1, parts));
   });
   for (std::size_t r = 0; r < out.size(); ++r) append_pieces(*executor, r, *out[r]);
 }

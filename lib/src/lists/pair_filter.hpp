@@ -87,7 +87,7 @@ class PairFilter {
   double least_radius_ = 0;
 
   std::array<Vec3, 3> cell_;  ///< as given
-  CellImages images_;
+  Lattice images_;
   std::vector<Vec3>
       other_images_;  ///< integers of one of each +-pair of lattice vectors between two images as near
 };

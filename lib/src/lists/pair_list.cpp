@@ -74,7 +74,7 @@ std::size_t PairListMaker::group_of(const std::array<std::int32_t, 3>& image) {
 /// Pairs of other images than that at home go behind the others, group by group in the order in which they
 /// came, so that they stay close to each other in memory.
 void PairListMaker::finish() {
-  const CellImages images(out_.box);
+  const Lattice images(out_.box);
   std::vector<std::size_t> group(far_.size());
   for (std::size_t k = 0; k < far_.size(); ++k) {
     const Vec3 d =

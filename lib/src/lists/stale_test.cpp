@@ -4,7 +4,7 @@
 
 #include <dch/lists/stale_test.hpp>
 
-#include "geometry/dual_basis.hpp"
+#include "geometry/lattice.hpp"
 #include "geometry/position_check.hpp"
 #include "lists/list_check.hpp"
 
@@ -54,31 +54,13 @@ void StaleTest::wrap_reference() {
   }
   reference_error_ = error.bound(reach);
 
-  std::array<Vec3, 3> given{};
-  std::array<std::size_t, 3> axes{};
-  std::size_t rank = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!box.periodic(axis)) continue;
-    given[rank] = box.vector(axis);
-    axes[rank++] = static_cast<std::size_t>(axis);
-  }
-  const auto dual = detail::dual_basis(given, box.rank());
-  combinations_ = {};
-  for (std::size_t k = 0; k < rank; ++k) {
-    for (std::size_t l = 0; l < rank; ++l) {
-      combinations_[k][axes[l]] = std::nearbyint(dot(dual[l], box.reduced()[k]));
-    }
-  }
+  const detail::Lattice lattice(box);
+  for (std::size_t k = 0; k < 3; ++k) combinations_[k] = lattice.integers(box.reduced()[k]);
 }
 
 std::array<Vec3, 3> StaleTest::periods(const Box& box) const {
-  std::array<Vec3, 3> periods;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      periods[k] = periods[k] + combinations_[k][static_cast<std::size_t>(axis)] * box.vector(axis);
-    }
-  }
-  return periods;
+  const detail::Lattice lattice(box);
+  return {lattice.vector(combinations_[0]), lattice.vector(combinations_[1]), lattice.vector(combinations_[2])};
 }
 
 /// The largest |(H - H0) n|, n in {-1, 0, 1}^3.

@@ -10,9 +10,9 @@
 namespace dch::detail {
 namespace {
 
-TEST(CellImages, GiveIntegersOfLatticeVectorsAndBack) {
+TEST(Lattice, GiveIntegersOfLatticeVectorsAndBack) {
   for (const scenes::NamedBox& scene : scenes::all_boxes(5)) {
-    const CellImages images(scene.box);
+    const Lattice images(scene.box);
     scenes::Random random(3);
     for (int trial = 0; trial < 100; ++trial) {
       Vec3 n, v;
@@ -28,13 +28,13 @@ TEST(CellImages, GiveIntegersOfLatticeVectorsAndBack) {
 }
 
 // Along open axes the cell vectors say nothing of images, however near they are to the span of the others.
-TEST(CellImages, GoByThePeriodicVectorsAlone) {
+TEST(Lattice, GoByThePeriodicVectorsAlone) {
   const Vec3 a{0.8, 0, 0.6}, b{0.36, 0.8, -0.48};
   const Vec3 c = a + b + 1e-10 * cross(a, b);
   for (const Box& box :
        {Box::triclinic(a, b, c, {true, true, false}), Box::triclinic(a, c, b, {true, false, true}),
         Box::triclinic(c, a, b, {false, true, true}), Box::triclinic(a, c, b, {true, false, false})}) {
-    const CellImages images(box);
+    const Lattice images(box);
     for (const double periods : {3.0, 1e5 + 1, 1e8 + 7}) {
       Vec3 n, v;
       for (int axis = 0; axis < 3; ++axis) {

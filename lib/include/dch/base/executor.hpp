@@ -33,6 +33,12 @@ class Executor {
 /// @throws InvalidParameter unless 1 <= threads <= 4096, Error if the system does not give that many.
 std::unique_ptr<Executor> make_thread_pool(int threads);
 
+/// Where the k-th of `parts` about equal shares of [0, count) begins, k from 0 to `parts`.
+template <class Count>
+Count share_begin(Count count, int k, int parts) {
+  return static_cast<Count>(static_cast<std::int64_t>(count) * k / parts);
+}
+
 /// Calls task(first, last) for ranges that make up [0, count), one for each thread of `executor`; if that is
 /// null or has one thread, for the whole.
 template <class Count, class Task>
@@ -40,8 +46,7 @@ void for_ranges(Executor* executor, Count count, const Task& task) {
   const int parts = executor ? executor->threads() : 1;
   if (parts == 1) return task(Count{0}, count);
   executor->run(parts, [&](int part) {
-    const auto cut = [&](int k) { return static_cast<Count>(static_cast<std::int64_t>(count) * k / parts); };
-    task(cut(part), cut(part + 1));
+    task(share_begin(count, part, parts), share_begin(count, part + 1, parts));
   });
 }
 

@@ -50,7 +50,7 @@ class StaleTest {
   Vec3 low_, high_;             ///< corners of the box around them
   double reference_error_ = 0;  ///< how far distances of the wrapped positions may be off [length]
   /// Reduced periodic vectors of the reference box as integer combinations of its cell vectors.
-  std::array<std::array<double, 3>, 3> combinations_{};
+  std::array<Vec3, 3> combinations_{};
   bool valid_ = false;
 };
 
