@@ -10,7 +10,6 @@
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/engines/pair_search.hpp>
 
 #include "scene.hpp"
 #include "simd_grid.hpp"

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <random>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "simd_grid.hpp"
 

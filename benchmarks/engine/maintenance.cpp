@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// By what the weights of lib/src/hierarchy/maintenance_cost.hpp were found: the same displacements repaired and built
-// anew, scene by scene and step by step, beside what the automatic policy does.
+// By what the weights of lib/src/hierarchy/maintenance_cost.hpp were found: the same displacements repaired
+// and built anew, scene by scene and step by step, beside what the automatic policy does.
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 namespace dch::bench {
 namespace {

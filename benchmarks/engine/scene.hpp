@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
-#include <dch/base/vec3.hpp>
 
 namespace dch::bench {
 

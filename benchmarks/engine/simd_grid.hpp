@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/span.hpp>
 
 #include "base/aligned_vector.hpp"
 #include "simd/list_kernels.hpp"

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/span.hpp>
 
 #include "grid_kernels.hpp"
 #include "size_layer.hpp"

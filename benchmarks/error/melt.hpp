@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/vec3.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/geometry/box.hpp>
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/vec3.hpp>
 
 namespace dch::bench {
 

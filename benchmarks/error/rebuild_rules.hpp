@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::bench {
 

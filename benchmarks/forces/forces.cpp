@@ -11,8 +11,8 @@
 #include <map>
 #include <random>
 
-#include <dch/engines/pair_search.hpp>
 #include <dch/base/instruction_set.hpp>
+#include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
 namespace {

@@ -8,7 +8,6 @@
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/layered_hierarchy.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
-#include <dch/engines/pair_search.hpp>
 #ifdef DCH_BENCH_HAS_POWER_DIAGRAM
 #include <dch/necklace/closest_pair.hpp>
 #include <dch/power_diagram/power_diagram.hpp>

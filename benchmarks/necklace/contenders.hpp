@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <dch/lists/exclusions.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/necklace/contacts.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/lists/exclusions.hpp>
+#include <dch/necklace/contacts.hpp>
 
 namespace dch::bench {
 

@@ -11,7 +11,6 @@
 #include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
-#include <dch/engines/pair_search.hpp>
 
 namespace dch::bench {
 namespace {

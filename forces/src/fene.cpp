@@ -3,8 +3,8 @@
 #include <string>
 
 #include <dch/base/error.hpp>
-#include <dch/forces/fene.hpp>
 #include <dch/base/instruction_set.hpp>
+#include <dch/forces/fene.hpp>
 
 #include "base/describe.hpp"
 #include "simd/force_kernels.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/power_diagram/power_diagram.hpp>
 
 namespace dch::necklace {

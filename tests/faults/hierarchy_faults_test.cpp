@@ -63,7 +63,9 @@ TEST(HierarchyFaults, BuildLeavesItEmpty) {
     params.edge_rule = rule;
     params.max_roots = 1;
     const Changes changes(params);
-    const auto call = [&](ListedHierarchy& hierarchy) { hierarchy.build(changes.next.points, changes.next.box); };
+    const auto call = [&](ListedHierarchy& hierarchy) {
+      hierarchy.build(changes.next.points, changes.next.box);
+    };
     const auto fault_of = [&](ListedHierarchy& hierarchy, Ending ending) {
       return build_fault(changes, hierarchy, ending);
     };
@@ -80,7 +82,9 @@ void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, l
   expect_sound(
       sweep([&] { return changes.built(); },
             [&](ListedHierarchy& hierarchy) { hierarchy.update(changes.next.points, changes.next.box); },
-            [&](ListedHierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
+            [&](ListedHierarchy& hierarchy, Ending ending) {
+              return changes.fault_of_next(hierarchy, ending);
+            }),
       least_failures);
 }
 
@@ -131,17 +135,18 @@ TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
   HierarchyParams params = params_for();
   params.base_radius = 0.6;
   const Changes changes(params, 0.05);
-  expect_sound(
-      sweep(
-          [&] {
-            ListedHierarchy hierarchy = changes.built();
-            hierarchy.update(changes.next.points, changes.next.box);
-            EXPECT_TRUE(hierarchy.repair_pending());
-            return hierarchy;
-          },
-          [](ListedHierarchy& hierarchy) { hierarchy.repair(); },
-          [&](ListedHierarchy& hierarchy, Ending ending) { return changes.fault_of_next(hierarchy, ending); }),
-      20);
+  expect_sound(sweep(
+                   [&] {
+                     ListedHierarchy hierarchy = changes.built();
+                     hierarchy.update(changes.next.points, changes.next.box);
+                     EXPECT_TRUE(hierarchy.repair_pending());
+                     return hierarchy;
+                   },
+                   [](ListedHierarchy& hierarchy) { hierarchy.repair(); },
+                   [&](ListedHierarchy& hierarchy, Ending ending) {
+                     return changes.fault_of_next(hierarchy, ending);
+                   }),
+               20);
 }
 
 /// Some points come or go, in a hierarchy of `all` but these.
@@ -198,17 +203,17 @@ TEST(HierarchyFaults, RenumberLeavesItAsItWas) {
   turned.points.assign(changes.first.points.rbegin(), changes.first.points.rend());
   Asked asked;
   asked.answer(turned);
-  expect_sound(
-      sweep([&] { return changes.built(); }, [&](ListedHierarchy& hierarchy) { hierarchy.renumber(reversed); },
-            [&](ListedHierarchy& hierarchy, Ending ending) {
-              if (ending == Ending::threw) {
-                const std::string fault = list_fault(hierarchy, changes.asked_first);
-                if (!fault.empty()) return fault;
-                hierarchy.renumber(reversed);
-              }
-              return after(ending, list_fault(hierarchy, asked));
-            }),
-      5);
+  expect_sound(sweep([&] { return changes.built(); },
+                     [&](ListedHierarchy& hierarchy) { hierarchy.renumber(reversed); },
+                     [&](ListedHierarchy& hierarchy, Ending ending) {
+                       if (ending == Ending::threw) {
+                         const std::string fault = list_fault(hierarchy, changes.asked_first);
+                         if (!fault.empty()) return fault;
+                         hierarchy.renumber(reversed);
+                       }
+                       return after(ending, list_fault(hierarchy, asked));
+                     }),
+               5);
 }
 
 }  // namespace

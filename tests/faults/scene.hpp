@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "random.hpp"
 #include "scenes.hpp"
 #include "sweep.hpp"

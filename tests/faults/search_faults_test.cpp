@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include <dch/engines/pair_search.hpp>
-#include <dch/lists/stale_test.hpp>
 #include <dch/engines/verlet_list.hpp>
+#include <dch/lists/stale_test.hpp>
 
 #include "scene.hpp"
 

@@ -2,12 +2,12 @@
 //
 // The hierarchy under any sequence of its operations: every invariant holds after each of them, and lists are
 // those of all pairs.
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/lists/all_pairs.hpp>
 
 #include "fuzz_scene.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 
 namespace dch::fuzz {
 namespace {

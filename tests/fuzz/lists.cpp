@@ -5,16 +5,16 @@
 // within the cutoff.
 #include <memory>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
 #include <dch/engines/pair_search.hpp>
 #include <dch/engines/verlet_list.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "cluster_pair_check.hpp"
 #include "fuzz_scene.hpp"
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 
 namespace dch::fuzz {
 namespace {

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "listed_hierarchy.hpp"
-
 #include "cluster_pair_check.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {
@@ -24,7 +23,7 @@ ListParams request_for(double cutoff) {
 }
 
 ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
-                       double base_radius = 0) {
+                             double base_radius = 0) {
   HierarchyParams params;
   params.radius = radius;
   params.base_radius = base_radius;

@@ -5,10 +5,10 @@
 
 #include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "cluster_pair_check.hpp"
 #include "instruction_sets.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {
@@ -25,8 +25,8 @@ ListParams request_for(double cutoff, double skin = 0) {
   return request;
 }
 
-ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius, double base_radius = 0,
-                       Executor* executor = nullptr) {
+ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
+                             double base_radius = 0, Executor* executor = nullptr) {
   HierarchyParams params;
   params.radius = radius;
   params.base_radius = base_radius;

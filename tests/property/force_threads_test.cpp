@@ -8,9 +8,9 @@
 #include <string>
 
 #include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
+#include "listed_hierarchy.hpp"
 #include "random.hpp"
 #include "scenes.hpp"
 

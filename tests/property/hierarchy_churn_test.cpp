@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -7,10 +7,10 @@
 
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 #include "shake.hpp"
 

@@ -3,13 +3,13 @@
 // Every kind of point set in every kind of box: the structure is valid and its lists equal the oracle's.
 #include <gtest/gtest.h>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
 #include <dch/base/instruction_set.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <dch/lists/all_pairs.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 #include "shake.hpp"
 

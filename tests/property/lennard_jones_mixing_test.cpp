@@ -6,10 +6,10 @@
 #include <limits>
 
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
 #include <dch/forces/lennard_jones.hpp>
 
 #include "instruction_sets.hpp"
+#include "listed_hierarchy.hpp"
 #include "lj_oracle.hpp"
 #include "scenes.hpp"
 

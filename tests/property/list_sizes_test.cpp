@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/engines/pair_search.hpp>
 #include <dch/base/instruction_set.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "effort.hpp"
 #include "instruction_sets.hpp"

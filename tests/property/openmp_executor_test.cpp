@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

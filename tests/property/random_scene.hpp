@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include <dch/base/executor.hpp>
+#include <dch/base/instruction_set.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
-#include <dch/base/instruction_set.hpp>
 
 #include "instruction_sets.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -7,14 +7,14 @@
 #include <thread>
 #include <vector>
 
-#include <dch/engines/pair_search.hpp>
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "effort.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "random.hpp"
 #include "scenes.hpp"
 

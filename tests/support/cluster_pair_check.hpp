@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 namespace dch {
 

@@ -16,7 +16,9 @@ class ListedHierarchy : public Hierarchy {
   using Hierarchy::Hierarchy;
 
   void list(const ListParams& params, NeighborList& out) { lists_.list(view(), params, out); }
-  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) { lists_.lists(view(), requests, out); }
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+    lists_.lists(view(), requests, out);
+  }
   void cluster_pairs(const ListParams& params, ClusterPairs& out) { pairs_.make(view(), params, out); }
   std::string validate() { return dch::validate(view()); }
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/forces/lennard_jones.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
-#include <dch/forces/lennard_jones.hpp>
 
 namespace dch {
 

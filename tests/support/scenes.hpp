@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 #include "random.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <dch/trajectory/writer.hpp>
 
+#include "base/place.hpp"
 #include "files/file_name.hpp"
 #include "h5md/h5md_writer.hpp"
 #include "lammps/lammps_dump_writer.hpp"
-#include "base/place.hpp"
 
 namespace dch::trajectory {
 

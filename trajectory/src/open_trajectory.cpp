@@ -4,13 +4,13 @@
 
 #include <dch/trajectory/reader.hpp>
 
+#include "base/place.hpp"
 #include "dcd/dcd_reader.hpp"
 #include "files/file_name.hpp"
 #include "gromacs/gro_reader.hpp"
 #include "gromacs/gromacs_reader.hpp"
 #include "h5md/h5md_reader.hpp"
 #include "lammps/lammps_dump_reader.hpp"
-#include "base/place.hpp"
 
 namespace dch::trajectory {
 namespace {

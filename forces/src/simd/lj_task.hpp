@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/span.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
 
 #include "clusters/simd/few_types.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <dch/clusters/cluster_pairs.hpp>
-#include <dch/lists/exclusions.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/exclusions.hpp>
 #include <dch/lists/pair_list.hpp>
 
 #include "atom_points.h"
@@ -69,8 +69,7 @@ class ClusterListFiller : protected Pointers {
   bool leaves_out_any(const AtomPoints& points) const;
   bool is_left_out(const AtomPoints& points, int i, int j) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
-  void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
-                      ClusterList& list);
+  void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params, ClusterList& list);
 
   SpecialPairs& special_;
   const PairRules& rules_;

@@ -11,8 +11,8 @@
 #include <typeinfo>
 #include <utility>
 
-#include <dch/engines/pair_search.hpp>
 #include <dch/base/error.hpp>
+#include <dch/engines/pair_search.hpp>
 
 #include "fix_dch_order.h"
 #include "neighbor_dch_only.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/forces/lennard_jones.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "atom_order.h"
 #include "atom_points.h"

@@ -5,9 +5,9 @@
 #include <lammps_host.h>
 #include <vector>
 
-#include <dch/lists/exclusions.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/lists/exclusions.hpp>
 
 namespace LAMMPS_NS {
 

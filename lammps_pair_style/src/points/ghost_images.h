@@ -5,8 +5,8 @@
 #include <lammps_host.h>
 #include <vector>
 
-#include <dch/lists/list_params.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/lists/list_params.hpp>
 
 #include "tag_table.h"
 

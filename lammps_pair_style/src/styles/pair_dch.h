@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/forces/lennard_jones.hpp>
 #include <dch/base/span.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "cluster_list.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/binary_grid.hpp"
 #include "clusters/cluster_pair_finder.hpp"
-#include "leaves/leaf_source.hpp"
+#include "geometry/binary_grid.hpp"
 #include "geometry/metric.hpp"
+#include "leaves/leaf_source.hpp"
 
 namespace dch::detail {
 namespace {

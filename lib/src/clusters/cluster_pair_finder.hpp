@@ -5,18 +5,18 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
-#include <dch/clusters/cluster_pair_maker.hpp>
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
 #include <dch/base/index_count.hpp>
+#include <dch/clusters/cluster_pair_maker.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 
-#include "hierarchy/build/block_order.hpp"
-#include "geometry/lattice.hpp"
-#include "hierarchy/level.hpp"
-#include "hierarchy/leaf_blocks.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
+#include "geometry/lattice.hpp"
+#include "hierarchy/build/block_order.hpp"
+#include "hierarchy/leaf_blocks.hpp"
+#include "hierarchy/level.hpp"
 
 namespace dch::detail {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <dch/clusters/cluster_pair_maker.hpp>
-
 #include <type_traits>
 
 #include <dch/base/error.hpp>
+#include <dch/clusters/cluster_pair_maker.hpp>
 
 #include "base/describe.hpp"
 #include "clusters/cluster_pair_finder.hpp"

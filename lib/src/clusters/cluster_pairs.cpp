@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/error.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
 
-#include "geometry/binary_grid.hpp"
-#include "geometry/lattice.hpp"
 #include "base/describe.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
+#include "geometry/binary_grid.hpp"
+#include "geometry/lattice.hpp"
 
 namespace dch {
 namespace {

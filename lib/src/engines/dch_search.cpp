@@ -113,8 +113,7 @@ bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys
     }
   }
   const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
-  if (hierarchy_.params().policy == MaintenancePolicy::automatic &&
-      !hierarchy_.exchange_pays(exchanged))
+  if (hierarchy_.params().policy == MaintenancePolicy::automatic && !hierarchy_.exchange_pays(exchanged))
     return false;
   for (std::size_t id = 0; id < before; ++id)
     if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <dch/engines/pair_search.hpp>
-
 #include <dch/base/error.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace dch {
 
@@ -11,7 +10,8 @@ void PairSearch::lists(Span<const ListParams> requests, std::vector<NeighborList
 }
 
 void PairSearch::cluster_pairs(const ListParams&, ClusterPairs&) {
-  throw InvalidParameter("the engine '" + name() + "' makes no cluster pairs; take a neighbor list, or another engine");
+  throw InvalidParameter("the engine '" + name() +
+                         "' makes no cluster pairs; take a neighbor list, or another engine");
 }
 
 }  // namespace dch

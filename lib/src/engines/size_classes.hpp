@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/lists/list_params.hpp>
 #include <dch/base/span.hpp>
+#include <dch/lists/list_params.hpp>
 
 namespace dch::detail {
 

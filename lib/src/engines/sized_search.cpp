@@ -8,12 +8,12 @@
 
 #include <dch/base/error.hpp>
 
-#include "geometry/tolerance.hpp"
 #include "base/key_table.hpp"
+#include "base/seconds_since.hpp"
 #include "geometry/position_check.hpp"
+#include "geometry/tolerance.hpp"
 #include "lists/list_check.hpp"
 #include "lists/reach.hpp"
-#include "base/seconds_since.hpp"
 
 namespace dch::detail {
 namespace {
@@ -202,9 +202,9 @@ const SearchStats& SizedSearch::stats() const {
     const SearchStats& own = group.search->stats();
     stats_ += own;
     stats_.levels = std::max(stats_.levels, own.levels);
-    stats_.memory_bytes += own.memory_bytes + group.source.memory_bytes() + group.particle.capacity() * sizeof(std::int32_t) +
-                           group.positions.capacity() * sizeof(Vec3) +
-                           group.keys.capacity() * sizeof(std::uint64_t);
+    stats_.memory_bytes +=
+        own.memory_bytes + group.source.memory_bytes() + group.particle.capacity() * sizeof(std::int32_t) +
+        group.positions.capacity() * sizeof(Vec3) + group.keys.capacity() * sizeof(std::uint64_t);
   }
   stats_.updates = updates_;
   stats_.maintain_seconds = maintain_seconds_;

@@ -9,12 +9,11 @@
 #include <dch/geometry/box.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
 
-#include "engines/dch_search.hpp"
 #include "base/key_table.hpp"
-#include "leaves/leaf_source.hpp"
+#include "engines/dch_search.hpp"
+#include "engines/size_classes.hpp"
 #include "leaves/leaf_source.hpp"
 #include "lists/list_finder.hpp"
-#include "engines/size_classes.hpp"
 
 namespace dch::detail {
 
@@ -66,8 +65,8 @@ class SizedSearch final : public PairSearch {
   bool stale_ = false;  ///< whether positions have come that the groups do not have
   SizeRecord sizes_;    ///< that the classes were made from
   double largest_radius_ = 0;
-  double host_error_ = 0;            ///< largest ListParams::cutoff_error() of the requests [length]
-  bool told_apart_ = false;          ///< whether there may be several classes
+  double host_error_ = 0;          ///< largest ListParams::cutoff_error() of the requests [length]
+  bool told_apart_ = false;        ///< whether there may be several classes
   std::uint64_t ids_version_ = 0;  ///< see ParticleIds
   SizeClasses classes_;
   std::vector<Group> groups_;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/geometry/box.hpp>
 
 #include "base/describe.hpp"
+#include "base/nearest_integer.hpp"
 #include "geometry/dual_basis.hpp"
 #include "geometry/lattice_reduction.hpp"
-#include "base/nearest_integer.hpp"
 
 namespace dch {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::detail {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::detail {
 

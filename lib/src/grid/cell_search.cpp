@@ -7,16 +7,16 @@
 #include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 
-#include "hierarchy/candidate_buffer.hpp"
-#include "grid/cell_grid.hpp"
 #include "base/describe.hpp"
 #include "base/key_table.hpp"
-#include "lists/list_assembly.hpp"
-#include "geometry/metric.hpp"
-#include "lists/pair_filter.hpp"
-#include "geometry/position_check.hpp"
-#include "lists/list_check.hpp"
 #include "base/seconds_since.hpp"
+#include "geometry/metric.hpp"
+#include "geometry/position_check.hpp"
+#include "grid/cell_grid.hpp"
+#include "hierarchy/candidate_buffer.hpp"
+#include "lists/list_assembly.hpp"
+#include "lists/list_check.hpp"
+#include "lists/pair_filter.hpp"
 
 namespace dch {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <dch/hierarchy/hierarchy_view.hpp>
-
 #include <algorithm>
 #include <string>
 
 #include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy_view.hpp>
 
 #include "geometry/metric.hpp"
 #include "hierarchy/structure.hpp"
@@ -71,7 +70,8 @@ std::vector<std::int32_t> HierarchyView::neighbors(std::int32_t id, int i) const
   std::vector<std::int32_t> nodes;
   with_metric(structure_->box, [&](const auto& metric) { structure_->neighbors(metric, i, node, nodes); });
   std::vector<std::int32_t> ids(nodes.size());
-  std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](std::int32_t k) { return structure_->id(i, k); });
+  std::transform(nodes.begin(), nodes.end(), ids.begin(),
+                 [&](std::int32_t k) { return structure_->id(i, k); });
   std::sort(ids.begin(), ids.end());
   return ids;
 }

@@ -10,10 +10,10 @@
 #include <dch/base/error.hpp>
 #include <dch/base/index_count.hpp>
 
-#include "hierarchy/build/base_radius.hpp"
 #include "base/describe.hpp"
-#include "hierarchy/hierarchy_impl.hpp"
 #include "geometry/position_check.hpp"
+#include "hierarchy/build/base_radius.hpp"
+#include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
 

@@ -69,13 +69,13 @@ class BlockMeter {
 
 template <class Metric>
 void MeasuredLeaves::measure(const Metric& metric, const Level& centers, LeafBlocks& from, double covered2,
-                            Executor* executor) {
+                             Executor* executor) {
   measure_all(metric, centers, nullptr, from, covered2, executor);
 }
 
 template <class Metric>
 void MeasuredLeaves::refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions,
-                            LeafBlocks& into, double covered2, Executor* executor) {
+                             LeafBlocks& into, double covered2, Executor* executor) {
   measure_all(metric, centers, positions.data(), into, covered2, executor);
 }
 
@@ -107,7 +107,7 @@ void MeasuredLeaves::lay_out(const Level& centers, const LeafBlocks& from) {
 
 template <class Metric>
 void MeasuredLeaves::measure_all(const Metric& metric, const Level& centers, const Vec3* positions,
-                                LeafBlocks& from, double covered2, Executor* executor) {
+                                 LeafBlocks& from, double covered2, Executor* executor) {
   lay_out(centers, from);
   const BlockMeter<Metric> meter(metric, positions, from, covered2);
   for_ranges(executor, centers.size(), [&](std::int32_t first, std::int32_t last) {
@@ -149,10 +149,11 @@ void MeasuredLeaves::measure_leaf(const Meter& meter, Vec3 center, Leaf& leaf) {
 
 std::size_t MeasuredLeaves::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  return bytes_of(leaves) + bytes_of(source) + bytes_of(count) + bytes_of(lanes) + bytes_of(offsets) + bytes_of(corners);
+  return bytes_of(leaves) + bytes_of(source) + bytes_of(count) + bytes_of(lanes) + bytes_of(offsets) +
+         bytes_of(corners);
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                        \
+#define DCH_INSTANTIATE(Metric)                                                                             \
   template void MeasuredLeaves::measure(const Metric&, const Level&, LeafBlocks&, double, Executor*);       \
   template void MeasuredLeaves::refresh(const Metric&, const Level&, Span<const Vec3>, LeafBlocks&, double, \
                                         Executor*);

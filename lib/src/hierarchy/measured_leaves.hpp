@@ -14,9 +14,9 @@
 
 namespace dch::detail {
 
-/// The leaves (nodes of level 1 with their points) as they are measured at each update: the points relative to the
-/// center of their leaf, in blocks with a box around each. The blocks of a leaf lie side by side. The structure alone
-/// writes this; lists are made from it.
+/// The leaves (nodes of level 1 with their points) as they are measured at each update: the points relative
+/// to the center of their leaf, in blocks with a box around each. The blocks of a leaf lie side by side. The
+/// structure alone writes this; lists are made from it.
 struct MeasuredLeaves {
   struct Leaf {
     std::int32_t first_block = 0, blocks = 0;
@@ -40,7 +40,8 @@ struct MeasuredLeaves {
   /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
   /// distance from their center exceeds `covered2`.
   template <class Metric>
-  void measure(const Metric& metric, const Level& centers, LeafBlocks& points, double covered2, Executor* executor);
+  void measure(const Metric& metric, const Level& centers, LeafBlocks& points, double covered2,
+               Executor* executor);
 
   /// The same after motion, with the new positions, by id: wraps them into their slots too, in the same pass.
   /// Those of the centers are up to date already.
@@ -50,7 +51,7 @@ struct MeasuredLeaves {
 
   std::size_t memory_bytes() const;
 
-  std::vector<Leaf> leaves;          ///< by node of level 1
+  std::vector<Leaf> leaves;  ///< by node of level 1
   std::int32_t blocks = 0;
   std::vector<std::int32_t> source;  ///< by block: the block of LeafBlocks
   std::vector<std::uint8_t> count;   ///< by block: number of points
@@ -60,8 +61,8 @@ struct MeasuredLeaves {
   double largest_extent = 0;         ///< of a leaf
   double largest_width = 0;
   double largest_block_width = 0;
-  /// Another number whenever points may lie in other blocks, of this object or of another one; 0 if that is to be
-  /// found out yet.
+  /// Another number whenever points may lie in other blocks, of this object or of another one; 0 if that is
+  /// to be found out yet.
   std::uint64_t layout = 0;
 
  private:

@@ -30,7 +30,8 @@ std::vector<std::int32_t> Structure::lone_points() const {
 }
 
 template <class Metric>
-void Structure::neighbors(const Metric& metric, int i, std::int32_t node, std::vector<std::int32_t>& nodes) const {
+void Structure::neighbors(const Metric& metric, int i, std::int32_t node,
+                          std::vector<std::int32_t>& nodes) const {
   if (i > 0) {
     for (const std::int32_t other : levels[i].edges.row(node))
       if (i == 1 ||

@@ -15,13 +15,13 @@
 
 namespace dch::detail {
 
-/// The data of a hierarchy: points, levels, edges, and what is certified of them while a repair is put off. The stages
-/// that change it are in hierarchy_impl.hpp; all others take it constant, by a HierarchyView.
+/// The data of a hierarchy: points, levels, edges, and what is certified of them while a repair is put off.
+/// The stages that change it are in hierarchy_impl.hpp; all others take it constant, by a HierarchyView.
 struct Structure {
   HierarchyParams params;
   Box box;
   double base_radius = 0;                ///< R_0
-  LeafBlocks points;            ///< level 0
+  LeafBlocks points;                     ///< level 0
   std::vector<Level> levels;             ///< level 1 always, levels[0] holds radii only
   std::vector<Vec3> raw;                 ///< positions as given, by id
   std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids, or place_of_lone()
@@ -44,7 +44,7 @@ struct Structure {
   /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
   /// same to join all clusters with points within rho_0 of each other, and lists need no more.
   bool pending = false;
-  std::vector<Vec3> anchors;      ///< while pending: where the nodes of level 1 were when it was in order
+  std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   MeasuredLeaves leaves;
   bool measured = false;     ///< whether `leaves` holds the points as they are now
@@ -93,9 +93,7 @@ struct Structure {
   /// What slot_of_id and Level::down hold for the k-th lone node; an involution.
   static std::int32_t place_of_lone(std::int32_t k) { return -2 - k; }
   static std::int32_t lone_at(std::int32_t place) { return -2 - place; }
-  bool is_lone(int level, std::int32_t node) const {
-    return level > 1 && levels[level].down[node] < kNone;
-  }
+  bool is_lone(int level, std::int32_t node) const { return level > 1 && levels[level].down[node] < kNone; }
   /// Whether a point's node of some level is not in memory, being on its own.
   bool stands_alone(std::int32_t id, int level) const {
     return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() && is_lone_point(id) &&

@@ -7,7 +7,8 @@ namespace dch::detail {
 
 void LabelledLeaves::label(const MeasuredLeaves& measured, const LeafBlocks& points, const ParticleIds& ids,
                            const ParticleLabels& labels, Executor* executor) {
-  const Source source{measured.layout, ids.version, labels.by, labels.first_ghost, labels.radii.data(), labels.types.data()};
+  const Source source{measured.layout,    ids.version,         labels.by,
+                      labels.first_ghost, labels.radii.data(), labels.types.data()};
   const bool sizes_are_known = ids.version != 0 || labels.by == CutoffBy::one_cutoff;
   if (sizes_are_known && source == source_) return;
   source_.layout = 0;
@@ -17,16 +18,17 @@ void LabelledLeaves::label(const MeasuredLeaves& measured, const LeafBlocks& poi
   radii.resize(labels.by == CutoffBy::radii ? all : 0);
   types.resize(labels.by == CutoffBy::types ? all : 0);
   leaf_owned.resize(measured.leaves.size());
-  for_ranges(executor, static_cast<std::int32_t>(measured.leaves.size()), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t k = first; k < last; ++k) {
-      const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
-      leaf_owned[k] = labels.first_ghost < 0;
-      for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
-        label_block(b, measured, points, ids.particle_of_id, labels);
-        leaf_owned[k] |= owned[b];
-      }
-    }
-  });
+  for_ranges(executor, static_cast<std::int32_t>(measured.leaves.size()),
+             [&](std::int32_t first, std::int32_t last) {
+               for (std::int32_t k = first; k < last; ++k) {
+                 const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
+                 leaf_owned[k] = labels.first_ghost < 0;
+                 for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
+                   label_block(b, measured, points, ids.particle_of_id, labels);
+                   leaf_owned[k] |= owned[b];
+                 }
+               }
+             });
   source_ = source;
 }
 

@@ -30,7 +30,8 @@ struct ParticleLabels {
   std::int32_t first_ghost = -1;  ///< negative: there are none
 };
 
-/// What lists have to know of the points in blocks beside where they are, block by block as MeasuredLeaves has them.
+/// What lists have to know of the points in blocks beside where they are, block by block as MeasuredLeaves
+/// has them.
 struct LabelledLeaves {
   /// Does nothing if nothing has changed since the last time.
   void label(const MeasuredLeaves& measured, const LeafBlocks& points, const ParticleIds& ids,
@@ -39,10 +40,11 @@ struct LabelledLeaves {
   std::size_t memory_bytes() const;
 
   std::vector<std::array<std::int32_t, kBlock>> particle;
-  std::vector<std::array<float, kBlock>> radii;         ///< [length]; empty if cutoffs do not go by them
-  std::vector<std::array<std::int16_t, kBlock>> types;  ///< 0 in empty lanes; empty if cutoffs do not go by them
-  std::vector<std::uint8_t> owned;                      ///< whether a point is not a ghost
-  std::vector<std::uint8_t> leaf_owned;                 ///< by leaf: the same
+  std::vector<std::array<float, kBlock>> radii;  ///< [length]; empty if cutoffs do not go by them
+  std::vector<std::array<std::int16_t, kBlock>>
+      types;                             ///< 0 in empty lanes; empty if cutoffs do not go by them
+  std::vector<std::uint8_t> owned;       ///< whether a point is not a ghost
+  std::vector<std::uint8_t> leaf_owned;  ///< by leaf: the same
 
  private:
   void label_block(std::int32_t b, const MeasuredLeaves& measured, const LeafBlocks& from,

@@ -42,8 +42,8 @@ BlockSpan around(std::int32_t first, std::int32_t last, const SpanOf& span_of) {
 
 }  // namespace
 
-void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const ListUnits& to_units,
-                               Executor* executor) {
+void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled,
+                               const ListUnits& to_units, Executor* executor) {
   units = to_units;
   per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(measured.blocks);
@@ -63,7 +63,8 @@ void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLea
   });
 }
 
-void QuantizedLeaves::quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, std::int32_t b) {
+void QuantizedLeaves::quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled,
+                                     std::int32_t b) {
   const auto per_point = static_cast<float>(per_unit.point), per_box = static_cast<float>(per_unit.box);
   const auto round_all = [&](const float* from, std::int16_t* to) {
     for (int lane = 0; lane < kBlock; ++lane) to[lane] = rounded(from[lane] * per_point);

@@ -35,10 +35,11 @@ struct QuantizedLeaves {
   ListUnits units;
   struct {
     double point = 1, box = 1;
-  } per_unit;                       ///< the inverse [1/length]
+  } per_unit;  ///< the inverse [1/length]
   std::vector<BlockPoints> points;
   std::vector<BlockSpan> spans;
-  std::vector<std::array<std::int16_t, kBlock>> radii;  ///< 0 in empty lanes; empty if cutoffs do not go by them
+  std::vector<std::array<std::int16_t, kBlock>>
+      radii;  ///< 0 in empty lanes; empty if cutoffs do not go by them
 
  private:
   void quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, std::int32_t b);

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "geometry/position_check.hpp"
 #include "lists/list_check.hpp"

@@ -49,7 +49,7 @@ std::int16_t box_limit(double reach, const ListUnits& units) {
 
 template <class Metric>
 void LeafRows::find(const Metric& metric, const ListScene& scene,
-                       const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out) {
+                    const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out) {
   for (NeighborList* list : out) start(*list);
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   const double largest = *std::max_element(scene.reach.begin(), scene.reach.end());
@@ -61,7 +61,8 @@ void LeafRows::find(const Metric& metric, const ListScene& scene,
   const ListParams& params = filters.front()->params();
   const ParticleLabels labels{filters.front()->by(), params.radii, params.types, params.first_ghost};
   for (LeafSource* source : scene.sources)
-    source->labelled.label(source->measured(), source->structure->points, source->ids, labels, scene.executor);
+    source->labelled.label(source->measured(), source->structure->points, source->ids, labels,
+                           scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
     RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};
@@ -88,7 +89,7 @@ void LeafRows::find(const Metric& metric, const ListScene& scene,
 
 template <class Metric>
 void LeafRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
-                            const std::vector<NeighborList*>& out) {
+                         const std::vector<NeighborList*>& out) {
   const Level& centers = scene.rows().centers();
   const auto find_part = [&](Part& part, std::int32_t first, std::int32_t last) {
     part.finder.use(instruction_set());
@@ -146,7 +147,7 @@ void LeafRows::append_pieces(Executor& executor, std::size_t list, NeighborList&
 /// Where lists reach half the box, with the nearest image found pair by pair.
 template <class Metric>
 void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
-                                   NeighborList& out) {
+                                NeighborList& out) {
   const Level& clusters = source.centers();
   const LeafBlocks& points = source.structure->points;
   std::vector<std::int32_t> own, others;
@@ -192,9 +193,9 @@ std::size_t LeafRows::memory_bytes() const {
   return bytes;
 }
 
-#define DCH_INSTANTIATE(Metric)                                                                           \
+#define DCH_INSTANTIATE(Metric)                                                                        \
   template void LeafRows::find(const Metric&, const ListScene&, const std::vector<const PairFilter*>&, \
-                                  const std::vector<NeighborList*>&);
+                               const std::vector<NeighborList*>&);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

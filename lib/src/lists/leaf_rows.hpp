@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/executor.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 #include "leaves/leaf_source.hpp"

@@ -94,8 +94,7 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
     sorted_filters.push_back(&filters.emplace_back(positions, scene.box, *requests[r], scene.error));
     rows.push_back(is_ready_as_found(*requests[r]) ? out[r] : &found_[r]);
   }
-  with_metric(scene.box,
-              [&](const auto& metric) { leaf_rows_.find(metric, scene, sorted_filters, rows); });
+  with_metric(scene.box, [&](const auto& metric) { leaf_rows_.find(metric, scene, sorted_filters, rows); });
   for (NeighborList* list : rows) {
     for (const std::int32_t particle : scene.lone) {
       list->particle.push_back(particle);

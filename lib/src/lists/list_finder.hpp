@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/span.hpp>
 
 #include "lists/leaf_rows.hpp"
 #include "lists/list_assembly.hpp"

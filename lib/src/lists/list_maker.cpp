@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <dch/lists/list_maker.hpp>
-
 #include <algorithm>
+
+#include <dch/lists/list_maker.hpp>
 
 #include "geometry/tolerance.hpp"
 #include "hierarchy/structure.hpp"
@@ -29,9 +29,11 @@ struct ListMaker::Impl {
       source.structure = &hierarchy;
       detail::LeafSource* const sources[] = {&source};
       const double error = detail::distance_error(hierarchy) + host_error;
-      const detail::ListScene scene{hierarchy.box, {sources, 1},
+      const detail::ListScene scene{hierarchy.box,
+                                    {sources, 1},
                                     {(reach + error) * detail::kInflate},
-                                    error,         hierarchy.params.executor,
+                                    error,
+                                    hierarchy.params.executor,
                                     hierarchy.lone_points()};
       finder.find(scene, hierarchy.raw, requests, out);
     });
@@ -47,7 +49,8 @@ void ListMaker::list(const HierarchyView& hierarchy, const ListParams& params, N
   impl_->lists(hierarchy.structure(), {&params, 1}, {&out});
 }
 
-void ListMaker::lists(const HierarchyView& hierarchy, Span<const ListParams> requests, std::vector<NeighborList>& out) {
+void ListMaker::lists(const HierarchyView& hierarchy, Span<const ListParams> requests,
+                      std::vector<NeighborList>& out) {
   out.resize(requests.size());
   std::vector<NeighborList*> each;
   each.reserve(out.size());
@@ -56,6 +59,8 @@ void ListMaker::lists(const HierarchyView& hierarchy, Span<const ListParams> req
 }
 
 ListWork ListMaker::work() const { return impl_->finder.work(); }
-std::size_t ListMaker::memory_bytes() const { return impl_->source.memory_bytes() + impl_->finder.memory_bytes(); }
+std::size_t ListMaker::memory_bytes() const {
+  return impl_->source.memory_bytes() + impl_->finder.memory_bytes();
+}
 
 }  // namespace dch

@@ -5,13 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
-#include <dch/base/span.hpp>
-
-#include "leaves/cutoff_by.hpp"
 
 #include "geometry/lattice.hpp"
+#include "leaves/cutoff_by.hpp"
 
 namespace dch::detail {
 

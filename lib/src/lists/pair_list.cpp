@@ -8,8 +8,8 @@
 #include <dch/base/index_count.hpp>
 #include <dch/lists/pair_list.hpp>
 
-#include "geometry/lattice.hpp"
 #include "base/describe.hpp"
+#include "geometry/lattice.hpp"
 
 namespace dch {
 

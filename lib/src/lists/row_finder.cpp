@@ -132,14 +132,14 @@ std::int32_t RowFinder::collect_from(const NearSource& near, const std::vector<B
   range_end_.resize(std::max(range_end_.size(), ranges.size()));
 
   const auto range_count = static_cast<std::int32_t>(ranges.size());
-  std::int32_t collected = kernels_->collect(box, near.box_limit, leaves.quantized.boxes(), ranges.data(), range_count,
-                                             block_.data(), range_end_.data());
+  std::int32_t collected = kernels_->collect(box, near.box_limit, leaves.quantized.boxes(), ranges.data(),
+                                             range_count, block_.data(), range_end_.data());
   if (!owned) collected = leave_out_ghosts(leaves, range_count);
   around_part_.make_room(static_cast<std::size_t>(already) + static_cast<std::size_t>(collected) * kBlock +
                          kChunk);
-  kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count, leaves.quantized.points.data(),
-                   leaves.labelled.particle.data()->data(), leaves.tags() == nullptr ? nullptr : leaves.tags()->data(),
-                   around_part_.at(already));
+  kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count,
+                   leaves.quantized.points.data(), leaves.labelled.particle.data()->data(),
+                   leaves.tags() == nullptr ? nullptr : leaves.tags()->data(), around_part_.at(already));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
   for (std::int32_t n = 0; n < collected; ++n) lanes[n] = leaves.measured().lanes[block_[n]];
   return collected;
@@ -183,8 +183,8 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
     const std::int16_t size = leaves.largest_tag(first, last);
     const Candidates from{around_part.x + own_before, around_part.y + own_before, around_part.z + own_before,
                           around_part.id + own_before, around_part.tag + own_before};
-    const std::int32_t near = filter(request.limits, leaves.quantized.span_of(first, last), size, from, nullptr,
-                                     count - own_before, around_group_.at(0));
+    const std::int32_t near = filter(request.limits, leaves.quantized.span_of(first, last), size, from,
+                                     nullptr, count - own_before, around_group_.at(0));
     make_room_for_tests(near);
     // All blocks are thinned before the first is tested: its candidates have left the store queue by then,
     // out of which loads that span several stores cannot be served.
@@ -192,8 +192,8 @@ void RowFinder::append_part(const Scene<Metric>& scene, const Request& request, 
     for (std::int32_t own = first; own < last; ++own) {
       BlockTest& test = tests_[own - first];
       const std::int16_t own_size = leaves.largest_tag(own, own + 1);
-      test.count = filter(request.limits, leaves.quantized.spans[own], own_size, around_group_.at(before), nullptr,
-                          near - before, test.near.at(0));
+      test.count = filter(request.limits, leaves.quantized.spans[own], own_size, around_group_.at(before),
+                          nullptr, near - before, test.near.at(0));
       if (part.owned) before += leaves.measured().count[own];
     }
     open_count_ = 0;  // there may be some of a list that was not finished
@@ -241,15 +241,15 @@ std::int32_t RowFinder::test_against(const ListLimits& limits, const PairLimits&
   if (limits.by == CutoffBy::radii) {
     std::array<std::int16_t, kBlock> sizes = leaves.tags()[block];
     for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + pairs.skin);
-    return kernels_->test_by_size(leaves.quantized.points[block], sizes.data(), candidates, test.count, pairs.band,
-                                  mask, test.chunks, unsettled_.data());
+    return kernels_->test_by_size(leaves.quantized.points[block], sizes.data(), candidates, test.count,
+                                  pairs.band, mask, test.chunks, unsettled_.data());
   }
   if (limits.by == CutoffBy::types && !limits.per_pair)
-    return kernels_->test_by_type(leaves.quantized.points[block], leaves.tags()[block].data(), candidates, test.count,
-                                  pairs.type_in.data(), pairs.type_out.data(), mask, test.chunks,
+    return kernels_->test_by_type(leaves.quantized.points[block], leaves.tags()[block].data(), candidates,
+                                  test.count, pairs.type_in.data(), pairs.type_out.data(), mask, test.chunks,
                                   unsettled_.data());
-  return kernels_->test(leaves.quantized.points[block], candidates, test.count, pairs.in, pairs.out, mask, test.chunks,
-                        unsettled_.data());
+  return kernels_->test(leaves.quantized.points[block], candidates, test.count, pairs.in, pairs.out, mask,
+                        test.chunks, unsettled_.data());
 }
 
 /// In units, without the roundings of the kernels' squares.

@@ -9,8 +9,8 @@
 #include <dch/lists/neighbor_list.hpp>
 
 #include "base/aligned_vector.hpp"
-#include "lists/list_limits.hpp"
 #include "leaves/leaf_source.hpp"
+#include "lists/list_limits.hpp"
 #include "lists/near_ranges.hpp"
 #include "lists/pair_filter.hpp"
 
@@ -81,8 +81,7 @@ class RowFinder {
     BlockSpan span;
   };
 
-  static Part part_of(const LeafSource& leaves, std::int32_t k, std::int32_t first,
-                      std::int32_t last);
+  static Part part_of(const LeafSource& leaves, std::int32_t k, std::int32_t first, std::int32_t last);
   template <class Metric>
   void find_ranges(const Scene<Metric>& scene, std::int32_t k);
   template <class Metric>
@@ -104,13 +103,12 @@ class RowFinder {
                           std::int32_t row, std::int16_t tag);
   static double squared_distance(const BlockPoints& points, std::int32_t row, const CandidateStore& near,
                                  std::int32_t at);
-  void note_open_pairs(const Request& request, const LeafSource& leaves, std::int32_t block,
-                       BlockTest& test);
+  void note_open_pairs(const Request& request, const LeafSource& leaves, std::int32_t block, BlockTest& test);
   void settle(const PairFilter& filter);
   static void ask_for_exclusions(const PairFilter& filter, const LeafSource& leaves, std::int32_t first,
                                  std::int32_t last);
-  void append_block(const Request& request, const LeafSource& leaves, std::int32_t block,
-                    bool meets_itself, BlockTest& test, NeighborList& out);
+  void append_block(const Request& request, const LeafSource& leaves, std::int32_t block, bool meets_itself,
+                    BlockTest& test, NeighborList& out);
   std::size_t append_some(const Request& request, std::int32_t particle, const std::uint32_t* mask,
                           const BlockTest& test, std::int32_t* to) const;
   std::int32_t restrict_row(const Request& request, std::int32_t particle, std::int32_t* row,

@@ -60,7 +60,8 @@ void StaleTest::wrap_reference() {
 
 std::array<Vec3, 3> StaleTest::periods(const Box& box) const {
   const detail::Lattice lattice(box);
-  return {lattice.vector(combinations_[0]), lattice.vector(combinations_[1]), lattice.vector(combinations_[2])};
+  return {lattice.vector(combinations_[0]), lattice.vector(combinations_[1]),
+          lattice.vector(combinations_[2])};
 }
 
 /// The largest |(H - H0) n|, n in {-1, 0, 1}^3.

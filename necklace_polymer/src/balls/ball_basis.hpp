@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <dch/necklace/enclosing_ball.hpp>
 #include <dch/base/span.hpp>
+#include <dch/necklace/enclosing_ball.hpp>
 
 namespace dch::necklace::detail {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include <dch/necklace/enclosing_ball.hpp>
 #include <dch/base/span.hpp>
+#include <dch/necklace/enclosing_ball.hpp>
 
 namespace dch::necklace::detail {
 

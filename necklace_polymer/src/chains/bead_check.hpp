@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/necklace/necklace.hpp>
-#include <dch/base/span.hpp>
 
 namespace dch::necklace::detail {
 

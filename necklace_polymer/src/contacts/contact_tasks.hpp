@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/necklace/contacts.hpp>
-#include <dch/lists/neighbor_list.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/lists/neighbor_list.hpp>
+#include <dch/necklace/contacts.hpp>
 
 namespace dch::necklace::detail {
 

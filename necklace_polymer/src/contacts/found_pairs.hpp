@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/engines/pair_search.hpp>
 #include <dch/base/span.hpp>
+#include <dch/engines/pair_search.hpp>
 
 namespace dch::necklace::detail {
 

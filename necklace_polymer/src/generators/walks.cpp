@@ -8,8 +8,8 @@
 #include <dch/necklace/layered_hierarchy.hpp>
 #include <dch/necklace/walks.hpp>
 
-#include "generators/hilbert_curve.hpp"
 #include "chains/parameter_check.hpp"
+#include "generators/hilbert_curve.hpp"
 #include "generators/random.hpp"
 
 namespace dch::necklace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
+#include <dch/lists/stale_test.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
-#include <dch/lists/stale_test.hpp>
 
 namespace OpenMMDCH {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include <dch/lists/exclusions.hpp>
 #include <dch/base/span.hpp>
+#include <dch/lists/exclusions.hpp>
 
 #include "DCHKernels.h"
 #include "HostState.h"

@@ -5,8 +5,8 @@
 #include <openmm/Vec3.h>
 #include <openmm/internal/ContextImpl.h>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace OpenMMDCH {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/stale_test.hpp>
 

@@ -11,12 +11,12 @@
 #include <dch/base/executor.hpp>
 #include <dch/trajectory/file_error.hpp>
 
-#include "input/chain_topology.hpp"
-#include "report/contact_file.hpp"
 #include "base/exit_code.hpp"
-#include "input/frame_stream.hpp"
 #include "base/interrupt.hpp"
 #include "base/stopwatch.hpp"
+#include "input/chain_topology.hpp"
+#include "input/frame_stream.hpp"
+#include "report/contact_file.hpp"
 
 namespace dch::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <dch/necklace/contacts.hpp>
 #include <dch/trajectory/reader.hpp>
 
-#include "input/bead_radii.hpp"
-#include "report/contact_report.hpp"
-#include "options/option_values.hpp"
 #include "base/progress_bar.hpp"
+#include "input/bead_radii.hpp"
 #include "input/trajectory_input.hpp"
+#include "options/option_values.hpp"
+#include "report/contact_report.hpp"
 
 namespace dch::cli {
 

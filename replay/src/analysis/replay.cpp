@@ -8,16 +8,16 @@
 #include <optional>
 #include <utility>
 
+#include <dch/engines/verlet_list.hpp>
 #include <dch/trajectory/file_error.hpp>
 #include <dch/trajectory/topology.hpp>
-#include <dch/engines/verlet_list.hpp>
 
 #include "base/exit_code.hpp"
-#include "input/frame_stream.hpp"
 #include "base/interrupt.hpp"
-#include "report/list_file.hpp"
-#include "engines/list_statistics.hpp"
 #include "base/stopwatch.hpp"
+#include "engines/list_statistics.hpp"
+#include "input/frame_stream.hpp"
+#include "report/list_file.hpp"
 
 namespace dch::cli {
 namespace {
@@ -236,9 +236,7 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
   report_.verify_ms += watch.milliseconds();
 }
 
-void Replay::note_levels() {
-  report_.levels = engine_.search->levels();
-}
+void Replay::note_levels() { report_.levels = engine_.search->levels(); }
 
 }  // namespace
 

@@ -6,12 +6,12 @@
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/trajectory/reader.hpp>
 
-#include "engines/engine.hpp"
-#include "options/option_values.hpp"
 #include "base/progress_bar.hpp"
-#include "report/replay_report.hpp"
-#include "input/trajectory_input.hpp"
+#include "engines/engine.hpp"
 #include "engines/verifier.hpp"
+#include "input/trajectory_input.hpp"
+#include "options/option_values.hpp"
+#include "report/replay_report.hpp"
 
 namespace dch::cli {
 

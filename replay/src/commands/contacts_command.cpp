@@ -6,13 +6,13 @@
 
 #include <dch/geometry/box.hpp>
 
-#include "commands/commands.hpp"
 #include "analysis/contact_analysis.hpp"
 #include "base/exit_code.hpp"
-#include "options/option_values.hpp"
-#include "report/output_file.hpp"
 #include "base/progress_bar.hpp"
 #include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
+#include "options/option_values.hpp"
+#include "report/output_file.hpp"
 
 namespace dch::cli {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <dch/trajectory/writer.hpp>
 
-#include "commands/commands.hpp"
 #include "base/exit_code.hpp"
-#include "input/frame_stream.hpp"
 #include "base/number_text.hpp"
-#include "options/option_values.hpp"
 #include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
+#include "input/frame_stream.hpp"
+#include "options/option_values.hpp"
 
 namespace dch::cli {
 namespace {

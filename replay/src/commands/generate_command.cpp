@@ -6,12 +6,12 @@
 
 #include <dch/necklace/melt.hpp>
 
-#include "commands/commands.hpp"
 #include "base/exit_code.hpp"
 #include "base/number_text.hpp"
+#include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
 #include "options/option_values.hpp"
 #include "report/output_file.hpp"
-#include "base/standard_streams.hpp"
 
 namespace dch::cli {
 namespace {

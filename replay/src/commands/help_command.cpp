@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "commands/commands.hpp"
 #include "base/exit_code.hpp"
 #include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
 #include "commands/usage_message.hpp"
 
 namespace dch::cli {

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "commands/commands.hpp"
 #include "base/exit_code.hpp"
-#include "input/frame_stream.hpp"
 #include "base/number_text.hpp"
+#include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
+#include "input/frame_stream.hpp"
 #include "options/option_values.hpp"
 #include "report/report_rows.hpp"
-#include "base/standard_streams.hpp"
 #include "report/summary_json.hpp"
 
 namespace dch::cli {

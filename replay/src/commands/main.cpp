@@ -12,13 +12,13 @@
 #include <dch/trajectory/file_error.hpp>
 #include <dch/trajectory/output_file.hpp>
 
-#include "commands/commands.hpp"
 #include "base/exit_code.hpp"
-#include "commands/help_format.hpp"
 #include "base/interrupt.hpp"
 #include "base/standard_streams.hpp"
-#include "commands/usage_message.hpp"
 #include "base/version.hpp"
+#include "commands/commands.hpp"
+#include "commands/help_format.hpp"
+#include "commands/usage_message.hpp"
 
 namespace dch::cli {
 namespace {

@@ -5,14 +5,14 @@
 
 #include <dch/geometry/box.hpp>
 
-#include "commands/commands.hpp"
+#include "analysis/replay.hpp"
 #include "base/exit_code.hpp"
+#include "base/progress_bar.hpp"
+#include "base/standard_streams.hpp"
+#include "commands/commands.hpp"
 #include "options/option_values.hpp"
 #include "report/output_file.hpp"
-#include "base/progress_bar.hpp"
-#include "analysis/replay.hpp"
 #include "report/replay_report.hpp"
-#include "base/standard_streams.hpp"
 
 namespace dch::cli {
 namespace {

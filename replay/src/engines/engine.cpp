@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/error.hpp>
 
 #include "base/stopwatch.hpp"
 

@@ -24,9 +24,9 @@ std::string to_string(MaintenancePolicy policy);  ///< "auto", "repair", "rebuil
 
 /// An engine, and whether it keeps a hierarchy.
 struct Engine {
-  std::unique_ptr<Executor> threads;     ///< that search works with; null for one
-  std::unique_ptr<PairSearch> search;    ///< its times cover update() and list() of every kind alike
-  bool keeps_hierarchy = false;          ///< not so for cell and allpairs
+  std::unique_ptr<Executor> threads;   ///< that search works with; null for one
+  std::unique_ptr<PairSearch> search;  ///< its times cover update() and list() of every kind alike
+  bool keeps_hierarchy = false;        ///< not so for cell and allpairs
 };
 
 /// @param radius cutoff + skin of the lists to come [length]

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/trajectory/frame.hpp>
@@ -51,7 +51,8 @@ class Verifier {
   static constexpr std::int64_t kSampledFrames = 10;
   static constexpr std::size_t kSampledAtoms = 1000;
   static constexpr std::uint64_t kSeed = 20060517;
-  /// PairSearch::validate() takes n^2 steps a level; larger hierarchies are checked through their lists alone.
+  /// PairSearch::validate() takes n^2 steps a level; larger hierarchies are checked through their lists
+  /// alone.
   static constexpr std::size_t kMostValidatedAtoms = 5000;
 
   /// @param params of the list under test; outlives the verifier
@@ -64,8 +65,8 @@ class Verifier {
     std::int64_t index = 0;    ///< number of the frame in the file
     const trajectory::Frame* frame = nullptr;
     const NeighborList* list = nullptr;
-    bool list_is_new = true;               ///< built from this very frame
-    PairSearch* structure = nullptr;       ///< the engine, if it keeps a hierarchy
+    bool list_is_new = true;          ///< built from this very frame
+    PairSearch* structure = nullptr;  ///< the engine, if it keeps a hierarchy
   };
   void check(const Subject& subject);
 

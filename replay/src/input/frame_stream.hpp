@@ -9,10 +9,10 @@
 
 #include <dch/trajectory/reader.hpp>
 
-#include "options/option_values.hpp"
 #include "base/progress_bar.hpp"
 #include "input/trajectory_input.hpp"
 #include "input/trajectory_summary.hpp"
+#include "options/option_values.hpp"
 
 namespace dch::cli {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "plot/axis.hpp"
 #include "base/number_text.hpp"
+#include "plot/axis.hpp"
 #include "plot/svg_canvas.hpp"
 
 namespace dch::cli {

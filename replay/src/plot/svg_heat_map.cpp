@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "plot/axis.hpp"
 #include "base/number_text.hpp"
+#include "plot/axis.hpp"
 #include "plot/svg_canvas.hpp"
 #include "plot/svg_chart.hpp"
 

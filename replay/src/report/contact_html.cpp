@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "base/number_text.hpp"
+#include "plot/svg_chart.hpp"
 #include "report/contact_report.hpp"
 #include "report/contact_rows.hpp"
 #include "report/html_page.hpp"
-#include "base/number_text.hpp"
-#include "plot/svg_chart.hpp"
 
 namespace dch::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "report/contact_rows.hpp"
 #include "base/number_text.hpp"
+#include "report/contact_rows.hpp"
 
 namespace dch::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "report/page_style.hpp"
-#include "plot/svg_chart.hpp"
 #include "base/version.hpp"
+#include "plot/svg_chart.hpp"
+#include "report/page_style.hpp"
 
 namespace dch::cli {
 namespace {

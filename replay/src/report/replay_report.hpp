@@ -10,8 +10,8 @@
 #include <dch/lists/neighbor_list.hpp>
 
 #include "engines/engine.hpp"
-#include "input/trajectory_summary.hpp"
 #include "engines/verifier.hpp"
+#include "input/trajectory_summary.hpp"
 
 namespace dch::cli {
 

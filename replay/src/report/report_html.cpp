@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "report/html_page.hpp"
 #include "base/number_text.hpp"
+#include "plot/svg_chart.hpp"
+#include "report/html_page.hpp"
 #include "report/replay_report.hpp"
 #include "report/report_rows.hpp"
-#include "plot/svg_chart.hpp"
 
 namespace dch::cli {
 namespace {

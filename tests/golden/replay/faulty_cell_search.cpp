@@ -3,8 +3,8 @@
 // invented.
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 namespace dch {
 namespace {

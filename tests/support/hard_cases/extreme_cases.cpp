@@ -4,16 +4,16 @@
 #include <cmath>
 #include <functional>
 
+#include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
-#include <dch/necklace/contact_finder.hpp>
 #include <dch/lists/pair_list.hpp>
+#include <dch/necklace/contact_finder.hpp>
 
 #include "contact_oracle.hpp"
 #include "hard_case.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
 

@@ -6,12 +6,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include <dch/engines/pair_search.hpp>
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/engines/pair_search.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 
 #include "hard_case.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch::hard {

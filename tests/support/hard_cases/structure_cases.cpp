@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include <dch/lists/all_pairs.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
 

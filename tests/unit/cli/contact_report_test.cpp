@@ -7,9 +7,9 @@
 
 #include <dch/trajectory/file_error.hpp>
 
-#include "report/contact_file.hpp"
 #include "expect_error.hpp"
 #include "hdf5_read.hpp"
+#include "report/contact_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace dch::cli {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
 #include "small_scene.hpp"

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "commands/help_format.hpp"
 #include "base/number_text.hpp"
 #include "base/progress_bar.hpp"
+#include "commands/help_format.hpp"
 
 namespace dch::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

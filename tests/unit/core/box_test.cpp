@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/geometry/box.hpp>
 
 #include "scenes.hpp"
 

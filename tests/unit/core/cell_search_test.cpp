@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
 #include "scenes.hpp"

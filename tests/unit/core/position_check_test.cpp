@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/position_check.hpp"
-#include "lists/list_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +7,8 @@
 #include <vector>
 
 #include <dch/base/error.hpp>
+
+#include "lists/list_check.hpp"
 
 namespace dch::detail {
 namespace {

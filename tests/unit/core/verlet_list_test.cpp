@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
 #include <dch/engines/verlet_list.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 #include "scenes.hpp"
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "effort.hpp"
 #include "error_message.hpp"
+#include "listed_hierarchy.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
 

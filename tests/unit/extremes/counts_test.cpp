@@ -6,15 +6,15 @@
 #include <limits>
 #include <vector>
 
-#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/base/index_count.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/pair_list.hpp>
 #include <dch/necklace/chains.hpp>
 #include <dch/necklace/shapes.hpp>
-#include <dch/lists/pair_list.hpp>
 
-#include "hierarchy/build/block_order.hpp"
-#include "grid/cell_grid.hpp"
 #include "error_message.hpp"
+#include "grid/cell_grid.hpp"
+#include "hierarchy/build/block_order.hpp"
 #include "hierarchy/leaf_blocks.hpp"
 
 namespace dch {

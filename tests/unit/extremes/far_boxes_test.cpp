@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/all_pairs.hpp>
-#include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "error_message.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <dch/lists/all_pairs.hpp>
-#include "listed_hierarchy.hpp"
 
 #include "hierarchy_test_access.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 
 namespace dch {
 

@@ -5,11 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/lists/all_pairs.hpp>
 
 #include "hierarchy_test_access.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // What lists are made from: each number of it beside its definition, in small scenes that hold every case.
-#include "leaves/leaf_source.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "geometry/metric.hpp"
+#include "leaves/leaf_source.hpp"
 #include "lists/pair_filter.hpp"
 #include "scenes.hpp"
 
@@ -261,7 +260,8 @@ TEST_F(LabelledLeavesTest, RoundedToUnits) {
     const BlockSpans boxes = quantized_.boxes();
     for (std::int32_t b = 0; b < measured_.blocks + kChunk; ++b) ASSERT_EQ(boxes.number[b], b);
     for (std::int32_t b = 0; b < measured_.blocks; ++b) {
-      const std::int16_t* const at[] = {quantized_.points[b].x, quantized_.points[b].y, quantized_.points[b].z};
+      const std::int16_t* const at[] = {quantized_.points[b].x, quantized_.points[b].y,
+                                        quantized_.points[b].z};
       for (int axis = 0; axis < 3; ++axis) {
         const float low = measured_.corners[b].low[axis], high = measured_.corners[b].high[axis];
         const BlockSpan& span = quantized_.spans[b];

@@ -26,7 +26,8 @@ struct WorkOfPair {
   double nodes, boxes, gathered, tested;
 };
 
-WorkOfPair work_of(const std::vector<Vec3>& points, const Box& box, const ListParams& request, double radius) {
+WorkOfPair work_of(const std::vector<Vec3>& points, const Box& box, const ListParams& request,
+                   double radius) {
   HierarchyParams params;
   params.radius = radius;
   ListedHierarchy h(params);

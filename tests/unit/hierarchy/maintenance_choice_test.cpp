@@ -6,10 +6,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "listed_hierarchy.hpp"
-
-#include "hierarchy/build/base_radius.hpp"
 #include "exact_scene.hpp"
+#include "hierarchy/build/base_radius.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

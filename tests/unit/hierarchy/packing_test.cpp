@@ -10,9 +10,8 @@
 #include <gtest/gtest.h>
 #include <map>
 
-#include "listed_hierarchy.hpp"
-
 #include "hierarchy_test_access.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
 #include <dch/base/error.hpp>
-#include "listed_hierarchy.hpp"
+#include <dch/lists/all_pairs.hpp>
 
 #include "hierarchy_test_access.hpp"
 #include "list_compare.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "listed_hierarchy.hpp"
-
 #include "exact_scene.hpp"
 #include "geometry/metric.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

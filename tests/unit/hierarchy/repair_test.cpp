@@ -5,9 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "listed_hierarchy.hpp"
-
 #include "exact_scene.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

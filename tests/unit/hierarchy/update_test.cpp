@@ -4,9 +4,8 @@
 // in which every level changes at every step. Small, so that each is checked after each step.
 #include <gtest/gtest.h>
 
-#include "listed_hierarchy.hpp"
-
 #include "exact_scene.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

@@ -3,9 +3,8 @@
 // A checker that cannot fail is worthless: every kind of fault is planted once and has to be reported.
 #include <gtest/gtest.h>
 
-#include "listed_hierarchy.hpp"
-
 #include "hierarchy_test_access.hpp"
+#include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {

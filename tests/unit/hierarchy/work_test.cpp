@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "listed_hierarchy.hpp"
-
 #include "scenes.hpp"
 
 namespace dch {

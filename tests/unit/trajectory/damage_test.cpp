@@ -5,16 +5,16 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-#include "frames/cell.hpp"
 #include "effort.hpp"
+#include "frames/cell.hpp"
+#include "gromacs/trr_decoder.hpp"
+#include "gromacs/xtc_decoder.hpp"
 #include "gromacs_oracle.hpp"
 #include "random.hpp"
 #include "reading.hpp"
 #include "scratch_folder.hpp"
 #include "small_files.hpp"
-#include "gromacs/trr_decoder.hpp"
 #include "trr_file.hpp"
-#include "gromacs/xtc_decoder.hpp"
 
 namespace dch::trajectory::test {
 namespace {

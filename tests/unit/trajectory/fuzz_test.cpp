@@ -5,8 +5,8 @@
 
 #include <dch/trajectory/topology.hpp>
 
-#include "frames/cell.hpp"
 #include "effort.hpp"
+#include "frames/cell.hpp"
 #include "random.hpp"
 #include "reading.hpp"
 #include "scratch_folder.hpp"

@@ -6,8 +6,8 @@
 
 #include <dch/trajectory/file_error.hpp>
 
-#include "scratch_folder.hpp"
 #include "base/text.hpp"
+#include "scratch_folder.hpp"
 
 namespace dch::trajectory::test {
 namespace {

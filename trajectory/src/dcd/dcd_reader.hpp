@@ -7,10 +7,10 @@
 
 #include <dch/trajectory/reader.hpp>
 
-#include "frames/cell.hpp"
 #include "dcd/dcd_header.hpp"
 #include "files/input_file.hpp"
 #include "files/record_file.hpp"
+#include "frames/cell.hpp"
 
 namespace dch::trajectory {
 

@@ -4,8 +4,8 @@
 #include <vector>
 #include <zlib.h>
 
-#include "files/input_file.hpp"
 #include "base/place.hpp"
+#include "files/input_file.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::trajectory {
 

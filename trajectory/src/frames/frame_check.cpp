@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "frames/cell.hpp"
 #include "base/place.hpp"
+#include "frames/cell.hpp"
 
 namespace dch::trajectory {
 

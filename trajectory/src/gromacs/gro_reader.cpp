@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <numeric>
 
-#include "frames/cell.hpp"
 #include "base/text.hpp"
+#include "frames/cell.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "frames/cell.hpp"
 #include "base/place.hpp"
+#include "frames/cell.hpp"
 #include "gromacs/trr_decoder.hpp"
 #include "gromacs/xtc_decoder.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <dch/trajectory/reader.hpp>
 
-#include "frames/frame_decoder.hpp"
 #include "files/input_file.hpp"
+#include "frames/frame_decoder.hpp"
 
 namespace dch::trajectory {
 

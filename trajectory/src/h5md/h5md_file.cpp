@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "h5md/hdf5_attributes.hpp"
 #include "base/place.hpp"
+#include "h5md/hdf5_attributes.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "frames/cell.hpp"
-#include "process/forked_reader.hpp"
-#include "h5md/hdf5_open.hpp"
 #include "base/place.hpp"
+#include "frames/cell.hpp"
+#include "h5md/hdf5_open.hpp"
+#include "process/forked_reader.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <dch/trajectory/reader.hpp>
 
+#include "files/input_file.hpp"
 #include "frames/frame_sorter.hpp"
 #include "h5md/h5md_element.hpp"
 #include "h5md/hdf5_handle.hpp"
-#include "files/input_file.hpp"
 
 namespace dch::trajectory {
 

@@ -8,10 +8,10 @@
 
 #include <dch/trajectory/file_error.hpp>
 
-#include "process/frame_channel.hpp"
+#include "base/place.hpp"
 #include "frames/frame_check.hpp"
 #include "h5md/h5md_file.hpp"
-#include "base/place.hpp"
+#include "process/frame_channel.hpp"
 
 namespace dch::trajectory {
 namespace {

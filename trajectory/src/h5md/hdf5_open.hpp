@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "h5md/hdf5_handle.hpp"
 #include "files/input_file.hpp"
+#include "h5md/hdf5_handle.hpp"
 
 namespace dch::trajectory {
 

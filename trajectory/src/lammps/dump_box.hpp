@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "frames/cell.hpp"
 #include "files/line_reader.hpp"
+#include "frames/cell.hpp"
 
 namespace dch::trajectory {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "lammps/dump_box.hpp"
 #include "base/text.hpp"
+#include "lammps/dump_box.hpp"
 
 namespace dch::trajectory {
 namespace {

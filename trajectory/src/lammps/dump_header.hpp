@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "files/line_reader.hpp"
 #include "frames/cell.hpp"
 #include "lammps/dump_columns.hpp"
-#include "files/line_reader.hpp"
 
 namespace dch::trajectory {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <numeric>
 
-#include "lammps/lammps_units.hpp"
 #include "base/text.hpp"
+#include "lammps/lammps_units.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <dch/trajectory/reader.hpp>
 
-#include "lammps/dump_header.hpp"
-#include "frames/frame_sorter.hpp"
 #include "files/line_reader.hpp"
+#include "frames/frame_sorter.hpp"
+#include "lammps/dump_header.hpp"
 
 namespace dch::trajectory {
 

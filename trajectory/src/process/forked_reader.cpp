@@ -11,9 +11,9 @@
 
 #include <dch/trajectory/file_error.hpp>
 
+#include "base/place.hpp"
 #include "frames/cell.hpp"
 #include "process/frame_channel.hpp"
-#include "base/place.hpp"
 
 namespace dch::trajectory {
 namespace {

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "process/byte_channel.hpp"
 #include "frames/cell.hpp"
+#include "process/byte_channel.hpp"
 
 namespace dch::trajectory {
 namespace {

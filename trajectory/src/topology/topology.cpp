@@ -4,8 +4,8 @@
 
 #include <dch/trajectory/topology.hpp>
 
-#include "files/file_name.hpp"
 #include "base/place.hpp"
+#include "files/file_name.hpp"
 #include "topology/topology_files.hpp"
 
 namespace dch::trajectory {

@@ -4,11 +4,11 @@
 #include <array>
 #include <vector>
 
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/executor.hpp>
-#include <dch/lists/pair_list.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
+#include <dch/lists/pair_list.hpp>
 
 namespace dch {
 

@@ -45,9 +45,8 @@ template <class Count, class Task>
 void for_ranges(Executor* executor, Count count, const Task& task) {
   const int parts = executor ? executor->threads() : 1;
   if (parts == 1) return task(Count{0}, count);
-  executor->run(parts, [&](int part) {
-    task(share_begin(count, part, parts), share_begin(count, part + 1, parts));
-  });
+  executor->run(
+      parts, [&](int part) { task(share_begin(count, part, parts), share_begin(count, part + 1, parts)); });
 }
 
 }  // namespace dch

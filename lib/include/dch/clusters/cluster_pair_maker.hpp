@@ -26,9 +26,9 @@ struct ClusterPairWork {
   }
 };
 
-/// Makes cluster pairs of the points of a hierarchy: the same pairs as lists have, for SIMD force kernels, clusters of
-/// four being cut from the nodes of level 1. Keeps its memory, and the order of points in clusters, from call to call.
-/// Not thread-safe; uses the threads of the hierarchy's executor.
+/// Makes cluster pairs of the points of a hierarchy: the same pairs as lists have, for SIMD force kernels,
+/// clusters of four being cut from the nodes of level 1. Keeps its memory, and the order of points in
+/// clusters, from call to call. Not thread-safe; uses the threads of the hierarchy's executor.
 class ClusterPairMaker {
  public:
   ClusterPairMaker();
@@ -36,10 +36,11 @@ class ClusterPairMaker {
   ClusterPairMaker(ClusterPairMaker&&) noexcept;
   ClusterPairMaker& operator=(ClusterPairMaker&&) noexcept;
 
-  /// Whatever their types or radii, all pairs within the largest list radius may be there, except those with a cutoff
-  /// of 0; params.kind and params.order have no meaning here. O(n) at bounded density; the same result on any number
-  /// of threads and any instruction set.
-  /// @throws InvalidParameter as ListMaker::list(), and if the radius is outside 1e-9..1e9, where single precision might
+  /// Whatever their types or radii, all pairs within the largest list radius may be there, except those with
+  /// a cutoff of 0; params.kind and params.order have no meaning here. O(n) at bounded density; the same
+  /// result on any number of threads and any instruction set.
+  /// @throws InvalidParameter as ListMaker::list(), and if the radius is outside 1e-9..1e9, where single
+  /// precision might
   ///   overflow. After any throw `out` is empty or as it was.
   void make(const HierarchyView& hierarchy, const ListParams& params, ClusterPairs& out);
 

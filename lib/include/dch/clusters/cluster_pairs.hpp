@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/executor.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch {
 

@@ -58,16 +58,17 @@ class PairSearch {
     return out;
   }
 
-  /// The pairs within the list radius for SIMD force kernels, at the positions of the last update: whatever their types
-  /// or radii, all of them, except those with a cutoff of 0; params.kind and params.order have no meaning here. The same
-  /// on any number of threads and any instruction set.
-  /// @throws InvalidParameter as list(), if the radius is outside 1e-9..1e9, where single precision might overflow, and
+  /// The pairs within the list radius for SIMD force kernels, at the positions of the last update: whatever
+  /// their types or radii, all of them, except those with a cutoff of 0; params.kind and params.order have no
+  /// meaning here. The same on any number of threads and any instruction set.
+  /// @throws InvalidParameter as list(), if the radius is outside 1e-9..1e9, where single precision might
+  /// overflow, and
   ///   from engines that make none: has_cluster_pairs() says which.
   virtual void cluster_pairs(const ListParams& params, ClusterPairs& out);
   virtual bool has_cluster_pairs() const { return false; }
 
-  /// Checks the structure against all pairs, in O(n^2). Returns an empty string if all is in order (or no structure is
-  /// kept), else a description of the first fault.
+  /// Checks the structure against all pairs, in O(n^2). Returns an empty string if all is in order (or no
+  /// structure is kept), else a description of the first fault.
   virtual std::string validate() { return {}; }
   /// The levels of the hierarchy, from the lowest on; none of engines without one, or with several.
   virtual std::vector<LevelInfo> levels() { return {}; }

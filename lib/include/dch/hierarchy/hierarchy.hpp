@@ -90,8 +90,8 @@ class Hierarchy {
   const Box& box() const;
   const HierarchyParams& params() const;
 
-  /// What lists, cluster pairs, queries and validate() take. Points that have come, gone or changed their places since
-  /// the last view are measured: O(n), on the threads of the executor.
+  /// What lists, cluster pairs, queries and validate() take. Points that have come, gone or changed their
+  /// places since the last view are measured: O(n), on the threads of the executor.
   HierarchyView view();
 
   /// Whether to insert and remove so many points in all is less work than to build anew, as counted.

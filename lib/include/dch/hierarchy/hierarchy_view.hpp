@@ -26,8 +26,9 @@ struct LevelInfo {
   std::int64_t max_degree = 0;  ///< most stored edges of a node
 };
 
-/// A hierarchy to be looked at: its points, levels and edges, which nobody changes through this. Lists, cluster pairs and
-/// queries take one. It is a pointer to copy as you like, and good until the hierarchy is next changed or destroyed.
+/// A hierarchy to be looked at: its points, levels and edges, which nobody changes through this. Lists,
+/// cluster pairs and queries take one. It is a pointer to copy as you like, and good until the hierarchy is
+/// next changed or destroyed.
 class HierarchyView {
  public:
   std::size_t size() const;      ///< number of points

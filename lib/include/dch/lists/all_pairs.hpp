@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/span.hpp>
 
 namespace dch {
 

@@ -28,9 +28,9 @@ struct ListWork {
   }
 };
 
-/// Makes neighbor lists of the points of a hierarchy: its level-0 edges, enumerated among the children of nodes of level
-/// 1 that an edge joins (Lemma 5.3.1(5)). Keeps its memory from list to list. Not thread-safe; uses the threads of the
-/// hierarchy's executor.
+/// Makes neighbor lists of the points of a hierarchy: its level-0 edges, enumerated among the children of
+/// nodes of level 1 that an edge joins (Lemma 5.3.1(5)). Keeps its memory from list to list. Not thread-safe;
+/// uses the threads of the hierarchy's executor.
 class ListMaker {
  public:
   ListMaker();
@@ -39,7 +39,8 @@ class ListMaker {
   ListMaker& operator=(ListMaker&&) noexcept;
 
   /// The list of all pairs params asks for; row k is the point with id k, rows of free ids are empty.
-  /// @throws InvalidParameter if params.list_radius() exceeds the hierarchy's radius, or types or exclusions do not
+  /// @throws InvalidParameter if params.list_radius() exceeds the hierarchy's radius, or types or exclusions
+  /// do not
   ///   fit. After any throw `out` is empty or as it was.
   void list(const HierarchyView& hierarchy, const ListParams& params, NeighborList& out);
   /// Several lists, out[k] being that of requests[k]: at little more than the cost of the one with the

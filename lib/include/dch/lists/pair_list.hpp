@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
-#include <dch/base/span.hpp>
-#include <dch/base/vec3.hpp>
 
 namespace dch {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include <dch/clusters/cluster_pairs.hpp>
 #include <dch/base/instruction_set.hpp>
+#include <dch/clusters/cluster_pairs.hpp>
 
 namespace dch::detail {
 

@@ -8,7 +8,8 @@ namespace dch::detail {
 
 const ClusterSearchKernels& cluster_search_kernels_avx2() {
   using Vectors = Avx2Float;
-  static constexpr ClusterSearchKernels kKernels{near_boxes<Vectors>, near_clusters<Vectors>, refresh_clusters<Vectors>};
+  static constexpr ClusterSearchKernels kKernels{near_boxes<Vectors>, near_clusters<Vectors>,
+                                                 refresh_clusters<Vectors>};
   return kKernels;
 }
 

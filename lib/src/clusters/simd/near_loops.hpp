@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The loops that find boxes and clusters near each other; see cluster_loops.hpp. Without fused operations, so that all
-// sets round alike.
+// The loops that find boxes and clusters near each other; see cluster_loops.hpp. Without fused operations, so
+// that all sets round alike.
 #pragma once
 
 #include "clusters/simd/cluster_loops.hpp"

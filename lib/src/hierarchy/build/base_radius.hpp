@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::detail {
 

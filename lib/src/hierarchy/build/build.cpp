@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hierarchy/build/base_radius.hpp"
-#include "hierarchy/build/fill_leaves.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/space_filling_order.hpp"
+#include "hierarchy/build/base_radius.hpp"
+#include "hierarchy/build/fill_leaves.hpp"
 
 namespace dch {
 

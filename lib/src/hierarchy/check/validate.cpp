@@ -15,8 +15,8 @@
 
 namespace dch {
 
-using detail::kNone;
 using detail::kInflate;
+using detail::kNone;
 using detail::Level;
 using detail::Structure;
 using detail::with_metric;
@@ -265,9 +265,10 @@ std::string validate(const HierarchyView& hierarchy) {
   const Structure& h = hierarchy.structure();
   const int top = h.top(), most_roots = h.params.max_roots;
   Verdict verdict;
-  verdict.require(top == 1 || h.levels[top - 1].alive() + h.lone_above(top - 1) > most_roots, top, "is not needed");
-  verdict.require(h.levels.back().alive() <= most_roots, top, "has ", h.levels.back().alive(), " roots, more than ",
-                  most_roots);
+  verdict.require(top == 1 || h.levels[top - 1].alive() + h.lone_above(top - 1) > most_roots, top,
+                  "is not needed");
+  verdict.require(h.levels.back().alive() <= most_roots, top, "has ", h.levels.back().alive(),
+                  " roots, more than ", most_roots);
   check_blocks(h, verdict);
   if (!verdict.failed()) check_nesting(h, verdict);
   if (verdict.failed()) return verdict.text();

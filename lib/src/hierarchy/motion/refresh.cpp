@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/seconds_since.hpp"
+#include "geometry/position_check.hpp"
 #include "hierarchy/build/base_radius.hpp"
 #include "hierarchy/hierarchy_impl.hpp"
-#include "geometry/position_check.hpp"
-#include "base/seconds_since.hpp"
 
 namespace dch {
 
@@ -179,7 +179,8 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   return true;
 }
 
-/// Points that lie much farther out than all before would have lists rely on thresholds that do not allow for it.
+/// Points that lie much farther out than all before would have lists rely on thresholds that do not allow for
+/// it.
 void Hierarchy::Impl::allow_for_far_points() {
   if (detail::WrapError(box).bound(largest_reach) <= wrap_slack) return;
   set_wrap_slack();

@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/necklace/chain_trees.hpp>
 #include <dch/necklace/enclosing_ball.hpp>
 #include <dch/necklace/necklace.hpp>
-#include <dch/base/span.hpp>
-#include <dch/base/vec3.hpp>
 
 namespace dch::necklace {
 

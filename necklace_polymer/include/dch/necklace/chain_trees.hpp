@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/necklace/necklace.hpp>
 #include <dch/base/span.hpp>
+#include <dch/necklace/necklace.hpp>
 
 namespace dch::necklace {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
-#include <dch/lists/exclusions.hpp>
 #include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
+#include <dch/lists/exclusions.hpp>
 
 namespace dch::necklace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/necklace/contacts.hpp>
 #include <dch/base/span.hpp>
+#include <dch/necklace/contacts.hpp>
 
 namespace dch::necklace {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/executor.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
-#include <dch/engines/pair_search.hpp>
 
 namespace dch::necklace {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/necklace.hpp>
-#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

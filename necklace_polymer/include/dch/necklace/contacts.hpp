@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <dch/base/executor.hpp>
-#include <dch/necklace/cage_hierarchy.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/necklace/cage_hierarchy.hpp>
 
 namespace dch::necklace {
 

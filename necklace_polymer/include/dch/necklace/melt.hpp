@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 
 namespace dch::necklace {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/error.hpp>
+#include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 #include <dch/necklace/chains.hpp>
-#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

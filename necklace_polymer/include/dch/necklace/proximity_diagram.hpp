@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <dch/base/span.hpp>
 #include <dch/lists/exclusions.hpp>
 #include <dch/necklace/enclosing_ball.hpp>
-#include <dch/base/span.hpp>
 
 namespace dch::necklace {
 

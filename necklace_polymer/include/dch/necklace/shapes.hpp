@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <dch/necklace/necklace.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/necklace/necklace.hpp>
 
 namespace dch::necklace {
 

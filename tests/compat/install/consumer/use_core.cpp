@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <vector>
 
-#include <dch/lists/all_pairs.hpp>
-#include <dch/hierarchy/hierarchy.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
 
 int main() {
   std::vector<dch::Vec3> positions;

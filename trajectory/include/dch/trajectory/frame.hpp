@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include <dch/geometry/box.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 
 namespace dch::trajectory {
 
