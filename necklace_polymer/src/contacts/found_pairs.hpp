@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,9 @@ class FoundPairs {
   }
   void add(FoundPairs&& others) {
     if (pairs_.empty()) return pairs_.swap(others.pairs_);
-    pairs_.insert(pairs_.end(), others.pairs_.begin(), others.pairs_.end());
+    // Not insert(), of which GCC 14 warns wrongly that it writes beyond the end.
+    pairs_.resize(pairs_.size() + others.pairs_.size());
+    std::copy(others.pairs_.begin(), others.pairs_.end(), pairs_.end() - std::ssize(others.pairs_));
   }
   /// In ascending order of particles. O(c lg c) for c contacts; O(c) if the particles are not many more than
   /// the contacts and none has many.

@@ -6,6 +6,7 @@
 
 import glob
 import gzip
+import json
 import os
 import subprocess
 import sys
@@ -76,6 +77,21 @@ def check_bad_second_frames(checks, command, folder):
         with open(path, "w") as file:
             file.write(content)
         check_replay_and_info(checks, command, path, parts)
+
+
+def check_tiny_box(checks, command, folder):
+    """A good file, however small its box is beside 1: the time goes by the atoms, and the lists are those of all pairs."""
+    path, report, hashes = os.path.join(folder, "tiny.lammpstrj"), os.path.join(folder, "tiny.json"), set()
+    with open(path, "w") as file:
+        file.write(dump(["1 0 0 0", "2 1e-81 0 0", "3 0 0 1e-81"], "0 1e-80\n" * 3).replace("pp pp pp", "pp pp ff"))
+    for engine in ("cell", "allpairs"):
+        result = run(command, "replay", path, "--cutoff", "4.5e-81", "--engine", engine, "--report", report, timeout=60)
+        checks.that(result.returncode == 0, f"a tiny box, engine {engine}: {result.stderr}")
+        with open(report, encoding="utf-8") as file:
+            content = json.load(file)
+        checks.that(content["pairs_per_frame"] == [3], f"a tiny box, engine {engine}: pairs {content['pairs_per_frame']}")
+        hashes.add(content["list_hash"])
+    checks.that(len(hashes) == 1, f"a tiny box: lists differ: {hashes}")
 
 
 def write_all_kinds(command, data, folder):
@@ -258,6 +274,7 @@ def main(command, data):
     with tempfile.TemporaryDirectory() as folder:
         check_bad_dumps(checks, command, data)
         check_bad_second_frames(checks, command, folder)
+        check_tiny_box(checks, command, folder)
         check_truncations(checks, command, data, folder)
         check_not_trajectories(checks, command, folder)
         check_pipes(checks, command, data, folder)

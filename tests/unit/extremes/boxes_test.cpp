@@ -3,6 +3,7 @@
 // Boxes of every size and aspect: refused with a reason, or each engine gives the pairs of long double.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <optional>
@@ -126,6 +127,8 @@ TEST(ExtremeBoxes, EdgesOfAnySizeAreRefusedOrRight) {
   EXPECT_GT(tally.boxes - tally.refused, effort(15000)) << "with one periodic vector, say";
   EXPECT_GT(tally.lists, effort(20000));
   EXPECT_GT(tally.pairs.pairs, 10 * tally.pairs.in_doubt) << tally.pairs.text();
+  std::printf("%lld boxes, %lld accepted, %lld lists\n", static_cast<long long>(tally.boxes),
+              static_cast<long long>(tally.boxes - tally.refused), static_cast<long long>(tally.lists));
 }
 
 TEST(ExtremeBoxes, AspectsUpToTheLimitAreRefusedOrRight) {

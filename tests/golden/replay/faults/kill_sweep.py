@@ -20,7 +20,8 @@ from failing_calls import Bench  # noqa: E402
 from subcommands import SUBCOMMANDS, write_inputs  # noqa: E402
 
 CHANGING = {"create", "write", "pwrite", "ftruncate", "fchmod", "fchown", "fsync", "close", "rename"}
-UNFINISHED = re.compile(r"\.(out\.\w+)\.\d+\.0\.partial")
+UNFINISHED = re.compile(r"\.out\.\w+\.\d+\.0\.partial")
+PROCESS = re.compile(r"\d{2,}")  # its number, in such a name
 LEAST_KILLS = 100
 
 
@@ -35,12 +36,12 @@ def check_kill(checks, bench, subcommand, reference, call, with_old):
     checks.that(set(states.values()) <= {"old" if with_old else "absent", "whole"}, f"{what}: {states}")
     checks.that(all(UNFINISHED.fullmatch(name) for name in left), f"{what}: left {left}")
     checks.that(call.process == 0 or left == [], f"{what}: left {left}")
-    check_next(checks, bench, subcommand, reference, {UNFINISHED.fullmatch(name)[1] for name in left}, what)
+    check_next(checks, bench, subcommand, reference, left, what)
 
 
 def check_next(checks, bench, subcommand, reference, unfinished, what):
     """The next run, with the number of the one that was killed: what that left behind stands in its way."""
-    planted = [os.path.join(bench.work, f".{name}.$$.0.partial") for name in sorted(unfinished)]
+    planted = [os.path.join(bench.work, PROCESS.sub("$$", name)) for name in unfinished]
     outcome = bench.run(subcommand, before="".join(f'echo planted > "{path}"\n' for path in planted) or ":")
     checks.that(outcome.status == 0, f"{what}: the next run: status {outcome.status}: {outcome.stderr}")
     states, left = bench.states(subcommand, reference)
