@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Compile settings shared by every target of the project.
 
-if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+if(PROJECT_IS_TOP_LEVEL)
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  endif()
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 endif()
-set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 # dch_target_defaults(<target> [STANDARD 20])
 #   Warnings, sanitizers and the floating-point contract: the predicates of the hierarchy rely on
@@ -18,6 +18,7 @@ function(dch_target_defaults target)
     set(ARG_STANDARD 20)
   endif()
   target_compile_features(${target} PRIVATE cxx_std_${ARG_STANDARD})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                            -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -ffp-contract=off)
   if(DCH_WARNINGS_AS_ERRORS)
