@@ -84,19 +84,20 @@ TEST_F(RefusedBlocks, UpdateLeavesItEmpty) {
   expect_empty_and_usable();
 }
 
-// It repairs first, since the place of a point so far outside is uncertain by more than the edges allow for.
-TEST_F(RefusedBlocks, AListLeavesItEmpty) {
+// A point so far outside that its place is uncertain by more than the edges allow for has the hierarchy
+// repaired. Room for that is asked for before anything changes.
+TEST_F(RefusedBlocks, InsertionFarOutsideChangesNothing) {
   expand(80);
   const Vec3 far_outside{2e14, 0, 0};
-  hierarchy_.insert(far_outside);
   allow_blocks_there_are();
-  NeighborList list;
-  ListParams params;
-  params.cutoffs = TypeCutoffs(1);
-  EXPECT_THROW(hierarchy_.list(params, list), InvalidParameter);
-  EXPECT_EQ(list.size(), 0u);
-  expect_empty_and_usable();
+  EXPECT_THROW(hierarchy_.insert(far_outside), InvalidParameter);
+  EXPECT_EQ(hierarchy_.size(), kPoints);
+  EXPECT_EQ(hierarchy_.stats().repairs, 0);
+  expect_right(points_);
+  HierarchyTestAccess::impl(hierarchy_).points.most = detail::kMostBlocks;
   hierarchy_.insert(far_outside);
+  EXPECT_EQ(hierarchy_.stats().repairs, 1);
+  EXPECT_EQ(hierarchy_.validate(), "");
   std::vector<Vec3> all = points_;
   all.push_back(far_outside);
   expect_right(all);
