@@ -15,7 +15,7 @@
 
 namespace dch::cli {
 
-/// `dch contacts` as asked for on the command line, its numbers checked.
+/// `dchmd contacts` as asked for on the command line, its numbers checked.
 struct ContactOptions {
   TrajectoryInput input;
   ChainSource chains;

@@ -5,7 +5,7 @@
 
 namespace dch::cli {
 
-/// Exit statuses of the dch command.
+/// Exit statuses of the command dchmd.
 enum ExitCode : int {
   kOk = 0,
   kMismatch = 1,     ///< --verify found a list or a structure that differs from the oracle

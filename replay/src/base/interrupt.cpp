@@ -27,7 +27,7 @@ sigset_t signal_set() {
 extern "C" void end_process(int signal) {
   trajectory::remove_unfinished_files();
   constexpr std::string_view kWipe = "\r\x1b[K";
-  constexpr std::string_view kMessage = "dch: interrupted; unfinished output files are removed\n";
+  constexpr std::string_view kMessage = "dchmd: interrupted; unfinished output files are removed\n";
   ssize_t ignored = bar_may_stand ? ::write(STDERR_FILENO, kWipe.data(), kWipe.size()) : 0;
   ignored += ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
   static_cast<void>(ignored);

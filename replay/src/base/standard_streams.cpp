@@ -46,7 +46,7 @@ int finish_output(int exit_code) {
   note_output(std::fflush(stdout) == 0);
   if (output_error == 0) return exit_code;
   if (output_error != EPIPE) {
-    write_message({"dch: standard output: cannot be written: ", std::strerror(output_error),
+    write_message({"dchmd: standard output: cannot be written: ", std::strerror(output_error),
                    "; check the free space of where it leads\n"});
   }
   if (exit_code != kOk) return exit_code;

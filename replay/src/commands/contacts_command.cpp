@@ -68,7 +68,7 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
 }
 
 void declare_options(CLI::App& command, ContactWords& words) {
-  add_input_options(command, words.input, "FILE", "Trajectory, see dch replay --help");
+  add_input_options(command, words.input, "FILE", "Trajectory, see dchmd replay --help");
   declare_contact_options(command, words);
   command
       .add_option("--bins", words.bins,

@@ -51,7 +51,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("convert", "Write a trajectory in another format; lengths stay in their unit");
   const auto words = std::make_shared<ConvertWords>();
-  add_input_options(*command, words->input, "IN", "Trajectory, see dch replay --help");
+  add_input_options(*command, words->input, "IN", "Trajectory, see dchmd replay --help");
   add_file_option(*command, "OUT", words->output,
                   "File to write: H5MD (.h5, .h5md) or LAMMPS dump (.lammpstrj, .dump)")
       ->required()

@@ -121,7 +121,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "info", "Say what a trajectory holds: format, unit, frames, atoms, boxes, cutoff limit");
   const auto words = std::make_shared<InfoWords>();
-  add_input_options(*command, words->input, "FILE", "Trajectory, see dch replay --help");
+  add_input_options(*command, words->input, "FILE", "Trajectory, see dchmd replay --help");
   command->add_option("--frames", words->frames, "Frames to look at, first:end:step. Default: all")
       ->type_name("A:B:S");
   command->add_flag("--json", words->json, "Print JSON, for scripts");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The dch command: sorts out which subcommand is meant and turns exceptions into exit statuses.
+// The command dchmd: sorts out which subcommand is meant and turns exceptions into exit statuses.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <exception>
@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view kNoMemory = "not enough memory; choose a smaller cutoff or a smaller input";
 
 int fail(int exit_code, std::string_view message) {
-  write_message({"dch: ", message, "\n"});
+  write_message({"dchmd: ", message, "\n"});
   return exit_code;
 }
 
@@ -45,7 +45,7 @@ int fail(int exit_code, std::string_view message) {
 }
 
 void declare(CLI::App& app, int& exit_code) {
-  app.set_version_flag("--version", fmt::format("dch {}", kVersion), "Print the version and exit");
+  app.set_version_flag("--version", fmt::format("dchmd {}", kVersion), "Print the version and exit");
   app.formatter(help_format());  // subcommands inherit it
   app.require_subcommand(1);
   add_info_command(app, exit_code);
@@ -61,19 +61,19 @@ int parse_and_run(int argc, char** argv) {
       "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
       "\n"
       "First steps:\n"
-      "  dch info FILE                                      what a trajectory holds, and its cutoff limit\n"
-      "  dch replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
-      "  dch replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
-      "  dch contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
-      "  dch help replay                                    all options of a subcommand\n"
+      "  dchmd info FILE                                      what a trajectory holds, and its cutoff limit\n"
+      "  dchmd replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
+      "  dchmd replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
+      "  dchmd contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
+      "  dchmd help replay                                    all options of a subcommand\n"
       "\n"
       "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
       "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).",
-      "dch");
+      "dchmd");
   int exit_code = kOk;
   declare(app, exit_code);
   if (argc < 2) {
-    print_message("dch: no subcommand given\n\n{}", app.help());
+    print_message("dchmd: no subcommand given\n\n{}", app.help());
     return kUsage;
   }
   try {

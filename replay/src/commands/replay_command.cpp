@@ -166,10 +166,10 @@ void print_summary(const ReplayReport& report, const ReplayWords& words) {
 void print_mismatches(const ReplayReport& report) {
   const VerifyResult& verify = report.verify;
   for (const Mismatch& mismatch : verify.first) {
-    print_message("dch: mismatch: {}: {}\n", report.file, mismatch.message(report.unit));
+    print_message("dchmd: mismatch: {}: {}\n", report.file, mismatch.message(report.unit));
   }
   const auto shown = static_cast<std::int64_t>(verify.first.size());
-  if (verify.mismatches > shown) print_message("dch: and {} more mismatches\n", verify.mismatches - shown);
+  if (verify.mismatches > shown) print_message("dchmd: and {} more mismatches\n", verify.mismatches - shown);
 }
 
 int run(const ReplayWords& words) {

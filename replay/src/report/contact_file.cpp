@@ -82,7 +82,7 @@ void write_probability(Hdf5File& file, const necklace::ContactProbability& proba
 
 void describe(Hdf5File& file, const ContactFileHeader& header) {
   file.write_attribute("format", std::string("dch contacts 1"));
-  file.write_attribute("creator", fmt::format("dch {}", kVersion));
+  file.write_attribute("creator", fmt::format("dchmd {}", kVersion));
   file.write_attribute("source", header.source);
   file.write_attribute("topology", header.topology);
   file.write_attribute("unit", header.unit);

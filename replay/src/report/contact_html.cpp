@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of `dch contacts`: the table, the contact map, P(s), contacts over the frames and how long they
+// The page of `dchmd contacts`: the table, the contact map, P(s), contacts over the frames and how long they
 // lasted.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report.json of `dch contacts`. docs/report-schema.md describes every key; change both together.
+// report.json of `dchmd contacts`. docs/report-schema.md describes every key; change both together.
 #include <nlohmann/json.hpp>
 
 #include "report/contact_report.hpp"

@@ -56,7 +56,7 @@ struct FrameSpread {
   double mean = 0;
 };
 
-/// All that `dch contacts` found; its table, JSON and page show nothing else.
+/// All that `dchmd contacts` found; its table, JSON and page show nothing else.
 struct ContactReport : TrajectorySummary {
   std::string topology;
   bool has_times = false;  ///< events are timed by the frames' times; else by their time steps

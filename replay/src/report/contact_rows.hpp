@@ -8,7 +8,7 @@
 
 namespace dch::cli {
 
-/// The final table of `dch contacts`, on the terminal and on its page.
+/// The final table of `dchmd contacts`, on the terminal and on its page.
 std::vector<Row> contact_rows(const ContactReport& report);
 
 }  // namespace dch::cli

@@ -11,7 +11,7 @@ namespace dch::cli {
 ListFile::ListFile(const std::string& path, const ListFileHeader& header)
     : file_(path), most_atoms_(header.most_atoms) {
   file_.write_attribute("format", std::string("dch neighbor lists 1"));
-  file_.write_attribute("creator", fmt::format("dch {}", kVersion));
+  file_.write_attribute("creator", fmt::format("dchmd {}", kVersion));
   file_.write_attribute("source", header.source);
   file_.write_attribute("unit", header.unit);
   file_.write_attribute("engine", header.engine);

@@ -101,7 +101,7 @@ def write_all_kinds(command, data, folder):
         target.write(source.read())
     result = run(command, "convert", dumps, os.path.join(folder, "nacl.h5md"))
     if result.returncode != 0:
-        raise SystemExit(f"dch convert: {result.stderr}")
+        raise SystemExit(f"dchmd convert: {result.stderr}")
     with open(os.path.join(folder, "three.gro"), "w") as file:
         file.write("three atoms\n3\n" + "".join(f"    1SOL     OW{i:5d}{i:8.3f}{i:8.3f}{i:8.3f}\n" for i in (1, 2, 3)) +
                    "   5.00000   5.00000   5.00000\n")
@@ -229,7 +229,7 @@ def check_bad_topologies(checks, command, data, folder):
 
 
 def check_bad_chains(checks, command, data, folder):
-    """Chains that do not fit the trajectory; dch contacts names the place and the remedy."""
+    """Chains that do not fit the trajectory; dchmd contacts names the place and the remedy."""
     trajectory = os.path.join(data, "polymer.lammpstrj")
     for name, content, parts in (("twice.chains", "1-27\n28-40 3\n", ["line 2", "id 3", "chain of line 1"]),
                                  ("unknown.chains", "1-27\n5000 5001\n", ["line 2", "no atom with the id 5000"]),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""dch contacts against all pairs: contacts, events, contact map and P(s), from each kind of topology.
+"""dchmd contacts against all pairs: contacts, events, contact map and P(s), from each kind of topology.
 
     contacts.py DCH FOLDER_OF_TRAJECTORIES DOCS
 """
@@ -86,7 +86,7 @@ def converted(command, folder, path):
     dump = os.path.join(folder, "converted.lammpstrj")
     result = run(command, "convert", path, dump)
     if result.returncode != 0:
-        raise SystemExit(f"dch convert {path}: {result.stderr}")
+        raise SystemExit(f"dchmd convert {path}: {result.stderr}")
     return read_dump(dump)
 
 
@@ -179,7 +179,7 @@ def make_melt(command, folder):
     melt, path = os.path.join(folder, "melt.data"), os.path.join(folder, "melt.lammpstrj")
     result = run(command, "generate", "melt", "--chains", "12", "--beads", "25", "--density", "0.4", melt)
     if result.returncode != 0:
-        raise SystemExit(f"dch generate: {result.stderr}")
+        raise SystemExit(f"dchmd generate: {result.stderr}")
     text = open(melt).read()
     low, high = map(float, re.search(r"(\S+) (\S+) xlo xhi", text).groups())
     beads = [line.split() for line in text.split("Atoms # bond")[1].split("Bonds")[0].strip().splitlines()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs the dch command and checks what comes back; used by the scripts beside it."""
+"""Runs the command dchmd and checks what comes back; used by the scripts beside it."""
 
 import json
 import os
@@ -46,9 +46,9 @@ def expect_failure(checks, command, arguments, status, parts, largest_file=None,
     """The command ends with this status and a message of its own that holds all parts, and leaves no file behind."""
     with tempfile.TemporaryDirectory() as folder:
         result = run(command, *arguments, cwd=folder, largest_file=largest_file, environment=environment)
-        what = "dch " + " ".join(map(str, arguments))
+        what = "dchmd " + " ".join(map(str, arguments))
         checks.that(result.returncode == status, f"{what}: status {result.returncode}, not {status}: {result.stderr}")
-        checks.that(result.stderr.startswith("dch: "), f"{what}: no message: {result.stderr!r}")
+        checks.that(result.stderr.startswith("dchmd: "), f"{what}: no message: {result.stderr!r}")
         for part in parts:
             checks.that(part in result.stderr, f"{what}: the message lacks {part!r}: {result.stderr}")
         checks.that(result.stdout == "", f"{what}: standard output: {result.stdout}")
@@ -59,7 +59,7 @@ def expect_failure(checks, command, arguments, status, parts, largest_file=None,
 def info(command, path):
     result = run(command, "info", "--json", path)
     if result.returncode != 0:
-        raise SystemExit(f"dch info {path}: {result.stderr}")
+        raise SystemExit(f"dchmd info {path}: {result.stderr}")
     return json.loads(result.stdout)
 
 
@@ -80,10 +80,10 @@ def replay(command, path, *options):
 def documented_keys(docs, command):
     """The table of report-schema.md for a subcommand: key -> when it is present."""
     sections = re.split(r"^## ", open(os.path.join(docs, "report-schema.md")).read(), flags=re.MULTILINE)
-    text = next((section for section in sections if section.startswith(f"`dch {command}`")), "")
+    text = next((section for section in sections if section.startswith(f"`dchmd {command}`")), "")
     keys = dict(re.findall(r"^\| `([^`]+)` \| [^|]+ \| (always|dch|mismatch) \|", text, flags=re.MULTILINE))
     if not keys:
-        raise SystemExit(f"report-schema.md: no table of keys for dch {command}")
+        raise SystemExit(f"report-schema.md: no table of keys for dchmd {command}")
     return keys
 
 

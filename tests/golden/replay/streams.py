@@ -61,7 +61,7 @@ def check_unwritable_results(checks, command, data):
             for where, reason in ((">/dev/full", "No space left on device"), (">&-", "Bad file descriptor")):
                 result = shell(command, f'cd "$2" && "$0" {arguments} {where}', polymer, folder)
                 checks.that(result.returncode == 3, f"{arguments} {where}: status {result.returncode}")
-                checks.that(f"dch: standard output: cannot be written: {reason}" in result.stderr,
+                checks.that(f"dchmd: standard output: cannot be written: {reason}" in result.stderr,
                             f"{arguments} {where}: {result.stderr}")
             # the pipe has no reader before the command starts to write
             result = shell(command, f'cd "$2" && {{ sleep 0.2; "$0" {arguments}; echo $? >&2; }} | true', polymer, folder)

@@ -66,7 +66,7 @@ LONGEST_WAIT = 2.0  # seconds; it takes milliseconds, but on a loaded machine a 
 
 def check_at_once(checks, command, folder, number, arguments, files, delay):
     """Sent a while after its temporary files are there, a signal ends the run long before its work would."""
-    what = f"{number!r} in dch {' '.join(arguments)}"
+    what = f"{number!r} in dchmd {' '.join(arguments)}"
     with tempfile.TemporaryDirectory(dir=folder) as work:
         process = subprocess.Popen([command, *arguments], cwd=work, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60
@@ -80,7 +80,7 @@ def check_at_once(checks, command, folder, number, arguments, files, delay):
         waited = time.monotonic() - start
         checks.that(waited < LONGEST_WAIT, f"{what}: ended after {waited} s")
         checks.that(process.returncode == 128 + number, f"{what}: status {process.returncode}")
-        checks.that(stderr == "dch: interrupted; unfinished output files are removed\n", f"{what}: {stderr}")
+        checks.that(stderr == "dchmd: interrupted; unfinished output files are removed\n", f"{what}: {stderr}")
         checks.that(os.listdir(work) == [], f"{what}: left {os.listdir(work)}")
 
 

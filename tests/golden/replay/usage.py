@@ -23,13 +23,13 @@ def wrong_commands(data):
 
     return [
         ([], ["no subcommand given", "Usage: dch", "replay", "--help"]),
-        (["frobnicate"], ["unknown subcommand 'frobnicate'", "dch has info, replay, contacts", "--help"]),
+        (["frobnicate"], ["unknown subcommand 'frobnicate'", "dchmd has info, replay, contacts", "--help"]),
         (["infos"], ["unknown subcommand 'infos' (did you mean info?)"]),
         (["repaly", water], ["unknown subcommand 'repaly' (did you mean replay?)"]),
-        (["--frobnicate"], ["unknown option '--frobnicate'", "dch --help"]),
+        (["--frobnicate"], ["unknown option '--frobnicate'", "dchmd --help"]),
         (["help", "contact"], ["unknown subcommand 'contact' (did you mean contacts?)"]),
-        (["help", "info", "all"], ["unknown subcommand 'all': dch info has none"]),
-        (["replay", water, "--cutof", "0.4"], ["unknown option '--cutof' (did you mean --cutoff?)", "dch replay --help"]),
+        (["help", "info", "all"], ["unknown subcommand 'all': dchmd info has none"]),
+        (["replay", water, "--cutof", "0.4"], ["unknown option '--cutof' (did you mean --cutoff?)", "dchmd replay --help"]),
         (replay("--verfy=all"), ["unknown option '--verfy' (did you mean --verify?)"]),
         (replay("--cutoff", "0.3"), ["--cutoff is given more than once"]),
         (["info", water, polymer], [f"'{polymer}' is one argument too many"]),
@@ -85,8 +85,8 @@ def wrong_commands(data):
         (["convert", polymer], ["OUT is required"]),
         (["convert", polymer, polymer], ["IN and OUT", "same file"]),
         (["convert", polymer, "out.h5", "--frames", "42:"], ["frame 42", "0 to 41"]),
-        (["generate"], ["dch generate needs a subcommand: melt"]),
-        (["generate", "gas"], ["unknown subcommand 'gas'", "dch generate has melt"]),
+        (["generate"], ["dchmd generate needs a subcommand: melt"]),
+        (["generate", "gas"], ["unknown subcommand 'gas'", "dchmd generate has melt"]),
         (["generate", "melt", "--chains", "0", "--beads", "10", "m.data"], ["--chains '0'", "from 1"]),
         (["generate", "melt", "--chains", "1.5", "--beads", "10", "m.data"], ["--chains '1.5'"]),
         (["generate", "melt", "--chains", "10", "--beads", "10", "--density", "0", "m.data"], ["--density 0"]),
@@ -180,10 +180,10 @@ def check_instruction_sets(checks, command, data):
 
 
 def check_help(checks, command):
-    for arguments, parts in ((["--help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
-                             (["help"], ["dch replay FILE --cutoff R", "Exit status", "generate"]),
-                             (["help", "contacts"], ["Usage: dch contacts", "--gap D"]),
-                             (["help", "generate", "melt"], ["Usage: dch generate melt", "--chains"]),
+    for arguments, parts in ((["--help"], ["dchmd replay FILE --cutoff R", "Exit status", "generate"]),
+                             (["help"], ["dchmd replay FILE --cutoff R", "Exit status", "generate"]),
+                             (["help", "contacts"], ["Usage: dchmd contacts", "--gap D"]),
+                             (["help", "generate", "melt"], ["Usage: dchmd generate melt", "--chains"]),
                              (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
                              (["info", "--help"], ["FILE"]),
                              (["contacts", "--help"], ["--gap D", "--topology", "--radius"]), (["convert", "--help"], ["H5MD"]),
@@ -195,7 +195,7 @@ def check_help(checks, command):
         longest = max(map(len, result.stdout.splitlines()))
         checks.that(longest <= 110, f"{arguments}: a line of {longest} characters")
     result = run(command, "--version")
-    checks.that(result.returncode == 0 and result.stdout.startswith("dch ") and result.stdout.count(".") == 2,
+    checks.that(result.returncode == 0 and result.stdout.startswith("dchmd ") and result.stdout.count(".") == 2,
                 f"--version: {result.stdout!r}")
 
 

@@ -45,7 +45,7 @@ void H5mdFile::create_metadata() {
   const Hdf5Handle author = create_group(metadata.get(), "author");
   check(author.valid() && write_attribute(author.get(), "name", std::string("unknown")));
   const Hdf5Handle creator = create_group(metadata.get(), "creator");
-  check(creator.valid() && write_attribute(creator.get(), "name", std::string("dch")) &&
+  check(creator.valid() && write_attribute(creator.get(), "name", std::string("dchmd")) &&
         write_attribute(creator.get(), "version", std::string(DCH_VERSION)));
 
   const Hdf5Handle particles = create_group(file_.get(), "particles");

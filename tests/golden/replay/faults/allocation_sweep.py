@@ -58,7 +58,7 @@ def check_run(checks, bench, subcommand, reference, plan):
         checks.that(set(states.values()) <= {"whole"} and outcome.stderr == "", f"{what}: {states}, {outcome.stderr!r}")
     else:
         checks.that(outcome.status in (2, 3), f"{what}: status {outcome.status}: {outcome.stderr!r}")
-        is_told = outcome.stderr.startswith("dch: ") and outcome.stderr.endswith("\n") and len(outcome.stderr) > 30
+        is_told = outcome.stderr.startswith("dchmd: ") and outcome.stderr.endswith("\n") and len(outcome.stderr) > 30
         checks.that(is_told, f"{what}: the message is {outcome.stderr!r}")
         checks.that(outcome.status != 2 or "not enough memory" in outcome.stderr, f"{what}: the message is {outcome.stderr!r}")
         checks.that(set(states.values()) <= {before, "whole"}, f"{what}: {states}")

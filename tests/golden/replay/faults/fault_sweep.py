@@ -82,7 +82,7 @@ def check_run(checks, bench, subcommand, reference, plan):
         return outcome.struck.function
     names = [word for word in subcommand.arguments if word.startswith(("in.", "out."))]
     checks.that(outcome.status == 3, f"{what}: status {outcome.status}: {outcome.stderr}")
-    checks.that(outcome.stderr.startswith("dch: ") and any(name in outcome.stderr for name in names),
+    checks.that(outcome.stderr.startswith("dchmd: ") and any(name in outcome.stderr for name in names),
                 f"{what}: the message is {outcome.stderr!r}")
     before = "old" if with_old else "absent"
     checks.that(set(states.values()) <= {before, "whole"}, f"{what}: {states}")
