@@ -59,3 +59,35 @@ function(dch_instruction_sets target)
     endif()
   endforeach()
 endfunction()
+
+# dch_add_library(<name> [EXPORT set])
+#   The library dch::<name> of all sources in src/, with its headers in include/, to be installed; and
+#   dch_<name>_internals, what is no part of its interface, for the other libraries, the tests and benchmarks of this
+#   project. Static unless BUILD_SHARED_LIBS is on; before 1.0 the second number of the version tells what fits.
+function(dch_add_library name)
+  cmake_parse_arguments(ARG "" "EXPORT" "" ${ARGN})
+  if(NOT ARG_EXPORT)
+    set(ARG_EXPORT dch-targets)
+  endif()
+  set(target dch_${name})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
+  add_library(${target} ${sources})
+  add_library(dch::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME ${target} INSTALL_RPATH "$ORIGIN")
+  if(PROJECT_VERSION)
+    set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION}
+                                               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+                                       PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  dch_target_defaults(${target})
+  add_library(${target}_internals INTERFACE)
+  target_include_directories(${target}_internals INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  install(TARGETS ${target} EXPORT ${ARG_EXPORT})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/moved)
+    install(DIRECTORY moved/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+endfunction()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engines/dch_search.hpp"
 #include "switches.hpp"
 
 #include <algorithm>
@@ -20,12 +21,12 @@ constexpr double kTimeStep = 0.005;
 
 struct Switch {
   std::string what;
-  HierarchyParams structure;
+  detail::StructureParams structure;
   bool superset = false;
 };
 
 std::vector<Switch> switches(double radius) {
-  HierarchyParams params;
+  detail::StructureParams params;
   params.radius = radius;
   std::vector<Switch> all = {{"exact list", params}, {"superset", params, true}};
   for (const double share : {0.5, 1.0, 2.0}) {
@@ -33,7 +34,7 @@ std::vector<Switch> switches(double radius) {
     all.push_back({fmt::format("R_0 = {:g} list radii", share), params});
   }
   params.base_radius = 0;
-  params.edge_rule = EdgeRule::thesis;
+  params.edge_rule = detail::EdgeRule::thesis;
   for (const double c : {1.05, 1.5, 2.0, 3.0}) {
     params.c = c;
     all.push_back({fmt::format("thesis, c = {:g}", c), params});

@@ -3,6 +3,7 @@
 // What changes a hierarchy leaves an empty one if memory runs out; renumber() leaves it as it was.
 #include <numeric>
 
+#include "listed_hierarchy.hpp"
 #include "scene.hpp"
 
 namespace dch::faults {
@@ -12,7 +13,7 @@ constexpr std::size_t kPoints = 80;
 
 /// A hierarchy that has its points, and the list of other ones.
 struct Changes {
-  explicit Changes(const HierarchyParams& with, double shake = 0.3)
+  explicit Changes(const StructureParams& with, double shake = 0.3)
       : params(with), first(kPoints), next(first.shaken(shake)) {
     asked_first.answer(first);
     asked_next.answer(next);
@@ -37,7 +38,7 @@ struct Changes {
     return after(ending, list_fault(hierarchy, asked_next));
   }
 
-  HierarchyParams params;
+  StructureParams params;
   Scene first, next;
   Asked asked_first, asked_next;
 };
@@ -59,7 +60,7 @@ std::string build_fault(const Changes& changes, ListedHierarchy& hierarchy, Endi
 
 TEST(HierarchyFaults, BuildLeavesItEmpty) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    HierarchyParams params = params_for();
+    StructureParams params = params_for();
     params.edge_rule = rule;
     params.max_roots = 1;
     const Changes changes(params);
@@ -75,7 +76,7 @@ TEST(HierarchyFaults, BuildLeavesItEmpty) {
 }
 
 void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, long least_failures) {
-  HierarchyParams params = params_for(executor);
+  StructureParams params = params_for(executor);
   params.policy = policy;
   params.base_radius = 0.6;
   const Changes changes(params, shake);
@@ -104,7 +105,7 @@ TEST(HierarchyFaults, RepairOnThreadsLeavesItEmpty) {
 
 /// Gas, most of whose points stand on their own.
 TEST(HierarchyFaults, LonePointsLeaveItEmpty) {
-  HierarchyParams params = params_for();
+  StructureParams params = params_for();
   params.policy = MaintenancePolicy::always_repair;
   params.max_roots = 2;
   Scene gas(40), later(40);
@@ -132,7 +133,7 @@ TEST(HierarchyFaults, LonePointsLeaveItEmpty) {
 }
 
 TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
-  HierarchyParams params = params_for();
+  StructureParams params = params_for();
   params.base_radius = 0.6;
   const Changes changes(params, 0.05);
   expect_sound(sweep(
@@ -152,7 +153,7 @@ TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
 /// Some points come or go, in a hierarchy of `all` but these.
 template <class Change>
 void sweep_exchange(const Change& change, const std::vector<Vec3>& expected, long least_failures) {
-  HierarchyParams params = params_for();
+  StructureParams params = params_for();
   params.base_radius = 0.6;
   const Changes changes(params);
   Scene other = changes.first;

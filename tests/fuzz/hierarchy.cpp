@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostPoints = 48;
 constexpr int kMostOperations = 24;
 
-HierarchyParams choose_params(FuzzInput& input, double radius) {
-  HierarchyParams params;
+StructureParams choose_params(FuzzInput& input, double radius) {
+  StructureParams params;
   params.radius = radius;
   if (input.coin()) params.base_radius = radius * input.uniform(0.2, 2);
   if (input.below(4) == 1) params.edge_rule = EdgeRule::thesis, params.base_radius = 0;

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t kMostPoints = 80;
 
-HierarchyParams choose_hierarchy(FuzzInput& input, const Scene& scene) {
-  HierarchyParams params;
+StructureParams choose_hierarchy(FuzzInput& input, const Scene& scene) {
+  StructureParams params;
   params.radius = scene.reach * (1 + 1e-12);
   params.size_classes = input.coin();
   if (input.coin()) params.base_radius = scene.reach * input.uniform(0.2, 2);
@@ -86,7 +86,7 @@ void require_complete(const NeighborList& kept, const Scene& scene) {
 void run(FuzzInput& input) {
   Scene scene;
   choose_scene(input, kMostPoints, scene);
-  const HierarchyParams params = choose_hierarchy(input, scene);
+  const StructureParams params = choose_hierarchy(input, scene);
   const auto by_hierarchy = make_dch_search(params);
   const auto by_cells = make_cell_search(params.radius);
   const bool can_be_cluster_pairs =

@@ -24,7 +24,7 @@ ListParams request_for(double cutoff) {
 
 ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
                              double base_radius = 0) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = radius;
   params.base_radius = base_radius;
   ListedHierarchy hierarchy(params);

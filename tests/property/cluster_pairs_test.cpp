@@ -27,7 +27,7 @@ ListParams request_for(double cutoff, double skin = 0) {
 
 ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
                              double base_radius = 0, Executor* executor = nullptr) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = radius;
   params.base_radius = base_radius;
   params.executor = executor;
@@ -187,7 +187,7 @@ TEST_P(ClusterPairsScenes, FollowTheStructureUnderMotion) {
   for (const double radius : {0.6, 0.2}) {
     scenes::Random random(8);
     std::vector<Vec3> points = scenes::uniform_in(box, 1200, 9);
-    HierarchyParams params;
+    StructureParams params;
     params.radius = radius;
     ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kRadius = 1.0;
 
-HierarchyParams params_with(EdgeRule rule, int max_roots) {
-  HierarchyParams params;
+StructureParams params_with(EdgeRule rule, int max_roots) {
+  StructureParams params;
   params.radius = kRadius;
   params.edge_rule = rule;
   if (rule == EdgeRule::additive) params.base_radius = kRadius / 2.1;  // small clusters: many levels
@@ -101,7 +101,7 @@ TEST_P(HierarchyChurn, ValidUnderInsertionsAndRemovals) {
 
 TEST_P(HierarchyChurn, ValidUnderMotionBetweenInsertionsAndRemovals) {
   const Box box = GetParam().box;
-  for (HierarchyParams params : {params_with(EdgeRule::additive, 1), params_with(EdgeRule::additive, 16),
+  for (StructureParams params : {params_with(EdgeRule::additive, 1), params_with(EdgeRule::additive, 16),
                                  params_with(EdgeRule::thesis, 1), params_with(EdgeRule::thesis, 16)}) {
     scenes::Random random(8);
     params.policy = MaintenancePolicy::always_repair;
@@ -167,7 +167,7 @@ TEST(HierarchyChurn, KeysCarryTheStructureThroughRenumbering) {
   std::uint64_t next_key = 0;
   std::vector<Particle> particles;
   for (const Vec3 p : scenes::uniform_in(box, 600, 1)) particles.push_back({next_key++, p});
-  HierarchyParams params = params_with(EdgeRule::additive, 16);
+  StructureParams params = params_with(EdgeRule::additive, 16);
   params.policy = MaintenancePolicy::always_repair;
   const auto search = make_dch_search(params);
   for (int step = 0; step < 40; ++step) {

@@ -25,7 +25,7 @@ TEST_P(HierarchyMotion, ValidAfterEveryRepair) {
     SCOPED_TRACE(factor);
     ASSERT_NO_FATAL_FAILURE(
         shake(scenes::uniform_in(box, 150, 31), box, repairing(), factor * r0(repairing()), 200, 77));
-    for (const HierarchyParams& params : {repairing(EdgeRule::thesis, 1), repairing(EdgeRule::thesis, 16),
+    for (const StructureParams& params : {repairing(EdgeRule::thesis, 1), repairing(EdgeRule::thesis, 16),
                                           repairing(EdgeRule::additive, 1, 2.0)})
       ASSERT_NO_FATAL_FAILURE(
           shake(scenes::uniform_in(box, 150, 32), box, params, factor * r0(params), 30, 78));
@@ -36,7 +36,7 @@ TEST_P(HierarchyMotion, DegenerateScenesStayValid) {
   const Box box = GetParam().box;
   for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 120, r0(repairing()))) {
     SCOPED_TRACE(scene.name);
-    for (const HierarchyParams& params : {repairing(EdgeRule::additive, 1), repairing(EdgeRule::additive, 16),
+    for (const StructureParams& params : {repairing(EdgeRule::additive, 1), repairing(EdgeRule::additive, 16),
                                           repairing(EdgeRule::thesis, 1), repairing(EdgeRule::thesis, 16)})
       for (const double factor : {0.01, 1.0, 30.0})
         ASSERT_NO_FATAL_FAILURE(shake(scene.points, box, params, factor * r0(params), 12, 5));
@@ -49,7 +49,7 @@ TEST_P(HierarchyMotion, ListsStayExactWhileRepairIsPutOff) {
   const int steps = effort(60);
   for (const double base_radius : {0.0, 0.4 * kRadius})
     for (const double step : {0.002, 0.02, 0.05}) {
-      HierarchyParams params;
+      StructureParams params;
       params.radius = kRadius;
       params.base_radius = base_radius;
       ListedHierarchy hierarchy(params);

@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kRadius = 1.0;
 
-std::vector<HierarchyParams> variants() {
-  std::vector<HierarchyParams> all;
+std::vector<StructureParams> variants() {
+  std::vector<StructureParams> all;
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis})
     for (const double c : {1.05, 1.5})
       for (const int max_roots : {1, 16}) {
-        HierarchyParams params;
+        StructureParams params;
         params.radius = kRadius;
         params.edge_rule = rule;
         params.c = c;
@@ -38,7 +38,7 @@ class HierarchyScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(HierarchyScenes, ValidAfterBuild) {
   const Box box = GetParam().box;
-  for (const HierarchyParams& params : variants())
+  for (const StructureParams& params : variants())
     for (const std::size_t n : {0u, 1u, 2u, 3u, 17u, 100u, 400u})
       for (const scenes::NamedPoints& scene :
            scenes::hard_point_sets(box, n, params.radius / (2 * params.c))) {
@@ -73,7 +73,7 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
       for (const ListParams& params : {plain, typed, excluded, ghosts}) {
         const NeighborList expected = all_pairs(scene.points, box, params);
         for (const double base_radius : {0.0, 0.2 * kRadius, kRadius}) {
-          HierarchyParams hierarchy_params;
+          StructureParams hierarchy_params;
           hierarchy_params.radius = kRadius;
           hierarchy_params.base_radius = base_radius;
           ListedHierarchy hierarchy(hierarchy_params);
@@ -112,7 +112,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfClusters) {
     const std::vector<Vec3> points = scenes::uniform_in(box, 2500, 12);
     const NeighborList expected = all_pairs(points, box, list_params);
     for (const double factor : {0.0, 0.25, 1.0, 2.0, 4.0, 8.0, 40.0}) {
-      HierarchyParams params;
+      StructureParams params;
       params.radius = radius;
       params.base_radius = factor * radius;
       ListedHierarchy hierarchy(params);
@@ -133,7 +133,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheNumberOfThreads) {
   NeighborList expected;
   for (const int threads : {1, 2, 3, 8}) {
     const auto pool = make_thread_pool(threads);
-    HierarchyParams params;
+    StructureParams params;
     params.radius = 0.4;
     params.base_radius = 0.7;
     params.executor = pool.get();
@@ -154,7 +154,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheNumberOfThreads) {
 TEST_P(HierarchyScenes, ListsEqualTheOracleInTheSmallestBox) {
   const Box box = GetParam().box;
   if (!box.any_periodic()) return;
-  HierarchyParams params;
+  StructureParams params;
   params.radius = box.max_cutoff();
   ListParams list_params;
   list_params.cutoffs = TypeCutoffs(params.radius);

@@ -33,12 +33,12 @@ std::vector<Vec3> scene_in(const Box& box, std::size_t liquid, std::size_t gas, 
   return droplet_and_gas(Box::orthorhombic({kWide, kWide, kWide}), liquid, gas, seed);
 }
 
-std::vector<HierarchyParams> variants() {
-  HierarchyParams wide = repairing();
+std::vector<StructureParams> variants() {
+  StructureParams wide = repairing();
   wide.base_radius = 0;
-  HierarchyParams lazy;
+  StructureParams lazy;
   lazy.radius = kRadius;
-  HierarchyParams unfolded = repairing();
+  StructureParams unfolded = repairing();
   unfolded.fold_lone_points = false;
   return {repairing(),
           repairing(EdgeRule::additive, 1),
@@ -53,7 +53,7 @@ class HierarchySparse : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
   const Box box = GetParam().box;
-  for (const HierarchyParams& params : variants())
+  for (const StructureParams& params : variants())
     for (const double step : {0.01, 0.3, 3.0, 40.0}) {
       std::vector<Vec3> points = scene_in(box, 150, 120, 5);
       scenes::Random random(6);
@@ -79,7 +79,7 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
 // Insertion next to a lone point unfolds it, removal of the other and a repair fold it again.
 TEST_P(HierarchySparse, ValidUnderInsertionsAndRemovals) {
   const Box box = GetParam().box;
-  for (const HierarchyParams& params : variants()) {
+  for (const StructureParams& params : variants()) {
     const std::vector<Vec3> points = scene_in(box, 60, 100, 9);
     scenes::Random random(10);
     ListedHierarchy hierarchy(params);

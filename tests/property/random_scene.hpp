@@ -172,7 +172,7 @@ class RandomScene {
   Exclusions exclusions_;
   ListParams request_;
   std::unique_ptr<PairTest> near_cutoff_;
-  HierarchyParams hierarchy_;
+  StructureParams hierarchy_;
   std::unique_ptr<Executor> threads_;
   std::string what_;
 };

@@ -22,7 +22,7 @@ inline ListParams whole_list() {
 
 /// Moves the points `full_steps` times (see effort()) by up to `step` along each axis and checks the
 /// structure after every repair, the list after every tenth.
-inline void shake(std::vector<Vec3> points, const Box& box, const HierarchyParams& params, double step,
+inline void shake(std::vector<Vec3> points, const Box& box, const StructureParams& params, double step,
                   int full_steps, std::uint64_t seed) {
   const int steps = effort(full_steps);
   scenes::Random random(seed);
@@ -42,8 +42,8 @@ inline void shake(std::vector<Vec3> points, const Box& box, const HierarchyParam
   EXPECT_EQ(hierarchy.stats().repairs, steps);
 }
 
-inline HierarchyParams repairing(EdgeRule rule = EdgeRule::additive, int max_roots = 16, double c = 1.05) {
-  HierarchyParams params;
+inline StructureParams repairing(EdgeRule rule = EdgeRule::additive, int max_roots = 16, double c = 1.05) {
+  StructureParams params;
   params.radius = kRadius;
   params.policy = MaintenancePolicy::always_repair;
   params.edge_rule = rule;
@@ -53,6 +53,6 @@ inline HierarchyParams repairing(EdgeRule rule = EdgeRule::additive, int max_roo
   return params;
 }
 
-inline double r0(const HierarchyParams& params) { return params.radius / (2 * params.c); }
+inline double r0(const StructureParams& params) { return params.radius / (2 * params.c); }
 
 }  // namespace dch

@@ -8,7 +8,13 @@
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/lists/list_maker.hpp>
 
+#include "engines/dch_search.hpp"
+#include "hierarchy/structure_params.hpp"
+
 namespace dch {
+
+using detail::EdgeRule;
+using detail::StructureParams;
 
 /// A hierarchy with all that is made from views of it, as an engine has them.
 class ListedHierarchy : public Hierarchy {

@@ -11,23 +11,11 @@
 namespace dch::lammps {
 namespace {
 
-constexpr double kSmallestC =
-    1.05;  // Hierarchy's own limit, named here so that the message comes with the input line
-
 [[noreturn]] void refuse(const std::string& what) { throw InvalidParameter("Illegal dch command: " + what); }
 
 void expect_no_more(const std::vector<std::string>& words, std::size_t used) {
   if (words.size() > used)
     refuse("'" + words[used] + "' after 'dch " + words[used - 1] + "' has no meaning; remove it");
-}
-
-double parse_c(const std::string& word) {
-  char* end = nullptr;
-  const double c = std::strtod(word.c_str(), &end);
-  if (word.empty() || *end != '\0' || !(c >= kSmallestC && c <= 1e6)) {
-    refuse("c is '" + word + "' but has to be a number from 1.05 to 1e6; for example 'dch on c 1.2'");
-  }
-  return c;
 }
 
 int parse_interval(const std::string& word) {
@@ -44,9 +32,9 @@ Request parse_on(const std::vector<std::string>& words) {
   Request request;
   if (words.size() == 1) return request;
   if (words[1] != "c")
-    refuse("unknown option '" + words[1] + "' of 'dch on'; the only one is 'c', as in 'dch on c 1.2'");
-  if (words.size() == 2) refuse("'dch on c' lacks its value; for example 'dch on c 1.2'");
-  request.c = parse_c(words[2]);
+    refuse("unknown option '" + words[1] + "' of 'dch on'; it takes none");
+  if (words.size() == 2) refuse("'dch on c' lacks its value, which has no effect any more; leave 'c' out");
+  request.has_c = true;
   expect_no_more(words, 3);
   return request;
 }

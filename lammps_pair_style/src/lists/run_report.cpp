@@ -43,9 +43,9 @@ std::string work_table(const RunReport& r) {
   std::string text;
   text += line("  builds in the last run  %lld", static_cast<long long>(n.builds));
   text += line(
-      "  structure               radius %g, c %g, %d levels; built %lld times, repaired %lld times, "
+      "  structure               radius %g, %d levels; built %lld times, repaired %lld times, "
       "neither %lld times",
-      r.radius, r.c, r.levels, static_cast<long long>(r.structures_built), static_cast<long long>(r.repairs),
+      r.radius, r.levels, static_cast<long long>(r.structures_built), static_cast<long long>(r.repairs),
       static_cast<long long>(r.refreshes));
   text += std::string("  points                  ") +
           (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";

@@ -47,7 +47,6 @@ struct RunReport {
   bool skin_settled = false;
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
-  double c = 0;
   std::string instructions;    ///< name of the instruction set that the search uses
   RunCounters counters;        ///< entries summed, builds and times the largest of any process
   std::string order_obstacle;  ///< why atoms are not in the order of the structure; empty if they are

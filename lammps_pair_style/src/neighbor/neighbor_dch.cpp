@@ -88,10 +88,7 @@ NeighborDCH* NeighborDCH::install(LAMMPS* lammps, const NeighborParts& parts) {
   return ours;
 }
 
-void NeighborDCH::enable(double c) {
-  enabled_ = true;
-  c_ = c;
-}
+void NeighborDCH::enable() { enabled_ = true; }
 
 void NeighborDCH::disable() {
   enabled_ = false;
@@ -157,12 +154,11 @@ void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
   const bool by_size = sizes_differ_much();
   const int threads = pool_ ? pool_->threads() : 1;
-  if (search_ && radius == params_.radius && c_ == params_.c && by_size == params_.size_classes &&
+  if (search_ && radius == params_.radius && by_size == params_.size_classes &&
       threads == threads_)
     return;
   params_ = {};
   params_.radius = radius;
-  params_.c = c_;
   params_.size_classes = by_size;
   search_.reset();
   try {

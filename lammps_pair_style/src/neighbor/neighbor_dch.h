@@ -69,8 +69,8 @@ class NeighborDCH : public Neighbor {
   /// LAMMPS with a message if another class has taken that place.
   static NeighborDCH* install(LAMMPS* lammps, const NeighborParts& parts = {});
 
-  /// From the next run on, lists come from a hierarchy with this c (dch::HierarchyParams::c, at least 1.05).
-  void enable(double c);
+  /// From the next run on, lists come from a hierarchy.
+  void enable();
   /// All lists are native from their next build on.
   void disable();
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
@@ -149,7 +149,6 @@ class NeighborDCH : public Neighbor {
 
   std::unique_ptr<Neighbor> retired_;
   bool enabled_ = false;
-  double c_ = 1.05;
   int verify_every_ = 0;
 
   bool bins_hidden_ = false;

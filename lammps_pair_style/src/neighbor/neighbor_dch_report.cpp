@@ -44,7 +44,6 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.processes = comm->nprocs;
   report.radius = params_.radius;
   report.in_box = points_.in_box();
-  report.c = params_.c;
   report.order_obstacle = order_.obstacle();
   report.instructions = dch::name(dch::instruction_set());
   report.counters = run_;

@@ -25,7 +25,9 @@ void DchCommand::command(int narg, char** arg) {
   NeighborDCH* neighbor_dch = NeighborDCH::install(lmp);
   switch (request.action) {
     case Request::Action::on:
-      neighbor_dch->enable(request.c);
+      if (request.has_c && comm->me == 0)
+        error->warning(FLERR, "'dch on c' has no effect any more and will be an error in the next version; give 'dch on'");
+      neighbor_dch->enable();
       break;
     case Request::Action::off:
       neighbor_dch->disable();

@@ -127,6 +127,10 @@ bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys
 }  // namespace detail
 
 std::unique_ptr<PairSearch> make_dch_search(const HierarchyParams& params) {
+  return make_dch_search(detail::StructureParams(params));
+}
+
+std::unique_ptr<PairSearch> make_dch_search(const detail::StructureParams& params) {
   if (params.size_classes) return std::make_unique<detail::SizedSearch>(params);
   return std::make_unique<detail::DchSearch>(params);
 }

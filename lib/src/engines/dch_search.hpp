@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <dch/lists/list_maker.hpp>
 
 #include "base/key_table.hpp"
+#include "hierarchy/structure_params.hpp"
 
 namespace dch::detail {
 
@@ -18,7 +20,7 @@ namespace dch::detail {
 /// inserted and the rest renumbered; then all are moved at once.
 class DchSearch final : public PairSearch {
  public:
-  explicit DchSearch(const HierarchyParams& params) : hierarchy_(params) {}
+  explicit DchSearch(const StructureParams& params) : hierarchy_(params) {}
 
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
   void list(const ListParams& params, NeighborList& out) override;
@@ -53,3 +55,10 @@ class DchSearch final : public PairSearch {
 };
 
 }  // namespace dch::detail
+
+namespace dch {
+
+/// As the public one, with a choice of how the structure is made.
+std::unique_ptr<PairSearch> make_dch_search(const detail::StructureParams& params);
+
+}  // namespace dch

@@ -32,7 +32,7 @@ double own_reach(const SizeClasses& classes, std::size_t g) {
 
 }  // namespace
 
-SizedSearch::SizedSearch(const HierarchyParams& params) : params_(params) {
+SizedSearch::SizedSearch(const StructureParams& params) : params_(params) {
   Hierarchy checked(params);  // throws for parameters out of range
 }
 
@@ -168,7 +168,7 @@ void SizedSearch::bring_up_to_date() {
     // It may have got no points yet, or lost them, in a list that was not finished.
     group.is_new |= group.search && group.search->hierarchy().size() != group.particle.size();
     if (!group.search || !fits || (group.is_new && keys_.empty())) {
-      HierarchyParams own = params_;
+      StructureParams own = params_;
       own.radius = wanted;
       own.fold_lone_points = false;  // they may have neighbors in other classes
       auto search = std::make_unique<DchSearch>(own);

@@ -24,7 +24,7 @@ namespace dch::detail {
 /// brings the hierarchies up to date; that time counts as maintenance.
 class SizedSearch final : public PairSearch {
  public:
-  explicit SizedSearch(const HierarchyParams& params);
+  explicit SizedSearch(const StructureParams& params);
 
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
   void list(const ListParams& params, NeighborList& out) override { make_lists({&params, 1}, {&out}); }
@@ -56,7 +56,7 @@ class SizedSearch final : public PairSearch {
   void bring_up_to_date();
   void retire(const Group& group);
 
-  HierarchyParams params_;
+  StructureParams params_;
   Box box_;
   std::vector<Vec3> positions_;
   double largest_reach_ = 0;  ///< largest WrapError::reach of the positions [length]

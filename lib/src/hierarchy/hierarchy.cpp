@@ -19,7 +19,7 @@ using detail::with_metric;
 
 namespace {
 
-HierarchyParams checked(const HierarchyParams& p) {
+detail::StructureParams checked(const detail::StructureParams& p) {
   if (!(std::isfinite(p.radius) && p.radius >= kMinListRadius && p.radius <= kMaxListRadius))
     throw InvalidParameter("hierarchy radius (cutoff + skin) is " + describe(p.radius) +
                            "; it must be a finite length in 1e-30..1e30, use another unit of length");
@@ -30,7 +30,7 @@ HierarchyParams checked(const HierarchyParams& p) {
         (std::isfinite(p.base_radius) && p.base_radius >= kMinListRadius && p.base_radius <= kMaxListRadius)))
     throw InvalidParameter("hierarchy parameter base_radius is " + describe(p.base_radius) +
                            "; it must be a length in 1e-30..1e30, or 0 for a choice by the points");
-  if (p.base_radius != 0 && p.edge_rule == EdgeRule::thesis)
+  if (p.base_radius != 0 && p.edge_rule == detail::EdgeRule::thesis)
     throw InvalidParameter("hierarchy parameter base_radius is " + describe(p.base_radius) +
                            "; the thesis's edge rule ties it to radius / (2 c): leave it 0");
   if (p.max_roots < 1)
@@ -40,7 +40,8 @@ HierarchyParams checked(const HierarchyParams& p) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(const HierarchyParams& params) : impl_(std::make_unique<Impl>(checked(params))) {}
+Hierarchy::Hierarchy(const HierarchyParams& params) : Hierarchy(detail::StructureParams(params)) {}
+Hierarchy::Hierarchy(const detail::StructureParams& params) : impl_(std::make_unique<Impl>(checked(params))) {}
 Hierarchy::~Hierarchy() = default;
 Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;

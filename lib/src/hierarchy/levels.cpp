@@ -35,7 +35,7 @@ double Hierarchy::Impl::radius_of_level(int i) const { return std::ldexp(base_ra
 
 double Hierarchy::Impl::threshold_of_level(int i) const {
   if (i == 0) return params.radius;
-  if (params.edge_rule == EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
+  if (params.edge_rule == detail::EdgeRule::thesis) return 2 * params.c * radius_of_level(i) + wrap_slack;
   const double slack = params.policy == MaintenancePolicy::automatic ? 2 * kMotionSlack * base_radius : 0;
   return params.radius + 2 * (radius_of_level(i) - radius_of_level(0)) + slack + wrap_slack;
 }

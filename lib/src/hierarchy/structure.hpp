@@ -5,20 +5,20 @@
 #include <vector>
 
 #include <dch/geometry/box.hpp>
-#include <dch/hierarchy/hierarchy_params.hpp>
 #include <dch/hierarchy/search_stats.hpp>
 
 #include "geometry/tolerance.hpp"
 #include "hierarchy/leaf_blocks.hpp"
 #include "hierarchy/level.hpp"
 #include "hierarchy/measured_leaves.hpp"
+#include "hierarchy/structure_params.hpp"
 
 namespace dch::detail {
 
 /// The data of a hierarchy: points, levels, edges, and what is certified of them while a repair is put off.
 /// The stages that change it are in hierarchy_impl.hpp; all others take it constant, by a HierarchyView.
 struct Structure {
-  HierarchyParams params;
+  StructureParams params;
   Box box;
   double base_radius = 0;                ///< R_0
   LeafBlocks points;                     ///< level 0

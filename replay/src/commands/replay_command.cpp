@@ -26,8 +26,6 @@ struct ReplayWords {
   bool half = false, full = false, quiet = false;
 };
 
-constexpr double kSmallestC = 1.05;
-constexpr double kLargestC = 100;
 
 void declare_list_options(CLI::App& command, ReplayWords& words) {
   command
@@ -59,15 +57,11 @@ void declare_list_options(CLI::App& command, ReplayWords& words) {
 void declare_engine_options(CLI::App& command, ReplayWords& words) {
   command.add_option("--engine", words.engine, "Who finds the pairs: dch (default), cell or allpairs")
       ->type_name("NAME");
-  command
-      .add_option(
-          "--c", words.c,
-          fmt::format("Parameter c of the hierarchy, at least {0}, default {0}; engine dch only", kSmallestC))
-      ->type_name("C");
+  command.add_option("--c", words.c, "Has no effect any more")->group("");  // not shown
   command
       .add_option(
           "--policy", words.policy,
-          "Whether to repair the hierarchy or to build it anew: auto (default: whichever measures faster), "
+          "Whether to repair the hierarchy or to build it anew: auto (default: whichever is less work, as counted), "
           "repair or rebuild; engine dch only")
       ->type_name("NAME");
   command
@@ -109,7 +103,7 @@ EngineOptions engine_options(const ReplayWords& words) {
       "--engine", words.engine,
       {{"dch", EngineKind::dch}, {"cell", EngineKind::cell}, {"allpairs", EngineKind::allpairs}});
   const std::pair<const char*, const std::string&> of_hierarchy[] = {
-      {"--c", words.c}, {"--policy", words.policy}, {"--threads", words.threads}};
+      {"--policy", words.policy}, {"--threads", words.threads}};
   for (const auto& [option, value] : of_hierarchy) {
     if (engine.kind == EngineKind::dch || value.empty()) continue;
     throw UsageError(
@@ -117,9 +111,8 @@ EngineOptions engine_options(const ReplayWords& words) {
                     "--engine dch",
                     option, words.engine));
   }
-  if (!words.c.empty()) {
-    engine.c = parse_number("--c", words.c, {kSmallestC, kLargestC, false, "the hierarchy's parameter c"});
-  }
+  if (!words.c.empty())
+    print_message("dchmd: --c has no effect any more and will be an error in the next version; leave it out\n");
   if (!words.policy.empty()) {
     engine.policy = choose<MaintenancePolicy>("--policy", words.policy,
                                               {{"auto", MaintenancePolicy::automatic},

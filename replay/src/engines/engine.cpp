@@ -126,7 +126,6 @@ Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<
     engine.threads = std::move(threads);
     HierarchyParams params;
     params.radius = radius;
-    params.c = options.c;
     params.policy = options.policy;
     params.executor = engine.threads.get();
     engine.search = make_dch_search(params);

@@ -15,7 +15,6 @@ enum class EngineKind { dch, cell, allpairs };
 /// What a replay's engine is made from.
 struct EngineOptions {
   EngineKind kind = EngineKind::dch;
-  double c = 1.05;                                          ///< parameter of the hierarchy (dch only)
   MaintenancePolicy policy = MaintenancePolicy::automatic;  ///< repair or rebuild (dch only)
 };
 
@@ -31,7 +30,7 @@ struct Engine {
 
 /// @param radius cutoff + skin of the lists to come [length]
 /// @param threads to work with; null for one (dch only)
-/// @throws InvalidParameter for a radius or c out of range.
+/// @throws InvalidParameter for a radius out of range.
 Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<Executor> threads = nullptr);
 
 /// Lets lists that come and go, as atoms do, use one engine that stays.

@@ -25,7 +25,6 @@ Json input_json(const ReplayReport& report) {
   Json json = begin_report(report, report.frames.size());
   json["engine"] = to_string(report.engine.kind);
   if (report.engine.kind == EngineKind::dch) {
-    json["c"] = report.engine.c;
     json["policy"] = to_string(report.engine.policy);
     json["threads"] = report.threads;
   }

@@ -64,7 +64,7 @@ std::string engine_text(const ReplayReport& report) {
       break;
   }
   const std::string threads = report.threads > 1 ? fmt::format(", {} threads", report.threads) : "";
-  return fmt::format("dch, c = {}, policy {}{}", engine.c, to_string(engine.policy), threads);
+  return fmt::format("dch, policy {}{}", to_string(engine.policy), threads);
 }
 
 std::string list_text(const ReplayReport& report) {

@@ -63,8 +63,6 @@ def wrong_commands(data):
         (replay("--skin", "-0.1"), ["--skin -0.1", "at least 0"]),
         (replay("--skin", "nan"), ["--skin 'nan'"]),
         (replay("--engine", "octree"), ["--engine 'octree'", "dch, cell, allpairs"]),
-        (replay("--c", "1.01"), ["--c 1.01", "at least 1.05"]),
-        (replay("--engine", "cell", "--c", "2"), ["--c", "engine cell"]),
         (replay("--engine", "cell", "--policy", "repair"), ["--policy", "engine cell"]),
         (replay("--policy", "never"), ["--policy 'never'", "auto, repair, rebuild"]),
         (replay("--verify", "some"), ["--verify 'some'", "none, sample, all"]),

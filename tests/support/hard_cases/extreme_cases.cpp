@@ -72,7 +72,7 @@ Finding as_all_pairs(const Box& box, double radius, double periods) {
 /// Repairs while points are many periods away and when they are back.
 Finding back_from_far_away() {
   const Box box = Box::orthorhombic({10, 10, 10});
-  HierarchyParams params;
+  StructureParams params;
   params.radius = 1;
   params.base_radius = 0.3;
   params.policy = MaintenancePolicy::always_repair;
@@ -175,7 +175,7 @@ std::vector<Case> refusals() {
               }),
       refused("clusters of a million periods", "leave it 0",
               [] {
-                HierarchyParams params;
+                StructureParams params;
                 params.radius = 0.4;
                 params.base_radius = 1e6;
                 ListedHierarchy hierarchy(params);

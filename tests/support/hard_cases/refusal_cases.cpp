@@ -80,7 +80,7 @@ std::vector<Case> positions_and_radii() {
       refused("a denormal radius of cells", "search radius is 1e-310", [] { make_cell_search(1e-310); }),
       refused("cluster pairs in single precision at a list radius of 1e-10", "outside 1e-9..1e9",
               [=] {
-                HierarchyParams params;
+                StructureParams params;
                 params.radius = 1e-10;
                 ListedHierarchy h(params);
                 h.build(two, Box::none());
@@ -116,7 +116,7 @@ std::vector<Case> cells_and_chains() {
               }),
       refused("c = 1, where parent and child edges change together", "1.05",
               [] {
-                HierarchyParams params;
+                StructureParams params;
                 params.radius = 1;
                 params.c = 1;
                 Hierarchy{params};

@@ -16,9 +16,9 @@
 namespace dch::hard {
 namespace {
 
-HierarchyParams with(double radius, double base_radius, int max_roots = 1,
+StructureParams with(double radius, double base_radius, int max_roots = 1,
                      MaintenancePolicy policy = MaintenancePolicy::always_repair) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = radius;
   params.base_radius = base_radius;
   params.max_roots = max_roots;

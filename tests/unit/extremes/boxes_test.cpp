@@ -197,7 +197,7 @@ TEST(ExtremeBoxes, RefusalsNameValueLimitAndRemedy) {
 }
 
 TEST(ExtremeBoxes, ClustersOfManyPeriodsAreRefused) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = 0.4;
   params.base_radius = 1e6;
   ListedHierarchy hierarchy(params);

@@ -126,7 +126,7 @@ TEST(FarBoxes, HierarchyStaysValidWhenPointsComeBack) {
   for (const bool skewed : {false, true})
     for (const double periods : {1e9, 1e11, 1e12}) {
       const Box box = box_at({0, 0, 0}, 10, skewed);
-      HierarchyParams params;
+      StructureParams params;
       params.radius = 1;
       params.base_radius = 0.3;
       params.policy = MaintenancePolicy::always_repair;
@@ -158,7 +158,7 @@ TEST(ExtremeSizes, ClassesOfAnyRatioGiveTheListOfAllPairs) {
   for (std::size_t k = 0; k < radii.size(); k += 3) radii[k] = 0.5;
   ListParams params;
   params.radii = radii;
-  HierarchyParams structure;
+  StructureParams structure;
   structure.radius = params.list_radius();
   structure.size_classes = true;
   const auto search = make_dch_search(structure);

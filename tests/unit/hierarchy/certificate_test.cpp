@@ -20,8 +20,8 @@ namespace {
 constexpr double kListRadius = 1;
 
 /// R_0 = 1, so rho_1 = 3.8: clusters may use up (3.8 - 1) / 2 = 1.4 with their extent and their motion.
-HierarchyParams params_with(int max_roots) {
-  HierarchyParams params;
+StructureParams params_with(int max_roots) {
+  StructureParams params;
   params.radius = kListRadius;
   params.base_radius = 1;
   params.max_roots = max_roots;

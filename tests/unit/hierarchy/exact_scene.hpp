@@ -12,9 +12,9 @@
 namespace dch {
 
 /// R_0 = 1, rho_0 = 1.
-inline HierarchyParams params_of(EdgeRule rule, int max_roots,
+inline StructureParams params_of(EdgeRule rule, int max_roots,
                                  MaintenancePolicy policy = MaintenancePolicy::always_repair) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = rule == EdgeRule::thesis ? 2.1 : 1;
   if (rule == EdgeRule::additive) params.base_radius = 1;
   params.max_roots = max_roots;

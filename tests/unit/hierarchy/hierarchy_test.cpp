@@ -15,8 +15,8 @@
 namespace dch {
 namespace {
 
-HierarchyParams with_radius(double radius) {
-  HierarchyParams params;
+StructureParams with_radius(double radius) {
+  StructureParams params;
   params.radius = radius;
   return params;
 }
@@ -35,7 +35,7 @@ TEST(HierarchyTest, RefusesParametersOutOfRange) {
   EXPECT_THROW(ListedHierarchy(with_radius(std::numeric_limits<double>::infinity())), InvalidParameter);
   EXPECT_THROW(ListedHierarchy(with_radius(9e-31)), InvalidParameter) << "clusters hold single precision";
   EXPECT_THROW(ListedHierarchy(with_radius(1.1e30)), InvalidParameter);
-  HierarchyParams params = with_radius(1);
+  StructureParams params = with_radius(1);
   params.c = 1.04;
   EXPECT_THROW(Hierarchy{params}, InvalidParameter);
   params.c = 1.05;
@@ -46,7 +46,7 @@ TEST(HierarchyTest, RefusesParametersOutOfRange) {
 
 TEST(HierarchyTest, TheMessageNamesTheValue) {
   try {
-    HierarchyParams params = with_radius(1);
+    StructureParams params = with_radius(1);
     params.c = 0.5;
     Hierarchy{params};
     FAIL() << "c = 0.5 was accepted";
@@ -85,7 +85,7 @@ TEST(HierarchyTest, RefusesRadiiBeyondHalfTheBox) {
 TEST(HierarchyTest, RefusesBaseRadiiFarBeyondTheBoxInUpdatesToo) {
   const std::vector<Vec3> points = scenes::uniform(50, {2, 2, 2}, 1);
   const Box flat = Box::orthorhombic({2.1, 2.1, 100});
-  HierarchyParams params;
+  StructureParams params;
   params.radius = 1;
   params.base_radius = 40;
   ListedHierarchy h(params);
@@ -136,7 +136,7 @@ TEST(HierarchyTest, EmptyAndTinySetsWork) {
 }
 
 TEST(HierarchyTest, ThresholdsFollowTheRule) {
-  HierarchyParams params = with_radius(3);
+  StructureParams params = with_radius(3);
   params.c = 1.5;
   params.max_roots = 1;
   const std::vector<Vec3> points = scenes::uniform(4000, {12, 12, 12}, 3);
@@ -191,7 +191,7 @@ TEST(HierarchyTest, ParentsLeadToARootInEveryLevel) {
 
 // A point on its own stands in all levels up to its highest, though it is not in memory in the lower ones.
 TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
-  HierarchyParams params = with_radius(1);
+  StructureParams params = with_radius(1);
   params.base_radius = 0.5;
   params.max_roots = 1;
   for (const bool fold : {true, false}) {
@@ -272,7 +272,7 @@ TEST(HierarchyTest, IdsOfRemovedPointsAreUsedAgain) {
 
 TEST(HierarchyTest, PolicyIsObeyed) {
   std::vector<Vec3> points = scenes::uniform(500, {8, 8, 8}, 6);
-  HierarchyParams params = with_radius(1);
+  StructureParams params = with_radius(1);
   params.policy = MaintenancePolicy::always_rebuild;
   ListedHierarchy rebuilding(params);
   params.policy = MaintenancePolicy::always_repair;

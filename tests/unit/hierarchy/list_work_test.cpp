@@ -28,7 +28,7 @@ struct WorkOfPair {
 
 WorkOfPair work_of(const std::vector<Vec3>& points, const Box& box, const ListParams& request,
                    double radius) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = radius;
   ListedHierarchy h(params);
   h.build(points, box);
@@ -74,7 +74,7 @@ TEST(Work, OfListsWithAShorterReachThanTheirHierarchy) {
 
 /// A hierarchy of some of the particles, with many leaves.
 ListedHierarchy hierarchy_of_some(const std::vector<Vec3>& points, const Box& box, double radius) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = radius;
   params.base_radius = radius;
   params.fold_lone_points = false;

@@ -110,7 +110,7 @@ TEST(MaintenanceWorkTest, CountsTheChildrenOfCentersThatAreGivenUp) {
 }
 
 TEST(MaintenanceWorkTest, CountsTheSamplesOfABaseRadiusThatIsFound) {
-  HierarchyParams params;
+  StructureParams params;
   params.radius = 1;
   ListedHierarchy h(params);
   std::vector<Vec3> points = scenes::uniform(500, {8, 8, 8}, 1);
@@ -126,7 +126,7 @@ TEST(MaintenanceWorkTest, CountsTheSamplesOfABaseRadiusThatIsFound) {
 /// centers. Where these are 479, both ways cost 137,277 by the weights of the decision record: 12.5 * 542 +
 /// 15 * 380 + 38 * 479 + 5.3 * 20 * 479 + 103 * 542 for the repair and 130 * 542 + 46 * 380 + 103 * 479.
 TEST(MaintenanceChoice, RepairsUpToEqualWorkAndBuildsBeyond) {
-  HierarchyParams params = params_of(EdgeRule::additive, 20, MaintenancePolicy::automatic);
+  StructureParams params = params_of(EdgeRule::additive, 20, MaintenancePolicy::automatic);
   params.radius = 100;
   for (const std::size_t lost : {400u, 478u, 479u, 480u, 500u}) {
     ListedHierarchy h(params);
@@ -185,8 +185,8 @@ class AutomaticPolicyTest : public ::testing::Test {
   AutomaticPolicyTest() : hierarchy_(defaults()), points_(scenes::uniform(20000, {24, 24, 24}, 6)) {
     hierarchy_.build(points_, Box::none());
   }
-  static HierarchyParams defaults() {
-    HierarchyParams params;
+  static StructureParams defaults() {
+    StructureParams params;
     params.radius = 1;
     return params;
   }

@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kMostChildren[] = {1, 3, 19, 87};  ///< by dimension
 
-HierarchyParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::automatic) {
-  HierarchyParams params;
+StructureParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::automatic) {
+  StructureParams params;
   params.radius = 1;
   params.edge_rule = rule;
   params.policy = policy;
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, Packing,
                          [](const auto& p) { return "D" + std::to_string(p.param.dimensions); });
 
 /// Points so spaced along a line that all are nodes up to level `top`, whose separation they just keep.
-std::vector<Vec3> line_spaced_for(int top, const HierarchyParams& params) {
+std::vector<Vec3> line_spaced_for(int top, const StructureParams& params) {
   const double spacing = std::ldexp(params.radius / (2 * params.c), top - 1) * (1 + 1e-9);
   std::vector<Vec3> points;
   for (int k = 0; k < 64; ++k) points.push_back({spacing * k, 0, 0});
@@ -123,7 +123,7 @@ std::vector<Vec3> line_spaced_for(int top, const HierarchyParams& params) {
 TEST(PackingOfLines, TheBoundIsReached) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis})
     for (int level = 1; level <= 8; ++level) {
-      const HierarchyParams params = params_of(rule);
+      const StructureParams params = params_of(rule);
       ListedHierarchy h(params);
       h.build(line_spaced_for(level, params), Box::none());
       ASSERT_EQ(h.level(level).nodes, 64);
@@ -140,12 +140,12 @@ TEST(PackingOfLines, TheBoundIsReached) {
 // wider than that in the lowest levels, so it does not hold there.
 TEST(PackingOfLines, TheThesisFormHoldsForTheThesisRule) {
   for (int level = 1; level <= 6; ++level) {
-    const HierarchyParams params = params_of(EdgeRule::thesis);
+    const StructureParams params = params_of(EdgeRule::thesis);
     ListedHierarchy h(params);
     h.build(line_spaced_for(level, params), Box::none());
     EXPECT_LE(static_cast<double>(h.neighbors(32, level).size()), 8 * params.c) << level;
   }
-  const HierarchyParams params = params_of(EdgeRule::additive);
+  const StructureParams params = params_of(EdgeRule::additive);
   ListedHierarchy wider(params);
   wider.build(line_spaced_for(1, params), Box::none());
   EXPECT_GT(wider.level(1).edge_threshold, 4 * params.c * wider.level(0).covering_radius);

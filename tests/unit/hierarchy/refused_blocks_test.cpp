@@ -28,8 +28,8 @@ class RefusedBlocks : public ::testing::Test {
     hierarchy_.build(points_, box_);
   }
 
-  static HierarchyParams params() {
-    HierarchyParams params;
+  static StructureParams params() {
+    StructureParams params;
     params.radius = 1;
     params.base_radius = 1;
     params.max_roots = 4;

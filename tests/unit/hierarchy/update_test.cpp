@@ -58,7 +58,7 @@ TEST(Update, BuildsWhereAllWereInserted) {
 // Of two clusters and a point on its own, which is a root.
 TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
   for (const bool fold : {true, false}) {
-    HierarchyParams params = params_of(EdgeRule::additive, 2);
+    StructureParams params = params_of(EdgeRule::additive, 2);
     params.fold_lone_points = fold;
     ListedHierarchy h(params);
     const std::vector<Vec3> points{{0, 0, 0}, {100, 0, 0}, {101.5, 0, 0}};

@@ -16,8 +16,8 @@ class ValidateTest : public ::testing::Test {
   ValidateTest() : hierarchy_(params()) {
     hierarchy_.build(scenes::uniform(400, {10, 10, 10}, 7), Box::orthorhombic({10, 10, 10}));
   }
-  static HierarchyParams params() {
-    HierarchyParams p;
+  static StructureParams params() {
+    StructureParams p;
     p.radius = 1.5;
     p.base_radius = 0.7;
     p.max_roots = 1;
@@ -145,8 +145,8 @@ class ValidateLonePointsTest : public ::testing::Test {
     for (const Vec3 far : {Vec3{100, 0, 0}, Vec3{0, 200, 0}, Vec3{0, 0, 300}}) points.push_back(far);
     hierarchy_.build(points, Box::none());
   }
-  static HierarchyParams params() {
-    HierarchyParams p;
+  static StructureParams params() {
+    StructureParams p;
     p.radius = 1.5;
     p.base_radius = 0.7;
     p.max_roots = 1;

@@ -13,8 +13,8 @@
 namespace dch {
 namespace {
 
-HierarchyParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::always_repair) {
-  HierarchyParams params;
+StructureParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::always_repair) {
+  StructureParams params;
   params.radius = 1;
   params.edge_rule = rule;
   params.policy = policy;
@@ -207,7 +207,7 @@ TEST(Work, OfClusterPairsGrowsWithTheirNumberAlone) {
   for (const std::size_t n : {4000u, 32000u}) {
     const double side = std::cbrt(0.1 * static_cast<double>(n));
     const Box box = Box::orthorhombic({side, side, side});
-    HierarchyParams params;
+    StructureParams params;
     params.radius = 1;
     ListedHierarchy h(params);
     h.build(scenes::uniform_in(box, n, 4), box);

@@ -14,7 +14,6 @@ RunReport example() {
   RunReport r;
   r.enabled = true;
   r.radius = 2.8;
-  r.c = 1.05;
   r.instructions = "avx2";
   r.counters.builds = 4;
   r.counters.entries = 3000;

@@ -19,10 +19,9 @@ namespace dch {
 /// Level 0 holds all points; level i+1 is a set of discrete centers of level i with radius R_i = 2^i R_0:
 /// every node of level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i
 /// apart. G_c joins two nodes of level i within rho_i of each other. rho_0 is `radius`, so that the level-0
-/// edges **are** the neighbor list of that radius. The scale r0 is tied to the list by 2 c r0 = radius. With
-/// EdgeRule::thesis R_0 = r0; else R_0 = 2^k r0, and the first k levels, which no query of the scene needs,
-/// are not built. R_0 does not depend on the closest pair, so coincident points are no trouble (one of them
-/// stands in level 1).
+/// edges **are** the neighbor list of that radius. R_0 is chosen by the density of the
+/// points at each build: the levels below, which no query of the scene needs, are not built. It does not depend on the
+/// closest pair, so coincident points are no trouble (one of them stands in level 1).
 ///
 /// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing
 /// lemma 5.3.2 and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion.
@@ -37,8 +36,10 @@ namespace dch {
 /// empty, without points until the next build(); renumber() and view() leave it as it was.
 class Hierarchy {
  public:
-  /// @throws InvalidParameter for a radius or c out of range, or max_roots < 1.
+  /// @throws InvalidParameter for a radius out of range.
   explicit Hierarchy(const HierarchyParams& params);
+  /// For the library's own engines and tests, which may choose how the structure is made too.
+  explicit Hierarchy(const detail::StructureParams& params);
   ~Hierarchy();
   Hierarchy(Hierarchy&&) noexcept;
   Hierarchy& operator=(Hierarchy&&) noexcept;
@@ -46,8 +47,7 @@ class Hierarchy {
   Hierarchy& operator=(const Hierarchy&) = delete;
 
   /// Builds from scratch by insertion in space-filling order, ids 0..n-1. O(n lg alpha) (Theorem 5.4.1).
-  /// @throws InvalidPosition, CutoffTooLarge; InvalidParameter for a base_radius too large for the box, and
-  /// for
+  /// @throws InvalidPosition, CutoffTooLarge; InvalidParameter for
   ///   more points than 32-bit numbers can name the places of. They stand in blocks of eight, at most 2^28 -
   ///   1 of them, and points far apart take a block each: so 268 million points always fit, more if they are
   ///   dense. The hierarchy is empty after a throw.

@@ -14,6 +14,7 @@ namespace dch {
 
 namespace detail {
 struct Structure;
+struct StructureParams;
 }
 
 /// One level of a hierarchy, for tests, statistics and plots.
