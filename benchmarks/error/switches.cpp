@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "engines/dch_search.hpp"
 #include "switches.hpp"
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
 
+#include "engines/dch_search.hpp"
 #include "stopwatch.hpp"
 #include "trial.hpp"
 

@@ -31,8 +31,7 @@ int parse_interval(const std::string& word) {
 Request parse_on(const std::vector<std::string>& words) {
   Request request;
   if (words.size() == 1) return request;
-  if (words[1] != "c")
-    refuse("unknown option '" + words[1] + "' of 'dch on'; it takes none");
+  if (words[1] != "c") refuse("unknown option '" + words[1] + "' of 'dch on'; it takes none");
   if (words.size() == 2) refuse("'dch on c' lacks its value, which has no effect any more; leave 'c' out");
   request.has_c = true;
   expect_no_more(words, 3);

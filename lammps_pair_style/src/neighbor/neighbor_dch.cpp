@@ -154,9 +154,7 @@ void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
   const bool by_size = sizes_differ_much();
   const int threads = pool_ ? pool_->threads() : 1;
-  if (search_ && radius == params_.radius && by_size == params_.size_classes &&
-      threads == threads_)
-    return;
+  if (search_ && radius == params_.radius && by_size == params_.size_classes && threads == threads_) return;
   params_ = {};
   params_.radius = radius;
   params_.size_classes = by_size;

@@ -26,7 +26,10 @@ void DchCommand::command(int narg, char** arg) {
   switch (request.action) {
     case Request::Action::on:
       if (request.has_c && comm->me == 0)
-        error->warning(FLERR, "'dch on c' has no effect any more and will be an error in the next version; give 'dch on'");
+        error->warning(
+            FLERR,
+            std::string(
+                "'dch on c' has no effect any more and will be an error in the next version; give 'dch on'"));
       neighbor_dch->enable();
       break;
     case Request::Action::off:

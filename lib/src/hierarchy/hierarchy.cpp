@@ -41,7 +41,8 @@ detail::StructureParams checked(const detail::StructureParams& p) {
 }  // namespace
 
 Hierarchy::Hierarchy(const HierarchyParams& params) : Hierarchy(detail::StructureParams(params)) {}
-Hierarchy::Hierarchy(const detail::StructureParams& params) : impl_(std::make_unique<Impl>(checked(params))) {}
+Hierarchy::Hierarchy(const detail::StructureParams& params)
+    : impl_(std::make_unique<Impl>(checked(params))) {}
 Hierarchy::~Hierarchy() = default;
 Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;

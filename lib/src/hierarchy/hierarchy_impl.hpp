@@ -46,7 +46,9 @@ struct Hierarchy::Impl : detail::Structure {
   void check_base_radius(const Box& b) const;
   double radius_of_level(int i) const;
   double threshold_of_level(int i) const;
-  bool finds_base_radius() const { return params.base_radius == 0 && params.edge_rule == detail::EdgeRule::additive; }
+  bool finds_base_radius() const {
+    return params.base_radius == 0 && params.edge_rule == detail::EdgeRule::additive;
+  }
   void set_base_radius(Span<const Vec3> positions);
   void set_wrap_slack();
   void set_lengths(int i);

@@ -20,8 +20,8 @@ inline constexpr std::int64_t kMostBlocks = kMaxIndexCount / kBlock;
 /// @param most fewer than kMostBlocks in tests alone
 /// @throws InvalidParameter for more blocks than that.
 inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMostBlocks) {
-  return index_count(blocks, "blocks of eight points (one or more for each cluster)",
-                     "take fewer points", most);
+  return index_count(blocks, "blocks of eight points (one or more for each cluster)", "take fewer points",
+                     most);
 }
 
 /// Level S_0: the points, in blocks of kBlock slots. The points of one cluster (a node of level 1, their

@@ -13,11 +13,13 @@ enum class EdgeRule {
   thesis
 };
 
-/// What a structure is made by: what callers choose, and what the library chooses for them. Others than these defaults give
-/// the hierarchy as the thesis defines it, and small structures with many levels, which tests compare with.
+/// What a structure is made by: what callers choose, and what the library chooses for them. Others than these
+/// defaults give the hierarchy as the thesis defines it, and small structures with many levels, which tests
+/// compare with.
 struct StructureParams : HierarchyParams {
   StructureParams() = default;
-  StructureParams(const HierarchyParams& chosen) : HierarchyParams(chosen) {}  // NOLINT(google-explicit-constructor)
+  StructureParams(const HierarchyParams& chosen)
+      : HierarchyParams(chosen) {}  // NOLINT(google-explicit-constructor)
 
   /// R_0, the radius within which level 1 covers the points [length]. 0: with EdgeRule::additive 2^k r0 for
   /// the k that gives a node of level 1 about 150 children, which suits lists (measured at each build); with

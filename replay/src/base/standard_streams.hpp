@@ -31,8 +31,8 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
 }
 
 /// Brings all results out and returns the exit status: `exit_code`, but if that is kOk and results could not
-/// be printed, kBadFile with a message, or kBrokenPipe without one where the reader has gone, as for `dchmd ...
-/// | head`.
+/// be printed, kBadFile with a message, or kBrokenPipe without one where the reader has gone, as for `dchmd
+/// ... | head`.
 int finish_output(int exit_code);
 
 }  // namespace dch::cli

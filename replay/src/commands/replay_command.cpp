@@ -26,7 +26,6 @@ struct ReplayWords {
   bool half = false, full = false, quiet = false;
 };
 
-
 void declare_list_options(CLI::App& command, ReplayWords& words) {
   command
       .add_option(
@@ -59,10 +58,10 @@ void declare_engine_options(CLI::App& command, ReplayWords& words) {
       ->type_name("NAME");
   command.add_option("--c", words.c, "Has no effect any more")->group("");  // not shown
   command
-      .add_option(
-          "--policy", words.policy,
-          "Whether to repair the hierarchy or to build it anew: auto (default: whichever is less work, as counted), "
-          "repair or rebuild; engine dch only")
+      .add_option("--policy", words.policy,
+                  "Whether to repair the hierarchy or to build it anew: auto (default: whichever is less "
+                  "work, as counted), "
+                  "repair or rebuild; engine dch only")
       ->type_name("NAME");
   command
       .add_option("--threads", words.threads,
@@ -102,8 +101,8 @@ EngineOptions engine_options(const ReplayWords& words) {
   engine.kind = choose<EngineKind>(
       "--engine", words.engine,
       {{"dch", EngineKind::dch}, {"cell", EngineKind::cell}, {"allpairs", EngineKind::allpairs}});
-  const std::pair<const char*, const std::string&> of_hierarchy[] = {
-      {"--policy", words.policy}, {"--threads", words.threads}};
+  const std::pair<const char*, const std::string&> of_hierarchy[] = {{"--policy", words.policy},
+                                                                     {"--threads", words.threads}};
   for (const auto& [option, value] : of_hierarchy) {
     if (engine.kind == EngineKind::dch || value.empty()) continue;
     throw UsageError(
@@ -112,7 +111,8 @@ EngineOptions engine_options(const ReplayWords& words) {
                     option, words.engine));
   }
   if (!words.c.empty())
-    print_message("dchmd: --c has no effect any more and will be an error in the next version; leave it out\n");
+    print_message(
+        "dchmd: --c has no effect any more and will be an error in the next version; leave it out\n");
   if (!words.policy.empty()) {
     engine.policy = choose<MaintenancePolicy>("--policy", words.policy,
                                               {{"auto", MaintenancePolicy::automatic},

@@ -57,7 +57,7 @@ Json separation_json(const ContactReport& report) {
 }
 
 Json per_frame_json(const ContactReport& report) {
-  Json json;
+  Json json = Json::object();  // null would turn into an object, and be neither without memory
   json["frame"] = column(report, [](const ContactFrame& f) { return f.frame; });
   json["step"] = column(report, [](const ContactFrame& f) { return f.step; });
   json["time"] =

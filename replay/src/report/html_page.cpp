@@ -30,8 +30,8 @@ std::string render_page(const HtmlPage& page) {
   const std::string name = escape_html(std::filesystem::path(page.file).filename().string());
   std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   text += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  text += fmt::format("<title>dchmd {}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", page.command,
-                      name, kPageStyle);
+  text += fmt::format("<title>dchmd {}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
+                      page.command, name, kPageStyle);
   text += fmt::format("<header>\n<h1>{} {}</h1>\n{}</header>\n", page.heading, name, page.verdict);
   text += fmt::format("<section class=\"card wide\">\n{}</section>\n", table_of(page.table));
   text += page.notes;

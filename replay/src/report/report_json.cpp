@@ -51,7 +51,7 @@ Json levels_json(const ReplayReport& report) {
 }
 
 Json per_frame_json(const ReplayReport& report) {
-  Json json;
+  Json json = Json::object();  // null would turn into an object, and be neither without memory
   json["frame"] = column(report, [](const FrameRecord& f) { return f.frame; });
   json["step"] = column(report, [](const FrameRecord& f) { return f.step; });
   json["time"] =
@@ -81,7 +81,7 @@ Json mismatch_json(const Mismatch& mismatch) {
 }
 
 Json verify_json(const VerifyResult& verify) {
-  Json json;
+  Json json = Json::object();  // null would turn into an object, and be neither without memory
   json["mode"] = to_string(verify.mode);
   json["seed"] = verify.seed;
   json["frames"] = verify.frames;

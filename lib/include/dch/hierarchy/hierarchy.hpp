@@ -20,8 +20,8 @@ namespace dch {
 /// every node of level i has a parent at level i+1 within R_i, and two nodes of level i+1 are more than R_i
 /// apart. G_c joins two nodes of level i within rho_i of each other. rho_0 is `radius`, so that the level-0
 /// edges **are** the neighbor list of that radius. R_0 is chosen by the density of the
-/// points at each build: the levels below, which no query of the scene needs, are not built. It does not depend on the
-/// closest pair, so coincident points are no trouble (one of them stands in level 1).
+/// points at each build: the levels below, which no query of the scene needs, are not built. It does not
+/// depend on the closest pair, so coincident points are no trouble (one of them stands in level 1).
 ///
 /// Hypotheses: the distance is a metric (Euclidean, or the torus with true nearest images), so the packing
 /// lemma 5.3.2 and Lemma 5.3.1 hold at every level; nothing is assumed about density, aspect ratio or motion.

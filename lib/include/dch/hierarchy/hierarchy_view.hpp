@@ -15,7 +15,7 @@ namespace dch {
 namespace detail {
 struct Structure;
 struct StructureParams;
-}
+}  // namespace detail
 
 /// One level of a hierarchy, for tests, statistics and plots.
 struct LevelInfo {
