@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Reports of the command when memory runs out while they are written. A value of the JSON library may take memory to be
-// destroyed, where an exception cannot leave: the command has a handler for that, which ends it with a message. So each
-// attempt is made in a process of its own, with a handler like that; what must not happen is another end.
+// Reports of the command when memory runs out while they are written. A value of the JSON library may take
+// memory to be destroyed, where an exception cannot leave: the command has a handler for that, which ends it
+// with a message. So each attempt is made in a process of its own, with a handler like that; what must not
+// happen is another end.
 #include <cstdlib>
 #include <exception>
 #include <gtest/gtest.h>

@@ -42,7 +42,7 @@ TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
   EXPECT_LE(most * detail::kBlock, kMost);
   EXPECT_EQ(detail::block_count(most), most);
   EXPECT_THAT(test::message_of<InvalidParameter>([] { detail::block_count(most + 1); }),
-              AllOf(HasSubstr("268435456 blocks"), HasSubstr("at most 268435455"), HasSubstr("base_radius")));
+              AllOf(HasSubstr("268435456 blocks"), HasSubstr("at most 268435455"), HasSubstr("take fewer points")));
 }
 
 TEST(LeafBlocks, NumberOfBlocksOfAnyNumberOfPoints) {
