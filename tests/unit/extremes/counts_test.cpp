@@ -41,8 +41,9 @@ TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
   EXPECT_EQ(most, (std::int64_t{1} << 28) - 1);
   EXPECT_LE(most * detail::kBlock, kMost);
   EXPECT_EQ(detail::block_count(most), most);
-  EXPECT_THAT(test::message_of<InvalidParameter>([] { detail::block_count(most + 1); }),
-              AllOf(HasSubstr("268435456 blocks"), HasSubstr("at most 268435455"), HasSubstr("take fewer points")));
+  EXPECT_THAT(
+      test::message_of<InvalidParameter>([] { detail::block_count(most + 1); }),
+      AllOf(HasSubstr("268435456 blocks"), HasSubstr("at most 268435455"), HasSubstr("take fewer points")));
 }
 
 TEST(LeafBlocks, NumberOfBlocksOfAnyNumberOfPoints) {
