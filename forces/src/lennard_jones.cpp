@@ -192,4 +192,57 @@ void LennardJones::check_coulomb_kind(const CoulombTerm& term) const {
         detail::describe(largest_cutoff_));
 }
 
+detail::ForceKind LennardJones::kind() const {
+  using detail::ForceKind;
+  const bool is_switched = switch_from_ >= 0;
+  if (!has_charges_) return is_switched ? ForceKind::switched : ForceKind::lennard_jones;
+  if (splitting_ > 0) return ForceKind::ewald;
+  // Bare charges are those in a reaction field of strength 0.
+  if (is_switched) return ForceKind::switched_reaction_field;
+  return has_reaction_field_ || mixes_ ? ForceKind::reaction_field : ForceKind::plain;
+}
+
+detail::LjParameters LennardJones::parameters() const {
+  using detail::LjParameters;
+  if (mixes_) return LjParameters::by_particle;
+  return types_ == 1 ? LjParameters::one_type : LjParameters::by_type;
+}
+
+template <class Real>
+detail::LjConstants<Real> LennardJones::constants() const {
+  const double width = largest_cutoff_ - switch_from_;
+  return {static_cast<Real>(splitting_), static_cast<Real>(quadratic_), static_cast<Real>(offset_),
+          static_cast<Real>(switch_from_), static_cast<Real>(switch_from_ >= 0 ? 1 / width : 0)};
+}
+
+template detail::LjConstants<double> LennardJones::constants() const;
+template detail::LjConstants<float> LennardJones::constants() const;
+
+template <class Pairs>
+void LennardJones::check(const Pairs& pairs, std::size_t forces, std::size_t charges) const {
+  if (forces != pairs.particles)
+    throw InvalidParameter("room for " + std::to_string(forces) + " forces given for " +
+                           std::to_string(pairs.particles) + " particles; give one each");
+  if (charges != (has_charges_ ? pairs.particles : 0))
+    throw InvalidParameter(
+        std::to_string(charges) + " charges given for " + std::to_string(pairs.particles) +
+        " particles; give " +
+        (has_charges_ ? "one each" : "none, or say first with set_coulomb() how they act"));
+  if (largest_cutoff_ > pairs.list_radius)
+    throw InvalidParameter("the largest cutoff " + detail::describe(largest_cutoff_) +
+                           " exceeds the radius " + detail::describe(pairs.list_radius) +
+                           " of the pairs; make them with a larger one");
+  if (types_ > 1 && pairs.types > types_)
+    throw InvalidParameter("the pairs have " + std::to_string(pairs.types) +
+                           " types, but Lennard-Jones pairs are given for " + std::to_string(types_) +
+                           "; give one for each pair of types");
+  if (mixes_ && half_sigma_.size() != pairs.particles)
+    throw InvalidParameter("Lennard-Jones parameters of " + std::to_string(half_sigma_.size()) +
+                           " particles given for pairs of " + std::to_string(pairs.particles) +
+                           " particles; give one each");
+}
+
+template void LennardJones::check(const ClusterPairs&, std::size_t, std::size_t) const;
+template void LennardJones::check(const PairList&, std::size_t, std::size_t) const;
+
 }  // namespace dch

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// LennardJones at work: its kernels over cluster pairs, on one thread or several, and over pairs one by one.
+// LennardJones over cluster pairs, on one thread or several.
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
 #include <string>
 #include <type_traits>
 
 #include <dch/base/error.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
-#include "base/describe.hpp"
+#include "lj_sums.hpp"
 #include "simd/force_kernels.hpp"
+#include "turns.hpp"
 
 namespace dch {
 namespace {
-
-template <class Real>
-detail::LjCoefficients<Real> pointers_to(const std::array<std::vector<Real>, 7>& tables) {
-  return {tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(),
-          tables[4].data(), tables[5].data(), tables[6].data()};
-}
 
 template <class Real>
 struct Kernels;
@@ -86,39 +79,6 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
   }
 }
 
-/// Has workers take turns: each takes the next part when it has none, and does some of the work on it when
-/// all parts before have had theirs done.
-class Turns {
- public:
-  explicit Turns(int parts) : parts_(parts) {}
-  /// The next part, or -1 if all are taken.
-  int take() {
-    const std::lock_guard lock(mutex_);
-    return taken_ < parts_ ? taken_++ : -1;
-  }
-  template <class Work>
-  void in_turn(int part, const Work& work) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return done_ == part; });
-    lock.unlock();
-    work();
-    lock.lock();
-    ++done_;
-    changed_.notify_all();
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int parts_, taken_ = 0, done_ = 0;
-};
-
-void give(const detail::LjSums& found, LennardJonesSums& sums) {
-  sums.energy += found.energy;
-  sums.coulomb_energy += found.coulomb_energy;
-  for (std::size_t k = 0; k < 6; ++k) sums.virial[k] += found.virial[k];
-}
-
 /// Numbers of particles, times a unit, by slot; 0 for padding.
 template <class FourNumbers>
 void sort_by_slot(const ClusterPairs& pairs, Span<const double> numbers, double unit,
@@ -134,38 +94,7 @@ void sort_by_slot(const ClusterPairs& pairs, Span<const double> numbers, double 
   }
 }
 
-void run_parts(Executor* executor, int parts, const std::function<void(int)>& task) {
-  if (parts == 1) {
-    task(0);
-  } else {
-    executor->run(parts, task);
-  }
-}
-
 }  // namespace
-
-detail::ForceKind LennardJones::kind() const {
-  using detail::ForceKind;
-  const bool is_switched = switch_from_ >= 0;
-  if (!has_charges_) return is_switched ? ForceKind::switched : ForceKind::lennard_jones;
-  if (splitting_ > 0) return ForceKind::ewald;
-  // Bare charges are those in a reaction field of strength 0.
-  if (is_switched) return ForceKind::switched_reaction_field;
-  return has_reaction_field_ || mixes_ ? ForceKind::reaction_field : ForceKind::plain;
-}
-
-detail::LjParameters LennardJones::parameters() const {
-  using detail::LjParameters;
-  if (mixes_) return LjParameters::by_particle;
-  return types_ == 1 ? LjParameters::one_type : LjParameters::by_type;
-}
-
-template <class Real>
-detail::LjConstants<Real> LennardJones::constants() const {
-  const double width = largest_cutoff_ - switch_from_;
-  return {static_cast<Real>(splitting_), static_cast<Real>(quadratic_), static_cast<Real>(offset_),
-          static_cast<Real>(switch_from_), static_cast<Real>(switch_from_ >= 0 ? 1 / width : 0)};
-}
 
 template <class Real>
 void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
@@ -181,7 +110,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
   scratch.earlier.resize(clusters);
   if (has_charges_) scratch.charge.resize(clusters);
   if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
-  run_parts(executor_, workers, [&](int worker) {
+  detail::run_parts(executor_, workers, [&](int worker) {
     const ClusterPairs::Range own = share(pairs.clusters(), worker, workers);
     scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
     if (functions.wants_lanes) scratch.lanes[static_cast<std::size_t>(worker)].resize(clusters);
@@ -189,8 +118,8 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
     if (mixes_) sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
     if (mixes_) sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
-  Turns turns(parts);
-  run_parts(executor_, workers, [&](int worker) {
+  detail::Turns turns(parts);
+  detail::run_parts(executor_, workers, [&](int worker) {
     auto& force = scratch.force[static_cast<std::size_t>(worker)];
     auto& lanes = scratch.lanes[static_cast<std::size_t>(worker)];
     for (int part = turns.take(); part >= 0; part = turns.take()) {
@@ -207,7 +136,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
                                       Of::shift(pairs).data(),
                                       pairs.type.data(),
                                       types_,
-                                      pointers_to(tables),
+                                      detail::pointers_to(tables),
                                       mixes_ ? scratch.half_sigma.data()->slot : nullptr,
                                       mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
                                       has_charges_ ? scratch.charge.data()->slot : nullptr,
@@ -220,35 +149,11 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
       function(task, found);
       turns.in_turn(part, [&] {
         add_for_later(ranges, force, scratch.earlier);
-        if (sums) give(found, *sums);
+        if (sums) detail::give(found, *sums);
       });
       hand_out(pairs, {own.first_cluster, next.first_cluster}, force, scratch.earlier, forces);
     }
   });
-}
-
-template <class Pairs>
-void LennardJones::check(const Pairs& pairs, std::size_t forces, std::size_t charges) const {
-  if (forces != pairs.particles)
-    throw InvalidParameter("room for " + std::to_string(forces) + " forces given for " +
-                           std::to_string(pairs.particles) + " particles; give one each");
-  if (charges != (has_charges_ ? pairs.particles : 0))
-    throw InvalidParameter(
-        std::to_string(charges) + " charges given for " + std::to_string(pairs.particles) +
-        " particles; give " +
-        (has_charges_ ? "one each" : "none, or say first with set_coulomb() how they act"));
-  if (largest_cutoff_ > pairs.list_radius)
-    throw InvalidParameter("the largest cutoff " + detail::describe(largest_cutoff_) +
-                           " exceeds the radius " + detail::describe(pairs.list_radius) +
-                           " of the pairs; make them with a larger one");
-  if (types_ > 1 && pairs.types > types_)
-    throw InvalidParameter("the pairs have " + std::to_string(pairs.types) +
-                           " types, but Lennard-Jones pairs are given for " + std::to_string(types_) +
-                           "; give one for each pair of types");
-  if (mixes_ && half_sigma_.size() != pairs.particles)
-    throw InvalidParameter("Lennard-Jones parameters of " + std::to_string(half_sigma_.size()) +
-                           " particles given for pairs of " + std::to_string(pairs.particles) +
-                           " particles; give one each");
 }
 
 void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
@@ -276,61 +181,6 @@ LennardJonesSums LennardJones::add_forces_and_sum(const ClusterPairs& pairs, For
                                                   Span<Vec3> forces, Span<const double> charges) {
   LennardJonesSums sums;
   add(pairs, precision, forces, charges, &sums);
-  return sums;
-}
-
-void LennardJones::add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
-                       Span<const double> charges, LennardJonesSums* sums) const {
-  check(pairs, forces.size(), charges.size());
-  if (positions.size() != pairs.particles)
-    throw InvalidParameter(std::to_string(positions.size()) + " positions given for a pair list of " +
-                           std::to_string(pairs.particles) +
-                           " particles; make the list anew for another number");
-  if (!same_periodicity(now, pairs.box))
-    throw InvalidBox("a pair list made in the box " + pairs.box.description() + " was used in the box " +
-                     now.description() + "; make it anew for another periodicity");
-  const auto function =
-      detail::force_kernels(instruction_set()).pairs.choose(kind(), parameters(), sums != nullptr);
-  if (!function)
-    throw InvalidParameter(
-        "a pair list was given for a potential with a switch, a reaction field or parameters of particles; "
-        "use cluster pairs");
-  // Pairs without types are all of type 0, as in clusters.
-  std::vector<std::int32_t> none;
-  if (types_ > 1 && pairs.type.empty()) none.assign(pairs.particles, 0);
-  detail::LjPairTask task{pairs.i.data(),
-                          pairs.j.data(),
-                          0,
-                          0,
-                          positions.data(),
-                          {},
-                          none.empty() ? pairs.type.data() : none.data(),
-                          types_,
-                          pointers_to(full_),
-                          charges.data(),
-                          charge_unit_,
-                          constants<double>(),
-                          forces.data()};
-  detail::LjSums found;
-  for (std::size_t g = 0; g + 1 < pairs.groups.size(); ++g) {
-    task.first = pairs.groups[g].first;
-    task.last = pairs.groups[g + 1].first;
-    task.shift = pairs.shift(pairs.groups[g], now);
-    if (task.first < task.last) function(task, found);
-  }
-  if (sums) give(found, *sums);
-}
-
-void LennardJones::add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now,
-                              Span<Vec3> forces, Span<const double> charges) const {
-  add(pairs, positions, now, forces, charges, nullptr);
-}
-
-LennardJonesSums LennardJones::add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions,
-                                                  const Box& now, Span<Vec3> forces,
-                                                  Span<const double> charges) const {
-  LennardJonesSums sums;
-  add(pairs, positions, now, forces, charges, &sums);
   return sums;
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <dch/forces/lennard_jones.hpp>
+
+#include "simd/lj_task.hpp"
+
+namespace dch::detail {
+
+template <class Real>
+LjCoefficients<Real> pointers_to(const std::array<std::vector<Real>, 7>& tables) {
+  return {tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(),
+          tables[4].data(), tables[5].data(), tables[6].data()};
+}
+
+inline void give(const LjSums& found, LennardJonesSums& sums) {
+  sums.energy += found.energy;
+  sums.coulomb_energy += found.coulomb_energy;
+  for (std::size_t k = 0; k < 6; ++k) sums.virial[k] += found.virial[k];
+}
+
+}  // namespace dch::detail

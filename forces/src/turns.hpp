@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include <dch/base/executor.hpp>
+
+namespace dch::detail {
+
+/// Has workers take turns: each takes the next part when it has none, and does some of the work on it when
+/// all parts before have had theirs done.
+class Turns {
+ public:
+  explicit Turns(int parts) : parts_(parts) {}
+  /// The next part, or -1 if all are taken.
+  int take() {
+    const std::lock_guard lock(mutex_);
+    return taken_ < parts_ ? taken_++ : -1;
+  }
+  template <class Work>
+  void in_turn(int part, const Work& work) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return done_ == part; });
+    lock.unlock();
+    work();
+    lock.lock();
+    ++done_;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int parts_, taken_ = 0, done_ = 0;
+};
+
+/// task(0) .. task(parts - 1), on the executor's threads if there are several.
+inline void run_parts(Executor* executor, int parts, const std::function<void(int)>& task) {
+  if (parts == 1) {
+    task(0);
+  } else {
+    executor->run(parts, task);
+  }
+}
+
+}  // namespace dch::detail

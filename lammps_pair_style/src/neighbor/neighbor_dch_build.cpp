@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A build of the lists: points, search, and what LAMMPS gets of them.
+#include <algorithm>
+#include <atom.h>
+#include <cmath>
+#include <error.h>
+#include <neigh_list.h>
+#include <new>
+#include <utility>
+
+#include <dch/base/error.hpp>
+#include <dch/engines/pair_search.hpp>
+
+#include "neighbor_dch.h"
+#include "neighbor_dch_only.h"
+
+namespace LAMMPS_NS {
+
+namespace {
+
+// A pair of types without interaction has cutoff 0 in LAMMPS, which still lists coincident atoms.
+constexpr double kSmallestCutoff = 1e-100;
+
+double seconds_since(double& start) {
+  const double now = MPI_Wtime();
+  return now - std::exchange(start, now);
+}
+
+}  // namespace
+
+void NeighborDCH::build(int topoflag) {
+  if (tuner_) choose_skin();
+  if (!fills_lists() && clusters_.empty()) {
+    Neighbor::build(topoflag);
+    return;
+  }
+  const bool verify = verifies_this_build();
+  if (verify) build_native_reference();
+  build_ours();
+  if (verify) check_against_native();
+  OnlyTheseLists rest(*this, fills_lists() ? native_plist_ : needed_plist_);
+  Neighbor::build(topoflag);
+}
+
+void NeighborDCH::build_ours() {
+  double clock = MPI_Wtime();
+  try {
+    points_.gather(may_use_box());
+    if (points_.in_box() && fills_lists()) images_.gather(cutneighmax);
+    run_.points_seconds += seconds_since(clock);
+    search_->update(points_.positions(), points_.box(), points_.keys());
+    run_.structure_seconds += seconds_since(clock);
+    run_.entries = 0;
+    if (fills_lists()) fill_lists();
+    fill_clusters();
+  } catch (const dch::Error& e) {
+    error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
+  } catch (const std::bad_alloc&) {
+    error->one(FLERR, std::string("DCH neighbor lists: out of memory; use more processes or give 'dch off'"));
+  }
+  ++run_.builds;
+}
+
+void NeighborDCH::fill_lists() {
+  double clock = MPI_Wtime();
+  const ImageTest by_images(images_);
+  for (ServedList& served : served_) {
+    NeighList& list = *lists[served.index];
+    dch::ListParams params = list_params(served);
+    if (points_.in_box()) {
+      images_.set_cutoffs(served.by_radius);
+      params.near_cutoff = &by_images;
+      params.exclusions = special_.never_seen(points_.size());
+    }
+    search_->list(params, served.rows);
+    run_.rows_seconds += seconds_since(clock);
+    list.grow(atom->nlocal, atom->nlocal + atom->nghost);
+    filler_.fill(points_, images_, served, list);
+    run_.entries += served.pairs;
+    run_.fill_seconds += seconds_since(clock);
+  }
+}
+
+void NeighborDCH::fill_clusters() {
+  double clock = MPI_Wtime();
+  for (const ServedClusters& clusters : clusters_) {
+    cluster_filler_->fill(points_, *search_, present_skin(), *clusters.list);
+    run_.entries += clusters.list->count();
+    run_.clusters_seconds += seconds_since(clock);
+  }
+}
+
+void NeighborDCH::order_atoms() {
+  if (run_.builds == 0 || !order_.is_due()) return;
+  const std::vector<std::int32_t>& points =
+      fills_lists() ? served_.front().rows.particle : cluster_filler_->order(*clusters_.back().list);
+  std::vector<std::int32_t> atoms;
+  atoms.reserve(points.size());
+  for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
+  order_.apply(atoms);
+}
+
+bool NeighborDCH::may_use_box() const {
+  const bool any_ghost_rows =
+      fills_lists() &&
+      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
+  const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
+  return !any_ghost_rows && is_exact && points_.may_use_box(params_.radius);
+}
+
+dch::ListParams NeighborDCH::list_params(const ServedList& served) {
+  dch::ListParams params;
+  // A pair through a ghost is in both rows if newton is off.
+  const bool in_both_rows = served.full || (points_.in_box() && !served.newton);
+  params.kind = in_both_rows ? dch::ListKind::full : dch::ListKind::half;
+  params.order = dch::RowOrder::by_structure;
+  params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
+  params.cutoffs = dch::TypeCutoffs(cutneighmax);
+  params.shell = present_skin();
+  if (served.ghost) return params;
+  if (cutneighmin == cutneighmax) params.cutoffs = dch::TypeCutoffs(std::sqrt(cutneighsq[1][1]));
+  if (served.by_radius) {
+    params.radii = points_.radii();
+    params.skin = skin;
+    if (params.radii.empty()) params.cutoffs = dch::TypeCutoffs(kSmallestCutoff);  // the box is still empty
+    return params;
+  }
+  if (atom->ntypes > 1 && cutneighmin < cutneighmax) {
+    params.cutoffs = type_cutoffs();
+    params.types = points_.types();
+  }
+  return params;
+}
+
+double NeighborDCH::present_skin() const { return tuner_ ? tuner_->skin() : skin; }
+
+dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
+  const int n = atom->ntypes;
+  std::vector<double> matrix;
+  for (int a = 1; a <= n; ++a) {
+    for (int b = 1; b <= n; ++b) {
+      const double cutoff = std::sqrt(std::max(cutneighsq[a][b], cutneighsq[b][a]));
+      matrix.push_back(std::clamp(cutoff, kSmallestCutoff, cutneighmax));
+    }
+  }
+  return dch::TypeCutoffs(n, std::move(matrix));
+}
+
+}  // namespace LAMMPS_NS
