@@ -18,6 +18,7 @@ FLOORS = {
 BELOW = {
     "lib": [],
     "forces": ["lib"],
+    "proximity": ["lib"],
     "necklace_polymer": ["lib"],
     "power_diagram": ["lib", "necklace_polymer"],
     "trajectory": ["lib"],

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The forces of the pair styles of this package: over clusters, pair by pair, or by the plain style.
-#include "pair_dch.h"
-
 #include <algorithm>
 #include <atom.h>
 #include <domain.h>
@@ -13,6 +11,7 @@
 #include <dch/base/error.hpp>
 
 #include "neighbor_dch.h"
+#include "pair_dch.h"
 
 namespace LAMMPS_NS {
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/proximity/nearest.hpp>
+
+#include "near_leaves.hpp"
+#include "nearest_descent.hpp"
+#include "simd/nearest_kernels.hpp"
+
+namespace dch::detail {
+
+/// The nearest neighbors of all points of a leaf at once: the blocks near it are put side by side in float,
+/// and what may be among the nearest is measured once more as it should be. Points that have fewer than k
+/// others near their leaf ask by descent.
+template <class Metric>
+class LeafNearest {
+ public:
+  LeafNearest(const Metric& metric, const Structure& structure, const SubtreeBalls& balls, std::int32_t k);
+
+  /// Fills the rows of a leaf's points.
+  void search_leaf(std::int32_t leaf, NearestRows& rows);
+  /// Fills the row of a point by descent.
+  void search_point(std::int32_t id, NearestRows& rows);
+
+  NearestWork work() const;
+
+ private:
+  double guess_reach(std::int32_t leaf) const;
+  void search_block(std::int32_t block, double reach, NearestRows& rows);
+  void select(std::int32_t block, double reach);
+  bool search_near(std::int32_t slot, double reach, NearestRows& rows);
+
+  const Structure& structure_;
+  const SubtreeBalls& balls_;
+  std::int32_t k_;
+  double slack_;  ///< by which distances of wrapped points may be off
+  NearLeaves near_;
+  NearestDescent<Metric> descent_;
+  const Metric& metric_;
+  const NearestKernels& kernels_;
+  NearestCandidates best_;
+  NearestWork work_;
+
+  struct Selected {
+    float gap2;
+    std::int32_t block;
+  };
+  std::vector<Selected> sorted_;
+  std::vector<std::int32_t> block_, found_slot_;
+  std::vector<float> gap2_, found_distance2_;
+};
+
+}  // namespace dch::detail

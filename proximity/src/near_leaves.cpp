@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "near_leaves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/metric.hpp"
+#include "geometry/tolerance.hpp"
+
+namespace dch::detail {
+namespace {
+
+/// Of a coordinate: offsets and shifts are rounded to float, then their sum, then a difference of two sums,
+/// along three axes; with room to spare.
+constexpr double kRoundings = 16 * 0x1p-24;
+
+/// Squared distance of the frame's origin from a box.
+double gap2_of(const MeasuredLeaves::Corners& corners, Vec3 shift) {
+  Vec3 gap;
+  for (int axis = 0; axis < 3; ++axis)
+    gap[axis] = std::max({corners.low[axis] + shift[axis], -corners.high[axis] - shift[axis], 0.0});
+  return norm2(gap);
+}
+
+}  // namespace
+
+void NearLeaves::clear() {
+  for (int axis = 0; axis < 3; ++axis) {
+    low_[axis].clear();
+    high_[axis].clear();
+  }
+  coordinates_.clear();
+  count_.clear();
+  ids_.clear();
+  widest_ = 0;
+}
+
+template <class Metric>
+bool NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, NearestWork& work) {
+  clear();
+  const Vec3 center = structure_.levels[1].position[leaf];
+  const double within = balls_.radius(1, leaf) + reach;
+  add_leaf(leaf, {}, within);
+  own_ = count();
+  stack_.clear();
+  bool has_one_image = true;
+  const auto look_at = [&](std::int32_t level, std::int32_t node) {
+    ++work.nodes;
+    if (level == 1 && node == leaf) return;
+    const Vec3 at = metric.displacement(center, structure_.position(level, node));
+    const double radius = balls_.radius(level, node);
+    if (norm2(at) > (within + radius) * (within + radius) * kInflate) return;
+    if (level > 1) return stack_.push_back({level, node});
+    has_one_image = has_one_image && (within + radius) * kInflate < structure_.box.max_cutoff();
+    add_leaf(node, at, within);
+  };
+  const Level& top = structure_.levels.back();
+  for (std::int32_t root = 0; root < top.size(); ++root)
+    if (top.is_alive(root)) look_at(structure_.top(), root);
+  while (!stack_.empty()) {
+    const Subtree next = stack_.back();
+    stack_.pop_back();
+    if (structure_.is_lone(next.level, next.node)) {
+      const std::int32_t id = structure_.levels[next.level].id[next.node];
+      has_one_image = has_one_image && within * kInflate < structure_.box.max_cutoff();
+      add_point(id, metric.displacement(center, metric.wrap(structure_.raw[id])));
+    }
+    structure_.for_each_child(next.level, next.node,
+                              [&](std::int32_t child) { look_at(next.level - 1, child); });
+  }
+  make_readable();
+  rounding_ = kRoundings * widest_;
+  return has_one_image && within * kInflate < structure_.box.max_cutoff();
+}
+
+/// The blocks of a leaf whose boxes are within a distance of the frame's origin.
+void NearLeaves::add_leaf(std::int32_t leaf, Vec3 shift, double within) {
+  const MeasuredLeaves& measured = structure_.leaves;
+  const MeasuredLeaves::Leaf& from = measured.leaves[leaf];
+  const double size = from.extent + std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)});
+  const double limit = within + kRoundings * size;
+  for (std::int32_t b = from.first_block; b < from.first_block + from.blocks; ++b) {
+    if (gap2_of(measured.corners[b], shift) > limit * limit) continue;
+    widest_ = std::max(widest_, size);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto by = static_cast<float>(shift[axis]);
+      low_[axis].push_back(measured.corners[b].low[axis] + by);
+      high_[axis].push_back(measured.corners[b].high[axis] + by);
+      for (const float offset : measured.offsets[b].axis[axis]) coordinates_.push_back(offset + by);
+    }
+    count_.push_back(measured.count[b]);
+    const std::int32_t* const ids = structure_.points.id.data() + measured.source[b] * std::size_t{kBlock};
+    ids_.insert(ids_.end(), ids, ids + kBlock);
+  }
+}
+
+/// A point that is in no leaf gets a block of its own.
+void NearLeaves::add_point(std::int32_t id, Vec3 at) {
+  widest_ = std::max({widest_, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto coordinate = static_cast<float>(at[axis]);
+    low_[axis].push_back(coordinate);
+    high_[axis].push_back(coordinate);
+    coordinates_.insert(coordinates_.end(), kBlock, coordinate);
+  }
+  count_.push_back(1);
+  ids_.insert(ids_.end(), kBlock, id);
+}
+
+void NearLeaves::make_readable() {
+  for (int axis = 0; axis < 3; ++axis) {
+    low_[axis].resize(count_.size() + kChunk);
+    high_[axis].resize(count_.size() + kChunk);
+  }
+}
+
+NearBlocks NearLeaves::blocks() const {
+  return {{low_[0].data(), low_[1].data(), low_[2].data()},
+          {high_[0].data(), high_[1].data(), high_[2].data()},
+          coordinates_.data(),
+          count_.data()};
+}
+
+template bool NearLeaves::collect(const OpenMetric&, std::int32_t, double, NearestWork&);
+template bool NearLeaves::collect(const OrthorhombicMetric&, std::int32_t, double, NearestWork&);
+template bool NearLeaves::collect(const LatticeMetric&, std::int32_t, double, NearestWork&);
+
+}  // namespace dch::detail

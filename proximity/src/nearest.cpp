@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <dch/proximity/nearest.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <dch/base/error.hpp>
+
+#include "base/describe.hpp"
+#include "geometry/metric.hpp"
+#include "geometry/position_check.hpp"
+#include "leaf_nearest.hpp"
+#include "nearest_descent.hpp"
+#include "subtree_balls.hpp"
+
+namespace dch {
+
+struct Nearest::Impl {
+  explicit Impl(const detail::Structure& s) : structure(s), balls(s) {}
+
+  const detail::Structure& structure;
+  detail::SubtreeBalls balls;
+};
+
+namespace {
+
+void check(const NearestParams& params) {
+  if (params.k < 1 || params.k > kMaxNearest)
+    throw InvalidParameter(std::to_string(params.k) + " nearest neighbors were asked for; ask for 1 to " +
+                           std::to_string(kMaxNearest));
+  if (!(std::isfinite(params.epsilon) && params.epsilon >= 0))
+    throw InvalidParameter("epsilon of a nearest neighbor query is " + detail::describe(params.epsilon) +
+                           "; it must be finite, and 0 for the nearest ones or more");
+}
+
+/// Rows without neighbors.
+void make_rows(std::size_t rows, std::int32_t k, NearestRows& out) {
+  NearestRows made;
+  made.k = k;
+  made.id.assign(rows * static_cast<std::size_t>(k), -1);
+  made.distance2.assign(made.id.size(), std::numeric_limits<double>::infinity());
+  out = std::move(made);
+}
+
+/// One position after the other.
+template <class Metric>
+class PositionNearest {
+ public:
+  PositionNearest(const Metric& metric, const detail::Structure& structure, const detail::SubtreeBalls& balls,
+                  const NearestParams& params)
+      : params_(params), descent_(metric, structure, balls) {}
+
+  void search(Vec3 position, std::size_t row, NearestRows& rows) {
+    const std::size_t first = row * static_cast<std::size_t>(params_.k);
+    best_.clear(params_.k);
+    descent_.search(position, -1, params_.epsilon, best_);
+    best_.write(rows.id.data() + first, rows.distance2.data() + first);
+  }
+  NearestWork work() const { return descent_.work; }
+
+ private:
+  const NearestParams& params_;
+  detail::NearestDescent<Metric> descent_;
+  detail::NearestCandidates best_;
+};
+
+/// Shares queries among the threads of an executor, each with tools of its own, and adds up the work.
+template <class Tool, class Make, class Search>
+NearestWork share_queries(Executor* executor, std::int32_t count, const Make& make, const Search& search) {
+  const int parts = executor ? executor->threads() : 1;
+  std::vector<NearestWork> work(static_cast<std::size_t>(parts));
+  const auto do_part = [&](int part) {
+    Tool tool = make();
+    for (std::int32_t q = share_begin(count, part, parts); q < share_begin(count, part + 1, parts); ++q)
+      search(tool, q);
+    work[static_cast<std::size_t>(part)] = tool.work();
+  };
+  if (parts == 1) {
+    do_part(0);
+  } else {
+    executor->run(parts, do_part);
+  }
+  NearestWork sum;
+  for (const NearestWork& of_part : work) {
+    sum.nodes += of_part.nodes;
+    sum.blocks += of_part.blocks;
+    sum.points += of_part.points;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Nearest::Nearest(const HierarchyView& view) : impl_(std::make_unique<Impl>(view.structure())) {}
+Nearest::~Nearest() = default;
+Nearest::Nearest(Nearest&&) noexcept = default;
+Nearest& Nearest::operator=(Nearest&&) noexcept = default;
+
+void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
+  check(params);
+  const detail::Structure& structure = impl_->structure;
+  make_rows(structure.slot_of_id.size(), params.k, rows);
+  const std::vector<std::int32_t> alone = structure.lone_points();
+  const std::int32_t leaves = structure.levels[1].size();
+  detail::with_metric(structure.box, [&](const auto& metric) {
+    using Tool = detail::LeafNearest<std::decay_t<decltype(metric)>>;
+    rows.work = share_queries<Tool>(
+        params.executor, leaves + static_cast<std::int32_t>(alone.size()),
+        [&] { return Tool(metric, structure, impl_->balls, params.k); },
+        [&](Tool& tool, std::int32_t q) {
+          if (q >= leaves) return tool.search_point(alone[static_cast<std::size_t>(q - leaves)], rows);
+          if (structure.levels[1].is_alive(q)) tool.search_leaf(q, rows);
+        });
+  });
+}
+
+void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& params,
+                           NearestRows& rows) const {
+  check(params);
+  const detail::Structure& structure = impl_->structure;
+  detail::check_positions(positions, structure.box);
+  make_rows(positions.size(), params.k, rows);
+  detail::with_metric(structure.box, [&](const auto& metric) {
+    using Tool = PositionNearest<std::decay_t<decltype(metric)>>;
+    rows.work = share_queries<Tool>(
+        params.executor, static_cast<std::int32_t>(positions.size()),
+        [&] { return Tool(metric, structure, impl_->balls, params); },
+        [&](Tool& tool, std::int32_t q) { 
+          const auto row = static_cast<std::size_t>(q);
+          tool.search(positions[row], row, rows);
+        });
+  });
+}
+
+}  // namespace dch

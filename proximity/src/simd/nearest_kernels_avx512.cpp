@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "simd/nearest_kernels_loops.hpp"
+
+namespace dch::detail {
+
+const NearestKernels kNearestAvx512{select_blocks, search_blocks};
+
+}  // namespace dch::detail
