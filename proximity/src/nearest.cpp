@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <dch/proximity/nearest.hpp>
-
 #include <cmath>
 #include <limits>
 #include <string>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include <dch/base/error.hpp>
+#include <dch/proximity/nearest.hpp>
 
 #include "base/describe.hpp"
 #include "geometry/metric.hpp"
@@ -117,8 +116,7 @@ void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
   });
 }
 
-void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& params,
-                           NearestRows& rows) const {
+void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& params, NearestRows& rows) const {
   check(params);
   const detail::Structure& structure = impl_->structure;
   detail::check_positions(positions, structure.box);
@@ -128,7 +126,7 @@ void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& para
     rows.work = share_queries<Tool>(
         params.executor, static_cast<std::int32_t>(positions.size()),
         [&] { return Tool(metric, structure, impl_->balls, params); },
-        [&](Tool& tool, std::int32_t q) { 
+        [&](Tool& tool, std::int32_t q) {
           const auto row = static_cast<std::size_t>(q);
           tool.search(positions[row], row, rows);
         });

@@ -17,8 +17,7 @@ constexpr double kFloatError = 0x1p-23;
 double gap_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
   Vec3 gap;
   for (int axis = 0; axis < 3; ++axis)
-    gap[axis] =
-        std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
+    gap[axis] = std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
   return std::sqrt(norm2(gap));
 }
 

@@ -117,9 +117,8 @@ class NearestScene {
   void check_positions(const HierarchyView& view) {
     std::vector<Vec3> queries;
     for (int q = 0; q < 20; ++q)
-      queries.push_back(
-          scenes::from_fractional(box_.box, random_.in_cube(2)) +
-          random_.in_cube(params_.radius));
+      queries.push_back(scenes::from_fractional(box_.box, random_.in_cube(2)) +
+                        random_.in_cube(params_.radius));
     NearestParams params = ask();
     params.epsilon = random_.below(2) == 0 ? 0 : random_.uniform(0, 2);
     const NearestRows rows = Nearest(view).of_positions(queries, params);

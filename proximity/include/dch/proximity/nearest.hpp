@@ -15,8 +15,8 @@ namespace dch {
 
 struct NearestParams {
   std::int32_t k = 1;  ///< how many neighbors of each point, 1..kMaxNearest
-  /// 0 for the nearest ones; else the distance of the j-th one may be up to 1 + epsilon times that of the j-th
-  /// nearest, for queries that look at fewer nodes (Theorem 5.6.9).
+  /// 0 for the nearest ones; else the distance of the j-th one may be up to 1 + epsilon times that of the
+  /// j-th nearest, for queries that look at fewer nodes (Theorem 5.6.9).
   double epsilon = 0;
   /// Threads to search with; null for that of the caller alone. Not owned; results do not depend on it.
   Executor* executor = nullptr;
