@@ -12,9 +12,7 @@ namespace dch::detail {
 /// Disjoint sets of numbers 0..n-1, joined two by two. The least number of a set stands for it.
 class Components {
  public:
-  explicit Components(std::size_t n) : above_(n) {
-    std::iota(above_.begin(), above_.end(), 0);
-  }
+  explicit Components(std::size_t n) : above_(n) { std::iota(above_.begin(), above_.end(), 0); }
   std::int32_t of(std::int32_t k) {
     while (above_[k] != k) k = above_[k] = above_[above_[k]];
     return k;

@@ -43,10 +43,11 @@ class ForeignDescent {
   const SubtreeBalls& balls_;
   double slack_;
   const std::vector<std::int32_t>* component_ = nullptr;
-  std::vector<std::vector<std::int32_t>> of_node_;  ///< by level: the component of all points below, or kMixed
-  std::vector<Subtree> waiting_;                    ///< a heap
-  std::int32_t id_ = -1;                            ///< whose neighbor is looked for
-  Vec3 at_;                                         ///< its wrapped position
+  std::vector<std::vector<std::int32_t>>
+      of_node_;                   ///< by level: the component of all points below, or kMixed
+  std::vector<Subtree> waiting_;  ///< a heap
+  std::int32_t id_ = -1;          ///< whose neighbor is looked for
+  Vec3 at_;                       ///< its wrapped position
 };
 
 }  // namespace dch::detail

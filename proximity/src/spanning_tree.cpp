@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <dch/proximity/spanning_tree.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +6,7 @@
 
 #include <dch/base/error.hpp>
 #include <dch/proximity/nearest.hpp>
+#include <dch/proximity/spanning_tree.hpp>
 
 #include "base/describe.hpp"
 #include "components.hpp"
@@ -98,9 +97,9 @@ void check_cutoff(double cutoff) {
 /// How many edges of a tree are no longer than a cutoff.
 std::size_t edges_within(const SpanningTree& tree, double cutoff) {
   check_cutoff(cutoff);
-  const auto end =
-      std::partition_point(tree.edges.begin(), tree.edges.end(),
-                           [=](const TreeEdge& edge) { return edge.distance2 <= cutoff * cutoff; });
+  const auto end = std::partition_point(tree.edges.begin(), tree.edges.end(), [=](const TreeEdge& edge) {
+    return edge.distance2 <= cutoff * cutoff;
+  });
   return static_cast<std::size_t>(end - tree.edges.begin());
 }
 

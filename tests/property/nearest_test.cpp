@@ -4,18 +4,21 @@
 // is put off, after insertions and removals, on any number of threads, with every instruction set.
 #include <algorithm>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
 #include <dch/base/instruction_set.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/proximity/nearest.hpp>
 
 #include "effort.hpp"
+#include "error_message.hpp"
 #include "instruction_sets.hpp"
 #include "scenes.hpp"
 
@@ -156,6 +159,69 @@ class NearestScene {
 TEST(Nearest, EqualsAllPairsInRandomScenes) {
   for (int k = 0; k < effort(400); ++k)
     ASSERT_NO_FATAL_FAILURE(NearestScene(2000000 + static_cast<std::uint64_t>(k)).check());
+}
+
+Hierarchy hierarchy_of(const std::vector<Vec3>& points, double radius) {
+  HierarchyParams params;
+  params.radius = radius;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  return hierarchy;
+}
+
+/// What a query for the nearest point looks at, on average, among n points of density 1.
+NearestWork work_a_query(std::size_t n) {
+  const double side = std::cbrt(static_cast<double>(n));
+  Hierarchy hierarchy = hierarchy_of(scenes::uniform(n, {side, side, side}, 1), 1.5);
+  const std::vector<Vec3> queries = scenes::uniform(500, {side, side, side}, 2);
+  NearestWork work = Nearest(hierarchy.view()).of_positions(queries, {}).work;
+  for (std::int64_t* count : {&work.nodes, &work.blocks, &work.points}) *count /= 500;
+  return work;
+}
+
+// Each level has eight times the nodes of the next and adds as many to a descent, whatever the number of
+// points.
+TEST(Nearest, WorkOfAQueryGrowsAsTheLogarithmOfTheNumberOfPoints) {
+  const NearestWork few = work_a_query(8000), more = work_a_query(64000), most = work_a_query(512000);
+  EXPECT_LE(few.nodes, 60);
+  EXPECT_LE(more.nodes - few.nodes, 80);
+  EXPECT_LE(most.nodes - more.nodes, 80);
+  for (const NearestWork& work : {few, more, most}) {
+    EXPECT_LE(work.blocks, 90);
+    EXPECT_LE(work.points, 90);
+  }
+}
+
+TEST(Nearest, PointsOfALiquidLookAtAFewDozenOthers) {
+  const double side = 30;
+  const std::vector<Vec3> points = scenes::uniform(27000, {side, side, side}, 3);
+  Hierarchy hierarchy = hierarchy_of(points, 1.5);
+  const NearestWork work = Nearest(hierarchy.view()).of_points({12}).work;
+  const auto n = static_cast<std::int64_t>(points.size());
+  EXPECT_LE(work.nodes, 4 * n);
+  EXPECT_LE(work.blocks, 90 * n);
+  EXPECT_LE(work.points, 130 * n);
+}
+
+TEST(Nearest, BadInputIsNamed) {
+  Hierarchy hierarchy = hierarchy_of({{0, 0, 0}, {1, 0, 0}}, 1);
+  const Nearest nearest(hierarchy.view());
+  const auto of_points = [&](NearestParams params) {
+    return test::message_of<InvalidParameter>([&] { nearest.of_points(params); });
+  };
+  EXPECT_THAT(of_points({0}), testing::HasSubstr("0 nearest neighbors were asked for; ask for 1 to 1048576"));
+  EXPECT_THAT(of_points({kMaxNearest + 1}), testing::HasSubstr("1048577 nearest"));
+  EXPECT_THAT(of_points({1, -0.5}), testing::HasSubstr("epsilon of a nearest neighbor query is -0.5"));
+  EXPECT_THAT(of_points({1, std::nan("")}), testing::HasSubstr("epsilon of a nearest neighbor query is nan"));
+  const std::vector<Vec3> bad{{0, 0, 0}, {0, kNowhere, 0}};
+  EXPECT_THROW(nearest.of_positions(bad, {}), InvalidPosition);
+}
+
+TEST(Nearest, OfNothingIsNothing) {
+  Hierarchy hierarchy = hierarchy_of({}, 1);
+  EXPECT_EQ(Nearest(hierarchy.view()).of_points({3}).size(), 0u);
+  const NearestRows rows = Nearest(hierarchy.view()).of_positions(std::vector<Vec3>{{1, 2, 3}}, {2});
+  EXPECT_EQ(rows.id, (std::vector<std::int32_t>{-1, -1}));
 }
 
 }  // namespace

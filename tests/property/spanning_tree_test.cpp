@@ -34,8 +34,8 @@ std::vector<TreeEdge> all_pairs_tree(const std::vector<Vec3>& points, const Box&
   std::vector<TreeEdge> all, tree;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = i + 1; j < points.size(); ++j)
-      all.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j),
-                     box.distance2(points[i], points[j])});
+      all.push_back(
+          {static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), box.distance2(points[i], points[j])});
   std::sort(all.begin(), all.end());
   Sets sets(points.size());
   for (const TreeEdge& edge : all) {
@@ -52,7 +52,8 @@ class SpanningTrees : public testing::TestWithParam<scenes::NamedBox> {};
 TEST_P(SpanningTrees, EqualThatOfAllPairsAlsoAfterMotion) {
   const Box& box = GetParam().box;
   for (const std::size_t n : {0, 1, 2, 7, 60, 300}) {
-    for (const scenes::NamedPoints& set : scenes::hard_point_sets(box, static_cast<std::size_t>(effort(static_cast<int>(n))), 0.6)) {
+    for (const scenes::NamedPoints& set :
+         scenes::hard_point_sets(box, static_cast<std::size_t>(effort(static_cast<int>(n))), 0.6)) {
       HierarchyParams params;
       params.radius = std::min(1.0, 0.9 * box.max_cutoff());
       Hierarchy hierarchy(params);

@@ -32,8 +32,8 @@ struct SpanningTree {
 };
 
 /// Boruvka's algorithm: the shortest edge that leaves a component comes from the nearest neighbors of its
-/// points, or, where these are all in the component, from a descent that leaves out subtrees of the component.
-/// The same tree on any number of threads.
+/// points, or, where these are all in the component, from a descent that leaves out subtrees of the
+/// component. The same tree on any number of threads.
 /// @param executor threads to search nearest neighbors with; null for that of the caller alone
 SpanningTree minimum_spanning_tree(const HierarchyView& view, Executor* executor = nullptr);
 
