@@ -11,6 +11,7 @@
 #include "base/describe.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
+#include "geometry/space_filling_order.hpp"
 #include "leaf_nearest.hpp"
 #include "nearest_descent.hpp"
 #include "subtree_balls.hpp"
@@ -121,13 +122,16 @@ void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& para
   const detail::Structure& structure = impl_->structure;
   detail::check_positions(positions, structure.box);
   make_rows(positions.size(), params.k, rows);
+  // Queries near each other look at the same subtrees, which are in the cache then.
+  const std::vector<std::int32_t> order =
+      detail::space_filling_order(positions, structure.box, structure.base_radius);
   detail::with_metric(structure.box, [&](const auto& metric) {
     using Tool = PositionNearest<std::decay_t<decltype(metric)>>;
     rows.work = share_queries<Tool>(
         params.executor, static_cast<std::int32_t>(positions.size()),
         [&] { return Tool(metric, structure, impl_->balls, params); },
         [&](Tool& tool, std::int32_t q) {
-          const auto row = static_cast<std::size_t>(q);
+          const auto row = static_cast<std::size_t>(order[static_cast<std::size_t>(q)]);
           tool.search(positions[row], row, rows);
         });
   });

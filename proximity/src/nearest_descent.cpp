@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
@@ -13,12 +14,12 @@ namespace {
 /// Offsets and corners of blocks are rounded to float: by less than this share of the extent of their leaf.
 constexpr double kFloatError = 0x1p-23;
 
-/// Distance of a point from a block's box, both relative to the center of a leaf.
-double gap_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
+/// Squared distance of a point from a block's box, both relative to the center of a leaf.
+double gap2_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
   Vec3 gap;
   for (int axis = 0; axis < 3; ++axis)
     gap[axis] = std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
-  return std::sqrt(norm2(gap));
+  return norm2(gap);
 }
 
 }  // namespace
@@ -27,7 +28,9 @@ template <class Metric>
 void NearestDescent<Metric>::search(Vec3 position, std::int32_t self, double epsilon,
                                     NearestCandidates& best) {
   const double reach = std::max(structure_.largest_reach, wrap_error_.reach(position));
-  const Query query{position, metric_.wrap(position), self, wrap_error_.bound(reach), &best};
+  Query query{position, metric_.wrap(position),
+              self,     wrap_error_.bound(reach),
+              &best,    std::numeric_limits<double>::infinity()};
   waiting_.clear();
   const Level& top = structure_.levels.back();
   for (std::int32_t root = 0; root < top.size(); ++root)
@@ -36,15 +39,9 @@ void NearestDescent<Metric>::search(Vec3 position, std::int32_t self, double eps
     std::pop_heap(waiting_.begin(), waiting_.end());
     const Subtree nearest = waiting_.back();
     waiting_.pop_back();
-    if (nearest.distance * (1 + epsilon) > limit(query)) return;
+    if (nearest.distance * (1 + epsilon) > query.limit) return;
     open(query, nearest);
   }
-}
-
-/// How far off a point may be at most to be taken, by its wrapped image.
-template <class Metric>
-double NearestDescent<Metric>::limit(const Query& query) const {
-  return (std::sqrt(query.best->limit2()) + query.slack) * kInflate;
 }
 
 template <class Metric>
@@ -52,13 +49,13 @@ void NearestDescent<Metric>::push(const Query& query, int level, std::int32_t no
   ++work.nodes;
   const double apart = std::sqrt(metric_.distance2(query.wrapped, structure_.position(level, node)));
   const double distance = apart - balls_.radius(level, node) * kInflate;
-  if (distance > limit(query)) return;
+  if (distance > query.limit) return;
   waiting_.push_back({std::max(0.0, distance), level, node});
   std::push_heap(waiting_.begin(), waiting_.end());
 }
 
 template <class Metric>
-void NearestDescent<Metric>::open(const Query& query, const Subtree& subtree) {
+void NearestDescent<Metric>::open(Query& query, const Subtree& subtree) {
   if (subtree.level == 1) return look_at_leaf(query, subtree.node);
   if (structure_.is_lone(subtree.level, subtree.node))
     look_at_point(query, structure_.levels[subtree.level].id[subtree.node]);
@@ -68,29 +65,29 @@ void NearestDescent<Metric>::open(const Query& query, const Subtree& subtree) {
 
 /// The box of a block says how near its points are where no other image of it can be as near.
 template <class Metric>
-void NearestDescent<Metric>::look_at_leaf(const Query& query, std::int32_t node) {
+void NearestDescent<Metric>::look_at_leaf(Query& query, std::int32_t node) {
   const MeasuredLeaves::Leaf& leaf = structure_.leaves.leaves[node];
   const Vec3 at = metric_.displacement(structure_.levels[1].position[node], query.wrapped);
   const double rounding = kFloatError * leaf.extent;
   for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
     ++work.blocks;
-    const double within = limit(query) + rounding;
+    const double within = query.limit + rounding;
     const bool has_one_image = (within + leaf.extent) * kInflate < structure_.box.max_cutoff();
-    if (has_one_image && gap_between(at, structure_.leaves.corners[b]) > within) continue;
+    if (has_one_image && gap2_between(at, structure_.leaves.corners[b]) > within * within) continue;
     const std::int32_t first = structure_.leaves.source[b] * kBlock;
     for (std::int32_t slot = first; slot < first + structure_.leaves.count[b]; ++slot) {
-      const double far = limit(query);
       ++work.points;
-      if (metric_.distance2(query.wrapped, structure_.points.position[slot]) <= far * far)
+      if (metric_.distance2(query.wrapped, structure_.points.position[slot]) <= query.limit * query.limit)
         look_at_point(query, structure_.points.id[slot]);
     }
   }
 }
 
 template <class Metric>
-void NearestDescent<Metric>::look_at_point(const Query& query, std::int32_t id) {
+void NearestDescent<Metric>::look_at_point(Query& query, std::int32_t id) {
   if (id == query.self) return;
   query.best->add(structure_.box.distance2(query.given, structure_.raw[id]), id);
+  query.limit = (std::sqrt(query.best->limit2()) + query.slack) * kInflate;
 }
 
 template class NearestDescent<OpenMetric>;

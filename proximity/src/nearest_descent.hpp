@@ -38,12 +38,12 @@ class NearestDescent {
     std::int32_t self;
     double slack;  ///< by which distances of wrapped points may be off
     NearestCandidates* best;
+    double limit;  ///< how far off a point may be at most to be taken, by its wrapped image
   };
   void push(const Query& query, int level, std::int32_t node);
-  void open(const Query& query, const Subtree& subtree);
-  void look_at_leaf(const Query& query, std::int32_t node);
-  void look_at_point(const Query& query, std::int32_t id);
-  double limit(const Query& query) const;
+  void open(Query& query, const Subtree& subtree);
+  void look_at_leaf(Query& query, std::int32_t node);
+  void look_at_point(Query& query, std::int32_t id);
 
   const Metric& metric_;
   const Structure& structure_;
