@@ -35,21 +35,20 @@ std::string with_two_digits(double value) {
 
 }  // namespace
 
+std::string name_of(Structure structure) { return structure == Structure::wrapped ? "wrapped" : "dch"; }
+
 ContactFinder::ContactFinder(Necklace necklace, const ContactFinderParams& params)
     : params_(params), wrapped_(std::move(necklace), params.wrapped) {
   check(params);
   const Necklace& chains = wrapped_.necklace();
   for (const std::int32_t particle : chains.particle()) radii_.push_back(chains.radius(particle));
+  if (!radii_.empty()) smallest_radius_ = *std::min_element(radii_.begin(), radii_.end());
 }
 
 void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
   ready_ = false;
   detail::check_positions(necklace(), positions);
   given_.assign(positions.begin(), positions.end());
-  by_place_.clear();
-  for (const std::int32_t particle : necklace().particle()) {
-    by_place_.push_back(given_[static_cast<std::size_t>(particle)]);
-  }
   box_ = box;
   wrapped_is_new_ = search_is_new_ = false;
   ready_ = true;
@@ -57,30 +56,36 @@ void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
 
 bool ContactFinder::any_contact(const ContactQuery& query) {
   std::vector<Contact> found;
-  if (!measures_now() || !wrapped_takes()) return by_dch(query, true, found);
+  if (const auto request = request_of_turn(query)) return by_dch(*request, query, true, found);
   ContactStats stats;
-  const bool any = necklace::any_contact(wrapped_now(), query, &stats, params_.executor);
+  const bool any = necklace::any_contact(wrapped_, query, &stats, params_.executor);
+  answered_by_ = Structure::wrapped;
   if (!any) measured(stats);
   return any;
 }
 
 std::vector<Contact> ContactFinder::find_contacts(const ContactQuery& query) {
   std::vector<Contact> found;
-  if (!measures_now() || !wrapped_takes()) {
-    by_dch(query, false, found);
+  if (const auto request = request_of_turn(query)) {
+    by_dch(*request, query, false, found);
     return found;
   }
   ContactStats stats;
-  found = necklace::find_contacts(wrapped_now(), query, &stats, params_.executor);
+  found = necklace::find_contacts(wrapped_, query, &stats, params_.executor);
+  answered_by_ = Structure::wrapped;
   measured(stats);
   return found;
 }
 
-/// Whether the wrapped hierarchy has its turn.
-bool ContactFinder::measures_now() {
-  if (!ready_) throw InvalidParameter("there are no positions; update before a search");
-  if (choice_.structure == Structure::wrapped) return true;
-  return ++since_measured_ >= params_.measure_every;
+std::size_t ContactFinder::memory_bytes() const {
+  return wrapped_.memory_bytes() + (search_ != nullptr ? search_->stats().memory_bytes : 0) +
+         list_.first.capacity() * sizeof(list_.first[0]) + list_.j.capacity() * sizeof(list_.j[0]) +
+         list_.particle.capacity() * sizeof(list_.particle[0]) + radii_.capacity() * sizeof(double) +
+         (given_.capacity() + by_place_.capacity()) * sizeof(Vec3);
+}
+
+bool ContactFinder::is_turn_of_wrapped() const {
+  return choice_.structure == Structure::wrapped || since_measured_ + 1 >= params_.measure_every;
 }
 
 const WrappedHierarchy& ContactFinder::wrapped_now() {
@@ -95,9 +100,23 @@ bool ContactFinder::wrapped_takes() {
     wrapped_now();
     return true;
   } catch (const Undetermined&) {
+    if (params_.refuse_undetermined) throw;
     since_measured_ = 0;
     return false;
   }
+}
+
+/// Brings the structure up to date that answers the next search: the DCH if there is a request for a list,
+/// else the wrapped hierarchy.
+std::optional<ListParams> ContactFinder::request_of_turn(const ContactQuery& query) {
+  if (!ready_) throw InvalidParameter("there are no positions; update before a search");
+  detail::check_query(necklace(), box_, query);
+  if (is_turn_of_wrapped() && wrapped_takes()) return std::nullopt;
+  if (params_.refuse_undetermined && box_.any_periodic()) unwrap(necklace().chains(), given_, box_);
+  std::optional<ListParams> request = near_pairs(query);
+  if (request && dch_takes(*request)) return request;
+  wrapped_now();
+  return std::nullopt;
 }
 
 /// Chooses anew, with hysteresis: between the two thresholds nothing changes.
@@ -117,46 +136,53 @@ void ContactFinder::measured(const ContactStats& stats) {
   }
 }
 
-/// Lists pairs of places that are near enough for a contact. False for what the DCH does not take although
-/// the wrapped hierarchy does.
-bool ContactFinder::list_near(const ContactQuery& query) {
-  const bool are_points = necklace().largest_radius() == 0;
+/// The list of the pairs of places that are near enough for a contact. None for what the DCH does not take
+/// although the wrapped hierarchy does.
+std::optional<ListParams> ContactFinder::near_pairs(const ContactQuery& query) const {
   const double gap = std::max(query.gap, 0.0);
   ListParams params;
   params.order = RowOrder::by_structure;
-  if (!are_points) {
+  if (necklace().largest_radius() > 0) {
     params.radii = radii_;
     params.skin = gap;
   } else if (gap > 0) {
     params.cutoffs = TypeCutoffs(gap);
   } else {
-    return false;  // contacts at one and the same place alone
+    return std::nullopt;  // contacts at one and the same place alone
   }
   // A little more, so that rounding loses nothing, where the box has room for it.
   ListParams wider = params;
   wider.skin += 1e-12 * params.list_radius();
   if (wider.list_radius() <= box_.max_cutoff()) params = wider;
   const double radius = params.list_radius();
-  if (radius < kMinListRadius || radius > kMaxListRadius) return false;
+  if (radius < kMinListRadius || radius > kMaxListRadius) return std::nullopt;
+  return params;
+}
+
+/// Brings the DCH up to date. False for positions so far outside that their places in the box are uncertain.
+bool ContactFinder::dch_takes(const ListParams& request) {
+  const double radius = request.list_radius();
   const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff());
   if (search_ == nullptr || !fits) {
     HierarchyParams structure;
     structure.radius = radius;
     structure.executor = params_.executor;
-    structure.size_classes =
-        !are_points && necklace().largest_radius() > 2 * *std::min_element(radii_.begin(), radii_.end());
+    structure.size_classes = !request.radii.empty() && necklace().largest_radius() > 2 * smallest_radius_;
     search_ = make_dch_search(structure);
     search_radius_ = radius;
     search_is_new_ = false;
   }
+  if (search_is_new_) return true;
+  by_place_.clear();
+  for (const std::int32_t particle : necklace().particle()) {
+    by_place_.push_back(given_[static_cast<std::size_t>(particle)]);
+  }
   try {
-    if (!search_is_new_) search_->update(by_place_, box_);
-  } catch (const InvalidPosition&) {  // so far outside that their places in the box are uncertain
+    search_->update(by_place_, box_);
+  } catch (const InvalidPosition&) {
     return false;
   }
-  search_is_new_ = true;
-  search_->list(params, list_);
-  return true;
+  return search_is_new_ = true;
 }
 
 /// Whether two places that were listed are in contact, by the very formula of the hierarchies.
@@ -175,12 +201,11 @@ Contact ContactFinder::contact_at(std::int32_t p, std::int32_t q) const {
   return detail::contact_of(particle[i], particle[j], by_place_[i], d, radii_[i], radii_[j]);
 }
 
-bool ContactFinder::by_dch(const ContactQuery& query, bool first_only, std::vector<Contact>& out) {
-  detail::check_query(necklace(), box_, query);
-  if (!list_near(query)) {
-    out = necklace::find_contacts(wrapped_now(), query, nullptr, params_.executor);
-    return !out.empty();
-  }
+bool ContactFinder::by_dch(const ListParams& request, const ContactQuery& query, bool first_only,
+                           std::vector<Contact>& out) {
+  search_->list(request, list_);
+  answered_by_ = Structure::dch;
+  ++since_measured_;
   std::atomic<bool> any{false};
   std::mutex joining;
   detail::FoundPairs found(necklace().particle());

@@ -247,6 +247,40 @@ TEST(ContactFinder, BondsThatLeaveImagesUndeterminedDoNotHideContacts) {
   }
 }
 
+// Hosts to which such bonds are chains of something else have them refused, by the same words in both turns.
+TEST(ContactFinder, RefusesUndeterminedBondsInBothTurnsIfTold) {
+  const Box box = Box::orthorhombic({9, 9, 9});
+  const std::vector<Vec3> broken{{1, 1, 1}, {1, 1, 2.1}, {5, 5, 2.1}};
+  const Necklace necklace = Necklace::chain({0.6, 0.6, 0.6});
+  for (const bool is_dch : {false, true}) {
+    ContactFinderParams params = always_dch();
+    params.refuse_undetermined = true;
+    ContactFinder finder(necklace, params);
+    if (is_dch) measure(finder, std::vector<Vec3>(3, Vec3{1, 1, 1}), box);
+    ASSERT_EQ(finder.choice().structure, is_dch ? Structure::dch : Structure::wrapped);
+    finder.update(broken, box);
+    const auto expect_refused = [](const auto& search) {
+      EXPECT_THAT(message_of<dch::necklace::Undetermined>(search), HasSubstr("bond 1-2 is 5.6"));
+    };
+    expect_refused([&] { finder.find_contacts({}); });
+    expect_refused([&] { finder.any_contact({}); });
+    expect_refused([&] { finder.prepare({}); });
+    finder.update(broken, Box::none());
+    EXPECT_EQ(finder.find_contacts({0.1, 0, true, true}).size(), 1U) << "in open space no bond is too long";
+  }
+}
+
+TEST(ContactFinder, TellsItsMemory) {
+  const Shape cube = dch::necklace::globule(400, 0.2, 3);
+  ContactFinder finder(necklace_of(cube, 0.4), always_dch());
+  const std::size_t empty = finder.memory_bytes();
+  measure(finder, cube.positions, Box::none());
+  const std::size_t wrapped = finder.memory_bytes();
+  EXPECT_GE(wrapped, empty + 400 * (sizeof(dch::Vec3) + sizeof(dch::necklace::Ball)));
+  finder.find_contacts({});
+  EXPECT_GE(finder.memory_bytes(), wrapped + 400 * sizeof(dch::Vec3));
+}
+
 TEST(ContactFinder, WhatNeitherStructureTakesIsRefusedInBothTurns) {
   const Necklace points = Necklace::chain({0, 0, 0});  // the DCH takes no points that are to coincide
   const std::vector<Vec3> broken{{1, 1, 1}, {5, 5, 5}, {1, 1, 1}};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,9 @@ enum class Structure {
   wrapped,  ///< the wrapped hierarchy: cheap while chains are stretched
   dch       ///< near pairs from a discrete center hierarchy, filtered: the same cost however packed they are
 };
+
+/// "wrapped" or "dch".
+std::string name_of(Structure structure);
 
 /// A choice, and why it was made.
 struct StructureChoice {
@@ -37,51 +43,73 @@ struct ContactFinderParams {
   double to_wrapped = 0.8;
   /// While the DCH has its turn, one search in so many is the wrapped hierarchy's, to measure, >= 1.
   int measure_every = 50;
+  /// Refuse bonds that leave images undetermined, whichever structure answers: for hosts to which such a bond
+  /// means chains that do not fit the positions. Costs an unwrap() in a periodic box.
+  bool refuse_undetermined = false;
   /// Threads to search on, whichever structure does; null for that of the caller alone. Not owned; contacts
   /// do not depend on it.
   Executor* executor = nullptr;
 };
 
 /// Contacts by the structure that suits the scene: a figure for how packed the chains are, visited pairs for
-/// each bead, decides between the wrapped hierarchy and the DCH. Both give the same contacts. What the DCH
-/// does not take (beads and gaps that reach less than kMinListRadius or more than kMaxListRadius, positions
-/// that rounding makes uncertain in a periodic box) the wrapped hierarchy answers in its turn too, and what
-/// the wrapped hierarchy does not take (bonds that leave images undetermined, as unwrap() says) the DCH does:
-/// contacts go by the positions as given, whatever the bonds. So the outcome does not depend on whose turn it
-/// is.
+/// each bead, decides between the wrapped hierarchy and the DCH. The figure is a count, the same on any
+/// number of threads, and so are the choice and the contacts. Both structures give the same contacts, bit for
+/// bit.
 ///
-/// A search that ends at its first contact does not measure, as it costs little. Periodic boxes as for
-/// either structure. Not thread-safe; distinct objects are independent.
+/// Whose turn it is changes no outcome, since either answers what the other does not take:
+///  - the wrapped hierarchy takes points (beads and gaps that reach less than kMinListRadius), reaches above
+///    kMaxListRadius, and positions that rounding makes uncertain in a periodic box;
+///  - the DCH takes bonds that leave images undetermined (unwrap()), unless these are to be refused: contacts
+///    go by the positions as given, whatever the bonds.
+///
+/// The first search measures, so it is the wrapped hierarchy's. A search that ends at its first contact does
+/// not measure, as it costs little. Periodic boxes as for either structure. Not thread-safe; distinct objects
+/// are independent.
 class ContactFinder {
  public:
   /// @throws InvalidParameter for a parameter out of its range.
   explicit ContactFinder(Necklace necklace, const ContactFinderParams& params = {});
 
-  /// Takes new positions, after any displacement; structures follow when they are asked.
+  /// Takes new positions, after any displacement; structures follow when they are asked. O(n).
   /// @throws InvalidParameter for another number of positions than particles, InvalidPosition. Nothing is
   ///   held after a throw until the next successful update.
   void update(Span<const Vec3> positions, const Box& box);
 
+  /// Brings the structure that the next search takes up to date, which that search would do itself: for
+  /// callers who time the two apart.
+  /// @throws as the search.
+  void prepare(const ContactQuery& query) { request_of_turn(query); }
+
   /// As the functions of these names in contacts.hpp, which say what a contact is and in which order they
   /// come.
-  /// @throws as these do, and Undetermined where neither structure takes the positions.
+  /// @throws as these do, and Undetermined where neither structure takes the positions, or where bonds are to
+  ///   be refused.
   bool any_contact(const ContactQuery& query);
   std::vector<Contact> find_contacts(const ContactQuery& query);
 
   /// What the next search takes, unless it is its turn to measure.
   const StructureChoice& choice() const { return choice_; }
+  /// What the last search was answered by; the wrapped hierarchy before the first one.
+  Structure answered_by() const { return answered_by_; }
   const Necklace& necklace() const { return wrapped_.necklace(); }
+  /// As it was when it last had its turn.
+  const WrappedHierarchy& wrapped() const { return wrapped_; }
+  /// Of both structures and what is kept beside them. O(1).
+  std::size_t memory_bytes() const;
 
  private:
-  bool measures_now();
+  bool is_turn_of_wrapped() const;
   const WrappedHierarchy& wrapped_now();
   bool wrapped_takes();
+  std::optional<ListParams> request_of_turn(const ContactQuery& query);
+  std::optional<ListParams> near_pairs(const ContactQuery& query) const;
+  bool dch_takes(const ListParams& request);
   void measured(const ContactStats& stats);
-  bool list_near(const ContactQuery& query);
   bool is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const;
   /// @param p the place of the particle of lower index
   Contact contact_at(std::int32_t p, std::int32_t q) const;
-  bool by_dch(const ContactQuery& query, bool first_only, std::vector<Contact>& out);
+  bool by_dch(const ListParams& request, const ContactQuery& query, bool first_only,
+              std::vector<Contact>& out);
 
   ContactFinderParams params_;
   WrappedHierarchy wrapped_;
@@ -89,11 +117,13 @@ class ContactFinder {
   double search_radius_ = 0;
   NeighborList list_;
   std::vector<double> radii_;  ///< by place
-  std::vector<Vec3> given_;    ///< positions by particle
-  std::vector<Vec3> by_place_;
+  double smallest_radius_ = 0;
+  std::vector<Vec3> given_;     ///< positions by particle
+  std::vector<Vec3> by_place_;  ///< as the DCH has them
   Box box_;
   bool ready_ = false, wrapped_is_new_ = false, search_is_new_ = false;
   int since_measured_ = 0;
+  Structure answered_by_ = Structure::wrapped;
   StructureChoice choice_;
 };
 
