@@ -51,8 +51,8 @@ class ContactAnalysis {
   std::int64_t frames_expected_ = 0;
   BeadChains beads_;
   std::optional<BeadFinder> finder_;
-  std::unique_ptr<Executor> threads_;  ///< the hierarchy's too
-  std::optional<necklace::WrappedHierarchy> hierarchy_;
+  std::unique_ptr<Executor> threads_;
+  std::optional<necklace::ContactFinder> contacts_;
   necklace::ContactEvents events_;
   double last_time_ = 0;
   std::optional<ContactFile> data_;
@@ -96,11 +96,14 @@ void ContactAnalysis::take_chains(const Scan& scan) {
   }
   require_gap_fits(scan);
   threads_ = make_threads(options_.threads);
-  hierarchy_.emplace(necklace::Necklace(beads_.chains, radii));
-  const necklace::Necklace& necklace = hierarchy_->necklace();
+  necklace::ContactFinderParams params;
+  params.executor = threads_.get();
+  params.refuse_undetermined = true;  // such a bond is one of other chains than the trajectory's
+  contacts_.emplace(necklace::Necklace(beads_.chains, radii), params);
+  const necklace::Necklace& necklace = contacts_->necklace();
   report_.map = necklace::ContactMap(necklace, options_.query, options_.bins);
   report_.probability = necklace::ContactProbability(necklace, options_.query);
-  report_.cages = static_cast<std::int64_t>(hierarchy_->trees().nodes().size());
+  report_.cages = static_cast<std::int64_t>(contacts_->wrapped().trees().nodes().size());
   for (std::size_t chain = 0; chain <= beads_.chains.size(); ++chain) {
     report_.chain_ends.push_back(necklace.first_place(chain));
   }
@@ -126,7 +129,7 @@ void ContactAnalysis::open_data_file() {
   header.unit = report_.unit;
   header.time = report_.has_times ? "time" : "step";
   header.query = options_.query;
-  data_.emplace(options_.data, header, hierarchy_->necklace(), beads_.ids);
+  data_.emplace(options_.data, header, contacts_->necklace(), beads_.ids);
 }
 
 void ContactAnalysis::follow_frames() {
@@ -196,11 +199,13 @@ std::vector<necklace::Contact> ContactAnalysis::contacts_of(const trajectory::Fr
   };
   try {
     const Stopwatch update;
-    hierarchy_->update(positions, frame.box);
+    contacts_->update(positions, frame.box);
+    contacts_->prepare(options_.query);
     record.update_ms = update.milliseconds();
     const Stopwatch search;
-    auto contacts = necklace::find_contacts(*hierarchy_, options_.query, nullptr, threads_.get());
+    auto contacts = contacts_->find_contacts(options_.query);
     record.search_ms = search.milliseconds();
+    record.by = contacts_->answered_by();
     return contacts;
   } catch (const necklace::Undetermined& error) {
     throw trajectory::FileError(place(bond_text(error, frame.box)));
@@ -236,7 +241,8 @@ std::string ContactAnalysis::bond_text(const necklace::Undetermined& error, cons
 void ContactAnalysis::finish() {
   const std::vector<necklace::ContactEvent> running = events_.finish();
   report_.events.add(running);
-  report_.structure = hierarchy_->stats();
+  report_.structure = contacts_->wrapped().stats();
+  report_.choice = contacts_->choice();
   if (!data_) return;
   const Stopwatch watch;
   data_->append(running);

@@ -27,8 +27,8 @@ struct ContactOptions {
   std::string data;  ///< contacts.h5; empty: none
 };
 
-/// Reads the selected frames, keeps one wrapped hierarchy up through them, and follows the contacts. The data
-/// file is in place when this returns.
+/// Reads the selected frames, finds their contacts with the structure that suits the scene (ContactFinder),
+/// and follows them. The data file is in place when this returns.
 /// @throws UsageError for options that do not fit the file (a gap beyond what half the smallest box height
 ///   allows, frames in an order that time does not have, no chains named); trajectory::FileError for files
 ///   that cannot be read or written, chains that do not fit the trajectory and bonds of half the box and

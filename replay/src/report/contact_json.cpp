@@ -56,6 +56,15 @@ Json separation_json(const ContactReport& report) {
   return ranges;
 }
 
+Json choice_json(const ContactReport& report) {
+  const necklace::StructureChoice& choice = report.choice;
+  return {{"structure", name_of(choice.structure)},
+          {"reason", choice.reason},
+          {"visited_per_bead", choice.visited_per_bead < 0 ? Json(nullptr) : Json(choice.visited_per_bead)},
+          {"frames_wrapped", report.frames_by(necklace::Structure::wrapped)},
+          {"frames_dch", report.frames_by(necklace::Structure::dch)}};
+}
+
 Json per_frame_json(const ContactReport& report) {
   Json json = Json::object();  // null would turn into an object, and be neither without memory
   json["frame"] = column(report, [](const ContactFrame& f) { return f.frame; });
@@ -64,6 +73,7 @@ Json per_frame_json(const ContactReport& report) {
       column(report, [](const ContactFrame& f) { return f.time ? number_or_null(*f.time) : Json(nullptr); });
   json["within"] = column(report, [](const ContactFrame& f) { return f.within; });
   json["between"] = column(report, [](const ContactFrame& f) { return f.between; });
+  json["by"] = column(report, [](const ContactFrame& f) { return name_of(f.by); });
   json["read_ms"] = column(report, [](const ContactFrame& f) { return f.read_ms; });
   json["update_ms"] = column(report, [](const ContactFrame& f) { return f.update_ms; });
   json["search_ms"] = column(report, [](const ContactFrame& f) { return f.search_ms; });
@@ -81,6 +91,7 @@ std::string render_json(const ContactReport& report) {
   json["events"] = events_json(report.events);
   json["separation"] = separation_json(report);
   json["map_bins"] = report.map.bins();
+  json["choice"] = choice_json(report);
   json["structure"] = {{"cages", report.cages},
                        {"updates", stats.updates},
                        {"cages_checked", stats.cages_checked},

@@ -32,6 +32,11 @@ FrameSpread ContactReport::contacts() const {
   return spread;
 }
 
+std::int64_t ContactReport::frames_by(necklace::Structure which) const {
+  return std::count_if(frames.begin(), frames.end(),
+                       [&](const ContactFrame& frame) { return frame.by == which; });
+}
+
 std::string pairs_text(const necklace::ContactQuery& query) {
   if (query.within_chains && query.between_chains) return "all";
   return query.within_chains ? "within" : "between";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dch/necklace/contact_events.hpp>
+#include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contact_map.hpp>
 #include <dch/necklace/contact_probability.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
@@ -22,7 +23,8 @@ struct ContactFrame {
   std::optional<double> time;            ///< in the file's unit
   std::int64_t within = 0, between = 0;  ///< contacts within a chain and between two
   double read_ms = 0, update_ms = 0, search_ms = 0;
-  double follow_ms = 0;  ///< events, map and P(s)
+  double follow_ms = 0;                                   ///< events, map and P(s)
+  necklace::Structure by = necklace::Structure::wrapped;  ///< what found the contacts
 
   std::int64_t contacts() const { return within + between; }
 };
@@ -68,6 +70,7 @@ struct ContactReport : TrajectorySummary {
   necklace::ContactMap map;
   necklace::ContactProbability probability;
   std::vector<std::int32_t> chain_ends;  ///< first places of the chains, and the number of places
+  necklace::StructureChoice choice;      ///< for a frame after the last one
   necklace::WrappedStats structure;
   std::int64_t cages = 0;
   int threads = 1;  ///< that contacts were found with
@@ -75,6 +78,8 @@ struct ContactReport : TrajectorySummary {
 
   /// Of ContactFrame::contacts.
   FrameSpread contacts() const;
+  /// Frames whose contacts this structure found.
+  std::int64_t frames_by(necklace::Structure which) const;
 };
 
 /// "all", "within" or "between": the pairs of beads that a query is for.

@@ -61,6 +61,12 @@ std::string probability_text(const ContactReport& report) {
   return text(ranges.front()) + ", " + text(ranges.back());
 }
 
+std::string choice_text(const ContactReport& report) {
+  return fmt::format("wrapped hierarchy in {}, DCH in {}; {}",
+                     counted(report.frames_by(necklace::Structure::wrapped), "frame"),
+                     grouped(report.frames_by(necklace::Structure::dch)), report.choice.reason);
+}
+
 std::string structure_text(const ContactReport& report) {
   const auto& stats = report.structure;
   const double checked = static_cast<double>(stats.cages_checked);
@@ -100,6 +106,7 @@ std::vector<Row> contact_rows(const ContactReport& report) {
           {"duration", duration_text(report)},
           {"P(s)", probability_text(report)},
           {"map", counted(static_cast<std::int64_t>(report.map.bins()), "bin")},
+          {"found by", choice_text(report)},
           {"structure", structure_text(report)},
           {"ms a frame", cost_text(report)}};
 }

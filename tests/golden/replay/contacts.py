@@ -17,7 +17,7 @@ import h5py
 import numpy
 
 from contact_oracle import Contacts, chains_by_molecule, lay_chains, read_dump
-from dch_command import Checks, check_keys, expect_failure, run
+from dch_command import Checks, check_keys, expect_failure, run, write_chain
 from drawings import drawing_faults
 
 CARDS = ["Contact map", "P(s)", "Contacts of a frame", "Duration of contacts"]
@@ -106,7 +106,7 @@ def check_polymer(checks, command, data, docs, folder):
     compare(checks, "polymer", expected, file, report)
     check_keys(checks, report, docs, {"always"}, "contacts")
     checks.that(report["chains"]["beads"] == 1714 and report["map_bins"] <= 512, f"chains {report['chains']}")
-    checks.that(report["structure"]["updates"] == len(frames) - 1, "the hierarchy is kept up")
+    checks.that(report["structure"]["updates"] == report["choice"]["frames_wrapped"] - 1, "the hierarchy is kept up")
     selected = Contacts(frames[2:8:2], chains, lambda atom: 2.5, 1.2345678901, 3, "between")
     file, report = follow(checks, command, folder, path, "--gap", "1.2345678901", "--radius", "2.5", "--pairs", "between",
                           "--skip-bonds", "3", "--frames", "8:32:8", "--bins", "9", "--topology", topology)
@@ -204,6 +204,45 @@ def check_melt(checks, command, melt, path, folder):
         checks.that(report["atoms"] > report["fewest_atoms"] >= 300 == report["chains"]["beads"], "solvent comes and goes")
 
 
+def check_choice(checks, command, docs, folder):
+    """A folded chain is searched over space after its first frame, a stretched one along the chain; the report says so."""
+    path = os.path.join(folder, "chain.lammpstrj")
+    for folded, by in ((True, ["wrapped"] + 7 * ["dch"]), (False, 8 * ["wrapped"])):
+        write_chain(path, folded)
+        frames = read_dump(path)
+        expected = Contacts(frames, [(list(range(1, 513)), False)], lambda atom: 0.5, 0.9123456789)
+        for threads in ("1", "3"):
+            file, report = follow(checks, command, folder, path, "--gap", "0.9123456789", "--radius", "0.5", "--threads", threads)
+            compare(checks, f"{'folded' if folded else 'stretched'} chain, {threads} threads", expected, file, report)
+            choice = report["choice"]
+            checks.that(report["per_frame"]["by"] == by, f"found by {report['per_frame']['by']}")
+            checks.that((choice["frames_wrapped"], choice["frames_dch"]) == (by.count("wrapped"), by.count("dch")),
+                        f"frames of {choice}")
+            checks.that(choice["structure"] == by[-1] and (choice["visited_per_bead"] > 1.2) == folded, f"choice {choice}")
+            checks.that(report["structure"]["updates"] == by.count("wrapped") - 1, f"updates of {report['structure']}")
+        check_keys(checks, report, docs, {"always"}, "contacts")
+        row = f"found by        wrapped hierarchy in {by.count('wrapped')} frame"
+        why = "above 1.20: the DCH" if folded else "below 0.80: the wrapped hierarchy"
+        table = run(command, "contacts", path, "--gap", "0.9123456789", "--radius", "0.5").stdout
+        checks.that(row in table and why in table, f"the table lacks {row!r} or {why!r}: {table}")
+
+
+def check_torn_chain(checks, command, folder):
+    """A bond of half the box is refused with the ids of its atoms in the frame that has it, though the search over space,
+    whose turn it is, would not need the bond."""
+    path = os.path.join(folder, "torn.lammpstrj")
+    write_chain(path, True, frames=3)
+    lines = open(path).read().splitlines()
+    second = lines.index("1") + 8
+    for k in range(second + 200, second + 512):
+        atom, molecule, x, y, z = lines[k].split()
+        lines[k] = f"{atom} {molecule} {float(x) + 5} {float(y) + 5} {z}"
+    with open(path, "w") as file:
+        file.write("\n".join(lines) + "\n")
+    expect_failure(checks, command, ["contacts", path, "--gap", "0.5", "--radius", "0.5"], 3,
+                   [path, "frame 1", "the ids 200 and 201", "half the smallest box height"])
+
+
 def check_page(checks, command, path, folder):
     page = os.path.join(folder, "contacts.html")
     for options, cards in (([], CARDS), (["--pairs", "between"], [CARDS[0], *CARDS[2:]]),
@@ -248,6 +287,8 @@ def main(command, data, docs):
         check_water(checks, command, data, folder)
         melt, path = make_melt(command, folder)
         check_melt(checks, command, melt, path, folder)
+        check_choice(checks, command, docs, folder)
+        check_torn_chain(checks, command, folder)
         check_page(checks, command, path, folder)
         check_summary(checks, command, path, docs, folder)
         left = [name for name in os.listdir(folder) if "partial" in name or "tmp" in name]

@@ -3,6 +3,7 @@
 
 import json
 import os
+import random
 import re
 import resource
 import subprocess
@@ -95,6 +96,25 @@ def keys_of(value, name=""):
     if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
         return {name} | {key for v in value for key in keys_of(v, name + "[]")}
     return {name}
+
+
+def write_chain(path, folded, frames=8, per_side=8, box=12.0):
+    """A dump of one chain that shakes: folded, row by row and layer by layer, into a cube, or stretched in a zigzag."""
+    number = random.Random(5)
+    place = []
+    for z in range(per_side):
+        for y in range(per_side) if z % 2 == 0 else reversed(range(per_side)):
+            row = range(per_side) if (y + z) % 2 == 0 else reversed(range(per_side))
+            place.extend([float(x), float(y), float(z)] for x in row)
+    if not folded:
+        place = [[0.9 * k, 0.3 * (k % 2), 0.0] for k in range(len(place))]
+        box = 1.1 * len(place)
+    with open(path, "w") as file:
+        for frame in range(frames):
+            file.write(f"ITEM: TIMESTEP\n{frame}\nITEM: NUMBER OF ATOMS\n{len(place)}\nITEM: BOX BOUNDS pp pp pp\n"
+                       + f"0 {box!r}\n" * 3 + "ITEM: ATOMS id mol x y z\n")
+            file.writelines(f"{k + 1} 1 {x!r} {y!r} {z!r}\n" for k, (x, y, z) in enumerate(place))
+            place = [[x + number.uniform(-0.03, 0.03) for x in p] for p in place]
 
 
 def check_keys(checks, report, docs, present, command="replay"):
