@@ -44,10 +44,13 @@ ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** 
   if (radius_of_type_.empty() && !atom->radius_flag)
     error->all(FLERR,
                kName + "this atom style has no radii; give 'radius R', or 'radius' and one for each type");
-  scalar_flag = peratom_flag = local_flag = 1;
+  scalar_flag = peratom_flag = local_flag = array_flag = 1;
   extscalar = 0;  // a number of contacts, which thermo output does not divide by that of atoms
   size_peratom_cols = 0;
   size_local_cols = 3;
+  size_array_rows = 1;
+  size_array_cols = static_cast<int>(search_.size());
+  extarray = 0;
   dynamic_group_allow = 1;
 }
 
@@ -101,15 +104,17 @@ int ComputeNecklaceContact::read_radii(int narg, char** arg, int at) {
 
 void ComputeNecklaceContact::init() { found_at_ = -1; }
 
-/// Chains anew if atoms or bonds are others than before, with a hierarchy that has no positions yet.
+/// Chains anew if atoms or bonds are others than before, in structures that have no positions yet.
 void ComputeNecklaceContact::follow_chains() {
   using namespace dch::necklace;
-  if (hierarchy_ && known_tags_ == beads_.tags() && known_bonds_ == beads_.bonds() &&
-      std::equal(beads_.radii().begin(), beads_.radii().end(), hierarchy_->necklace().radii().begin()))
+  if (finder_ && known_tags_ == beads_.tags() && known_bonds_ == beads_.bonds() &&
+      std::equal(beads_.radii().begin(), beads_.radii().end(), finder_->necklace().radii().begin()))
     return;
-  hierarchy_.reset();
-  hierarchy_ = std::make_unique<WrappedHierarchy>(
-      Necklace(Chains::from_bonds(beads_.tags().size(), beads_.bonds()), beads_.radii()));
+  finder_.reset();
+  ContactFinderParams params;
+  params.refuse_undetermined = true;  // a bond over half the box is one of a run that has gone wrong
+  finder_ = std::make_unique<ContactFinder>(
+      Necklace(Chains::from_bonds(beads_.tags().size(), beads_.bonds()), beads_.radii()), params);
   known_tags_ = beads_.tags();
   known_bonds_ = beads_.bonds();
 }
@@ -119,8 +124,8 @@ void ComputeNecklaceContact::find() {
   contacts_.clear();
   try {
     follow_chains();
-    hierarchy_->update(beads_.positions(), box_of(*domain));
-    contacts_ = dch::necklace::find_contacts(*hierarchy_, query_);
+    finder_->update(beads_.positions(), box_of(*domain));
+    contacts_ = finder_->find_contacts(query_);
   } catch (const dch::Error& e) {  // all processes have the same beads, so all throw
     error->all(FLERR,
                kName + e.what() + " (beads are numbered from 0 in the order of atom IDs in the group)");
@@ -183,10 +188,19 @@ void ComputeNecklaceContact::compute_local() {
   array_local = row_starts_.data();
 }
 
+/// One row: which structure found the contacts, and the figure that chooses between them.
+void ComputeNecklaceContact::compute_array() {
+  invoked_array = update->ntimestep;
+  find_for(Result::search);
+  search_ = {finder_->answered_by() == dch::necklace::Structure::dch ? 1.0 : 0.0,
+             finder_->choice().visited_per_bead};
+  array = &search_row_;
+}
+
 double ComputeNecklaceContact::memory_usage() {
   double bytes = static_cast<double>(counts_.size() * sizeof(double) + rows_.size() * sizeof(rows_[0]) +
                                      contacts_.size() * sizeof(contacts_[0]));
-  if (hierarchy_) bytes += static_cast<double>(hierarchy_->memory_bytes());
+  if (finder_) bytes += static_cast<double>(finder_->memory_bytes());
   return bytes;
 }
 

@@ -12,8 +12,7 @@ ComputeStyle(necklace/contact,ComputeNecklaceContact);
 #include <memory>
 #include <vector>
 
-#include <dch/necklace/contacts.hpp>
-#include <dch/necklace/wrapped_hierarchy.hpp>
+#include <dch/necklace/contact_finder.hpp>
 
 #include "gathered_beads.h"
 
@@ -21,10 +20,11 @@ namespace LAMMPS_NS {
 
 /// necklace/contact: where the chains of a group touch themselves and each other. The atoms' contacts, how
 /// many there are, and a list of them: atom IDs and gap, each on the process that owns the atom of smaller
-/// ID.
+/// ID; and how they were found.
 ///
-/// Every process gathers all chains and finds all contacts, by a wrapped hierarchy that it keeps from call to
-/// call.
+/// Every process gathers all chains and finds all contacts, by structures that it keeps from call to call:
+/// along the chains while these are stretched, over space where they are packed. All processes have the same
+/// beads and count the same work, so they choose alike.
 class ComputeNecklaceContact : public Compute {
  public:
   ComputeNecklaceContact(LAMMPS* lammps, int narg, char** arg);
@@ -33,10 +33,11 @@ class ComputeNecklaceContact : public Compute {
   double compute_scalar() override;
   void compute_peratom() override;
   void compute_local() override;
+  void compute_array() override;
   double memory_usage() override;
 
  private:
-  enum class Result { scalar, by_atom, local };
+  enum class Result { scalar, by_atom, local, search };
 
   void read_keywords(int narg, char** arg);
   int read_radii(int narg, char** arg, int at);
@@ -48,16 +49,18 @@ class ComputeNecklaceContact : public Compute {
   dch::necklace::ContactQuery query_;
   std::vector<double> radius_of_type_;  ///< from 1 [length]; empty: the atoms' own
   GatheredBeads beads_;
-  std::vector<tagint> known_tags_;  ///< of the chains in hierarchy_, as are the bonds and radii
+  std::vector<tagint> known_tags_;  ///< of the chains in finder_, as are the bonds and radii
   std::vector<dch::IndexPair> known_bonds_;
-  std::unique_ptr<dch::necklace::WrappedHierarchy> hierarchy_;
+  std::unique_ptr<dch::necklace::ContactFinder> finder_;
   std::vector<dch::necklace::Contact> contacts_;
   bigint found_at_ = -1;  ///< step of contacts_; -1 for none
-  std::array<bool, 3>
+  std::array<bool, 4>
       taken_{};  ///< by result: it has had contacts_ already, so its next call is of later positions
   std::vector<double> counts_;  ///< what vector_atom points to
   std::vector<std::array<double, 3> > rows_;
   std::vector<double*> row_starts_;  ///< what array_local points to
+  std::array<double, 2> search_{};   ///< the row of the global array
+  double* search_row_ = search_.data();
 };
 
 }  // namespace LAMMPS_NS

@@ -30,7 +30,7 @@ fix move all nve/limit 0.05
 fix bath all langevin 1.0 1.0 0.5 904297
 compute touch ${group} necklace/contact ${arguments}
 thermo 20
-thermo_style custom step c_touch
+thermo_style custom step c_touch c_touch[1][1] c_touch[1][2]
 dump atoms all custom 20 atoms id mol type x y z c_touch
 dump_modify atoms sort id format float %.17g
 dump pairs all local 20 pairs c_touch[1] c_touch[2] c_touch[3]
@@ -99,6 +99,12 @@ class NecklaceContact(unittest.TestCase):
         frames, pairs = read_frames(host.work / "atoms"), read_frames(host.work / "pairs")
         self.assertEqual([0, 20, 40], [frame[0] for frame in frames])
         by_type = rules.pop("by_type")
+        # The melt is packed, but not one chain alone: after the first search, which measures, contacts are searched
+        # for over space.
+        packed = rules.get("between", True)
+        self.assertEqual([0, 1, 1] if packed else [0, 0, 0], [line["c_touch[1][1]"] for line in thermo])
+        self.assertEqual(packed, thermo[0]["c_touch[1][2]"] > 1.2)
+        self.assertEqual(1, len({line["c_touch[1][2]"] for line in thermo}) if packed else 1)
         for line, (step, edge, atoms), (_, _, rows) in zip(thermo, frames, pairs):
             members = only(atoms)
             radius = numpy.array([by_type[int(kind)] for kind in members[:, 2]])
@@ -159,8 +165,21 @@ class NecklaceContact(unittest.TestCase):
         for gap, contacts in ((0.0, 0), (2 * 1.9 * math.sin(math.pi / 6) - side + 1e-9, 12)):
             script = RING.replace("create_bonds single/bond 1 1 1\n", "")
             script += f"compute touch all necklace/contact {gap!r} radius {side / 2!r}\n"
-            script += "pair_style zero 3.0\npair_coeff * *\nbond_style zero\nbond_coeff *\nthermo_style custom step c_touch\nrun 0\n"
-            self.assertEqual(contacts, thermo_tables(run(script))[0][0]["c_touch"])
+            script += "pair_style zero 3.0\npair_coeff * *\nbond_style zero\nbond_coeff *\n"
+            script += "thermo 1\nthermo_style custom step c_touch c_touch[1][1]\nrun 2\n"
+            lines = thermo_tables(run(script))[0]
+            self.assertEqual([contacts] * 3, [line["c_touch"] for line in lines])
+            self.assertEqual([0] * 3, [line["c_touch[1][1]"] for line in lines])  # little to search for
+
+    def test_a_bond_of_half_the_box_is_refused_whatever_searches(self):
+        """In the first search, which is made along the chains, and in the second, which is made over space."""
+        for before in ("", "run 2\n"):
+            script = MELT.replace("compute touch", "group far id 1:30\ncompute touch") + "thermo 1\n" + before
+            script += "undump atoms\nundump pairs\ndisplace_atoms far move 5 5 5\nrun 0\n"
+            code, output = host.run_text(script, variables={"arguments": "0.1 radius 0.5", "newton": "on", "group": "all"})
+            self.assertNotEqual(0, code)
+            self.assertIn("bond 29-30 is ", output)
+            self.assertIn("which is not below half the smallest box height", output)
 
     def test_bad_arguments_are_named(self):
         for arguments, message in (
