@@ -130,6 +130,7 @@ class NecklaceContactForce : public OpenMM::Force {
                           bool closed = false);
   void updateParametersInContext(OpenMM::Context& context);
   std::vector<OpenMMDCH::NecklaceContact> getContacts(OpenMM::Context& context, double maxGap = 0);
+  std::string getSearchInContext(const OpenMM::Context& context) const;
 
   %extend {
     /// The force as this class: System.getForce() does not know it.

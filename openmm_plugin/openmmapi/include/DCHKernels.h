@@ -38,6 +38,8 @@ class CalcNecklaceContactForceKernel : public OpenMM::KernelImpl {
   virtual void copyParametersToContext(OpenMM::ContextImpl& context, const NecklaceContactForce& force) = 0;
   /// The pairs that act on each other with surfaces at most maxGap [nm] apart, in ascending order.
   virtual std::vector<NecklaceContact> contacts(OpenMM::ContextImpl& context, double maxGap) = 0;
+  /// What the next search for contacts is made with, and why.
+  virtual std::string search() const = 0;
 };
 
 }  // namespace OpenMMDCH

@@ -3,6 +3,7 @@
 #define OPENMM_DCH_NECKLACE_CONTACT_FORCE_H_
 
 #include <openmm/Force.h>
+#include <string>
 #include <vector>
 
 namespace OpenMMDCH {
@@ -20,9 +21,11 @@ struct NecklaceContact {
 /// their radii, unless they are bonded or near each other along one chain (setExcludedBonds()). Bonds
 /// themselves are for other forces to hold. Particles in no chain do not interact.
 ///
-/// Contacts are found with the wrapped hierarchy of bounding spheres along the chains (dch::necklace, thesis
-/// 4.4 and 4.5), from positions in double precision, which is kept up by verification and repair while the
-/// chains move. Forces and energies are the same on every platform, in double.
+/// Contacts are found with the wrapped hierarchy of bounding spheres along the chains (thesis 4.4 and 4.5)
+/// or, where chains are packed, with a discrete center hierarchy over space (dch::necklace::ContactFinder).
+/// Counted work decides which one, getSearchInContext() says it, and both give the same pairs. They work on
+/// positions in double precision and are kept up while the chains move. Forces and energies are the same on
+/// every platform, in double.
 ///
 /// Where a method throws, it throws OpenMM::OpenMMException with the offending value. What is wrong with
 /// chains as such is found when a Context is made.
@@ -92,6 +95,11 @@ class NecklaceContactForce : public OpenMM::Force {
   /// @param maxGap  [nm]; below 0 it asks for overlaps of at least -maxGap
   /// @throws if it is not finite, or too large for the periodic box.
   std::vector<NecklaceContact> getContacts(OpenMM::Context& context, double maxGap = 0);
+
+  /// What the next search for contacts in a Context that holds this force is made with, and why, for people
+  /// to read: "wrapped: ..." for the wrapped hierarchy, "dch: ..." for the hierarchy over space. The first
+  /// search is the wrapped hierarchy's and measures; forces do not depend on it.
+  std::string getSearchInContext(const OpenMM::Context& context) const;
 
  protected:
   OpenMM::ForceImpl* createImpl() const override;

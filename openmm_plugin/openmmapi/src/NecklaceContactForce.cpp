@@ -73,6 +73,10 @@ std::vector<NecklaceContact> NecklaceContactForce::getContacts(OpenMM::Context& 
       .getContacts(getContextImpl(context), maxGap);
 }
 
+std::string NecklaceContactForce::getSearchInContext(const OpenMM::Context& context) const {
+  return dynamic_cast<const NecklaceContactForceImpl&>(getImplInContext(context)).getSearch();
+}
+
 OpenMM::ForceImpl* NecklaceContactForce::createImpl() const { return new NecklaceContactForceImpl(*this); }
 
 }  // namespace OpenMMDCH

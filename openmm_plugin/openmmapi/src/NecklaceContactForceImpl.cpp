@@ -38,4 +38,8 @@ std::vector<NecklaceContact> NecklaceContactForceImpl::getContacts(OpenMM::Conte
   return kernel.getAs<CalcNecklaceContactForceKernel>().contacts(context, maxGap);
 }
 
+std::string NecklaceContactForceImpl::getSearch() const {
+  return kernel.getAs<const CalcNecklaceContactForceKernel>().search();
+}
+
 }  // namespace OpenMMDCH

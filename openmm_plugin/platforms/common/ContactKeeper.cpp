@@ -9,6 +9,13 @@
 namespace OpenMMDCH {
 namespace {
 
+dch::necklace::ContactFinderParams paramsFor(dch::Executor* threads) {
+  dch::necklace::ContactFinderParams params;
+  params.executor = threads;
+  params.refuse_undetermined = true;  // chains of a simulation that has gone wrong
+  return params;
+}
+
 // Of the largest sum of two radii. With more, searches are rarer and pairs between them are more: in a melt
 // 0.3 to 0.45 are equally fast, 0.2 and 0.6 slower.
 constexpr double kSkinFraction = 0.3;
@@ -17,10 +24,7 @@ constexpr double kSkinFraction = 0.3;
 
 ContactKeeper::ContactKeeper(dch::necklace::Necklace necklace,
                              const dch::necklace::ContactQuery& contactQuery, dch::Executor* threads)
-    : hierarchy(std::move(necklace)),
-      query(contactQuery),
-      executor(threads),
-      beads(hierarchy.necklace().size()) {}
+    : finder(std::move(necklace), paramsFor(threads)), query(contactQuery), beads(finder.necklace().size()) {}
 
 /// As large as there is room, or near it, since boxes change all the time under a barostat.
 void ContactKeeper::chooseSkin(const dch::Box& box) {
@@ -45,9 +49,9 @@ dch::Span<const dch::IndexPair> ContactKeeper::at(dch::Span<const dch::Vec3> pos
 
 std::vector<dch::necklace::Contact> ContactKeeper::contacts(dch::Span<const dch::Vec3> positions,
                                                             const dch::Box& box, double gap) {
-  hierarchy.update(positions, box);
+  finder.update(positions, box);
   query.gap = gap;
-  return dch::necklace::find_contacts(hierarchy, query, nullptr, executor);
+  return finder.find_contacts(query);
 }
 
 }  // namespace OpenMMDCH

@@ -7,13 +7,12 @@
 
 #include <dch/base/executor.hpp>
 #include <dch/lists/stale_test.hpp>
-#include <dch/necklace/contacts.hpp>
-#include <dch/necklace/wrapped_hierarchy.hpp>
+#include <dch/necklace/contact_finder.hpp>
 
 namespace OpenMMDCH {
 
 /// Keeps the pairs of beads that touch, and some that nearly do, complete while chains move and the box
-/// changes. The wrapped hierarchy is brought up to date, and searched, when a pair might be missing.
+/// changes. They are searched for when a pair might be missing, with the structure that suits the chains.
 class ContactKeeper {
  public:
   /// @param query  its gap is not looked at
@@ -21,7 +20,9 @@ class ContactKeeper {
   ContactKeeper(dch::necklace::Necklace necklace, const dch::necklace::ContactQuery& query,
                 dch::Executor* threads);
 
-  const dch::necklace::Necklace& necklace() const { return hierarchy.necklace(); }
+  const dch::necklace::Necklace& necklace() const { return finder.necklace(); }
+  /// What the next search is made with, and why.
+  const dch::necklace::StructureChoice& choice() const { return finder.choice(); }
 
   /// Pairs of particles i < j in ascending order, all that touch among them.
   /// @throws dch::Error for positions that are not finite, a bond of half the box's height or more, a chain
@@ -35,9 +36,8 @@ class ContactKeeper {
  private:
   void chooseSkin(const dch::Box& box);
 
-  dch::necklace::WrappedHierarchy hierarchy;
+  dch::necklace::ContactFinder finder;
   dch::necklace::ContactQuery query;
-  dch::Executor* executor;
   double skin = 0;
   std::optional<dch::StaleTest> staleTest;
   std::vector<dch::Vec3> beads;  ///< by place

@@ -129,4 +129,8 @@ std::vector<NecklaceContact> NecklaceContactKernel::contacts(OpenMM::ContextImpl
   });
 }
 
+std::string NecklaceContactKernel::search() const {
+  return name_of(keeper->choice().structure) + ": " + keeper->choice().reason;
+}
+
 }  // namespace OpenMMDCH

@@ -30,6 +30,7 @@ class NecklaceContactKernel : public CalcNecklaceContactForceKernel {
   double execute(OpenMM::ContextImpl& context, bool includeForces, bool includeEnergy) override;
   void copyParametersToContext(OpenMM::ContextImpl& context, const NecklaceContactForce& force) override;
   std::vector<NecklaceContact> contacts(OpenMM::ContextImpl& context, double maxGap) override;
+  std::string search() const override;
 
  private:
   void checkBox(const dch::Box& box) const;

@@ -82,6 +82,74 @@ TEST_P(ContactMotionTest, FollowsJumpsAndTeleports) {
   }
 }
 
+/// A chain row by row and layer by layer through a lattice, which the seed puts into disorder.
+std::vector<Vec3> packed_chain(int side, double spacing, std::uint64_t seed) {
+  dch::scenes::Random random(seed);
+  std::vector<Vec3> chain;
+  for (int z = 0; z < side; ++z)
+    for (int k = 0; k < side; ++k)
+      for (int n = 0; n < side; ++n) {
+        const int y = z % 2 == 0 ? k : side - 1 - k;
+        const int x = (y + z) % 2 == 0 ? n : side - 1 - n;
+        const dch::Vec3 off = random.in_ball(0.1 * spacing);
+        chain.push_back(Vec3(x, y, z) * spacing + Vec3(off.x, off.y, off.z));
+      }
+  return chain;
+}
+
+// The first search is the wrapped hierarchy's; from then on counted work decides.
+TEST_P(ContactMotionTest, PackedChainsAreSearchedOverSpaceAndStretchedOnesAlongTheChain) {
+  for (const bool is_packed : {true, false})
+    for (const Vec3* const box : {static_cast<const Vec3*>(nullptr), cube}) {
+      ContactCase chain;
+      if (box) chain.set_box(box);
+      std::vector<Vec3> beads = packed_chain(6, 0.3, 3);
+      if (!is_packed)
+        for (std::size_t k = 0; k < beads.size(); ++k)
+          beads[k] = Vec3(0.15 * static_cast<double>(k), k % 2 == 0 ? 0 : 0.1, 0);
+      // Around the box the long straight chain would lie on itself.
+      if (box && !is_packed) beads.resize(14);
+      chain.add_chain(beads, 0.16);
+      chain.force->setEnergyFunction(NecklaceContactForce::SoftCosine);
+      Host host(chain.system, GetParam());
+      EXPECT_THAT(chain.force->getSearchInContext(*host), HasSubstr("wrapped: no search yet"));
+      dch::scenes::Random random(4);
+      for (int step = 0; step < 4; ++step) {
+        for (Vec3& p : beads) p += Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0) * 0.02;
+        const std::string what =
+            (is_packed ? "packed" : "stretched") + std::string(", step ") + std::to_string(step);
+        expect_near(all_contacts(*chain.force, beads, box), host.evaluate(beads), kContactTolerance, what);
+        const auto expected = contact_oracle(*chain.force, beads, box, 0.05);
+        const auto found = chain.force->getContacts(*host, 0.05);
+        ASSERT_EQ(found.size(), expected.size()) << what;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          EXPECT_EQ(found[k].particle1, expected[k].particle1) << what;
+          EXPECT_EQ(found[k].particle2, expected[k].particle2) << what;
+        }
+        EXPECT_THAT(chain.force->getSearchInContext(*host),
+                    HasSubstr(is_packed ? "above 1.20: the DCH" : "below 0.80: the wrapped hierarchy"))
+            << what;
+      }
+    }
+}
+
+// The hierarchy over space, which a packed chain is searched with, would not need the bond.
+TEST_P(ContactMotionTest, BondsThatDoNotFitAreRefusedInPackedChainsToo) {
+  ContactCase chain;
+  chain.set_box(cube);
+  chain.add_chain(packed_chain(6, 0.3, 3), 0.16);
+  chain.force->setEnergyFunction(NecklaceContactForce::SoftCosine);
+  Host host(chain.system, GetParam());
+  host.evaluate(chain.positions);
+  ASSERT_THAT(chain.force->getSearchInContext(*host), testing::StartsWith("dch: "));
+  std::vector<Vec3> torn = chain.positions;
+  for (std::size_t k = 0; k < 108; ++k) torn[k] += Vec3(1, 1, 1);
+  EXPECT_THAT(message_of([&] { host.evaluate(torn); }),
+              HasSubstr("NecklaceContactForce: bond 107-108 is 1."));
+  expect_near(all_contacts(*chain.force, chain.positions, cube), host.evaluate(chain.positions),
+              kContactTolerance);
+}
+
 TEST_P(ContactMotionTest, BoxesAndBondsThatDoNotFitAreRefused) {
   ContactCase chain;
   chain.set_box(cube);

@@ -25,6 +25,7 @@ class NecklaceContactForceImpl : public OpenMM::ForceImpl {
   std::vector<std::string> getKernelNames() override;
   void updateParametersInContext(OpenMM::ContextImpl& context);
   std::vector<NecklaceContact> getContacts(OpenMM::ContextImpl& context, double maxGap);
+  std::string getSearch() const;
 
  private:
   const NecklaceContactForce& owner;
