@@ -28,6 +28,29 @@ void check(const ContactFinderParams& params) {
   }
 }
 
+/// Which places are asked for beside a given one, as far as chains tell.
+class BesidePlace {
+ public:
+  BesidePlace(const Necklace& necklace, const ContactQuery& query, std::int32_t place)
+      : query_(query), place_(place) {
+    const std::size_t chain = necklace.chain_at(place);
+    first_ = necklace.first_place(chain);
+    end_ = necklace.first_place(chain + 1);
+    is_closed_ = necklace.chains().closed(chain);
+  }
+  bool asks_for(std::int32_t other) const {
+    if (other < first_ || other >= end_) return query_.between_chains;
+    const std::int32_t along = std::abs(place_ - other);
+    const std::int32_t bonds = is_closed_ ? std::min(along, end_ - first_ - along) : along;
+    return query_.within_chains && bonds > query_.skip_bonds;
+  }
+
+ private:
+  const ContactQuery& query_;
+  std::int32_t place_, first_, end_;
+  bool is_closed_;
+};
+
 std::string with_two_digits(double value) {
   const std::string text = std::to_string(value);
   return text.substr(0, text.find('.') + 3);
@@ -49,6 +72,7 @@ void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
   ready_ = false;
   detail::check_positions(necklace(), positions);
   given_.assign(positions.begin(), positions.end());
+  by_place_.clear();
   box_ = box;
   wrapped_is_new_ = search_is_new_ = false;
   ready_ = true;
@@ -112,7 +136,8 @@ std::optional<ListParams> ContactFinder::request_of_turn(const ContactQuery& que
   if (!ready_) throw InvalidParameter("there are no positions; update before a search");
   detail::check_query(necklace(), box_, query);
   if (is_turn_of_wrapped() && wrapped_takes()) return std::nullopt;
-  if (params_.refuse_undetermined && box_.any_periodic()) unwrap(necklace().chains(), given_, box_);
+  if (by_place_.empty()) place_beads();
+  if (params_.refuse_undetermined && box_.any_periodic()) require_determined();
   std::optional<ListParams> request = near_pairs(query);
   if (request && dch_takes(*request)) return request;
   wrapped_now();
@@ -136,19 +161,49 @@ void ContactFinder::measured(const ContactStats& stats) {
   }
 }
 
+void ContactFinder::place_beads() {
+  by_place_.reserve(necklace().size());  // all or, without memory, none
+  for (const std::int32_t particle : necklace().particle()) {
+    by_place_.push_back(given_[static_cast<std::size_t>(particle)]);
+  }
+}
+
+/// Refuses bonds as unwrap() does, at a fraction of its cost: only chains whose bonds are not plainly short
+/// enough, or do not plainly sum up to nothing around a ring, are unwrapped.
+void ContactFinder::require_determined() const {
+  const double limit2 = (1 - 1e-9) * box_.max_cutoff() * box_.max_cutoff();
+  const Chains& chains = necklace().chains();
+  for (std::size_t chain = 0; chain < chains.size(); ++chain) {
+    const auto first = static_cast<std::size_t>(necklace().first_place(chain));
+    const auto end = static_cast<std::size_t>(necklace().first_place(chain + 1));
+    Vec3 around;
+    double longest2 = 0;
+    const auto follow = [&](std::size_t from, std::size_t to) {
+      const Vec3 bond = box_.nearest_image(by_place_[to] - by_place_[from]);
+      around = around + bond;
+      longest2 = std::max(longest2, norm2(bond));
+    };
+    for (std::size_t place = first + 1; place < end; ++place) follow(place - 1, place);
+    if (chains.closed(chain)) follow(end - 1, first);
+    if (longest2 < limit2 && (!chains.closed(chain) || norm2(around) < limit2)) continue;
+    unwrap(chains, given_, box_);
+    return;
+  }
+}
+
 /// The list of the pairs of places that are near enough for a contact. None for what the DCH does not take
 /// although the wrapped hierarchy does.
 std::optional<ListParams> ContactFinder::near_pairs(const ContactQuery& query) const {
   const double gap = std::max(query.gap, 0.0);
   ListParams params;
   params.order = RowOrder::by_structure;
-  if (necklace().largest_radius() > 0) {
+  if (smallest_radius_ < necklace().largest_radius()) {
     params.radii = radii_;
     params.skin = gap;
-  } else if (gap > 0) {
-    params.cutoffs = TypeCutoffs(gap);
   } else {
-    return std::nullopt;  // contacts at one and the same place alone
+    const double reach = 2 * smallest_radius_ + gap;
+    if (reach == 0) return std::nullopt;  // contacts at one and the same place alone
+    params.cutoffs = TypeCutoffs(reach);
   }
   // A little more, so that rounding loses nothing, where the box has room for it.
   ListParams wider = params;
@@ -173,25 +228,12 @@ bool ContactFinder::dch_takes(const ListParams& request) {
     search_is_new_ = false;
   }
   if (search_is_new_) return true;
-  by_place_.clear();
-  for (const std::int32_t particle : necklace().particle()) {
-    by_place_.push_back(given_[static_cast<std::size_t>(particle)]);
-  }
   try {
     search_->update(by_place_, box_);
   } catch (const InvalidPosition&) {
     return false;
   }
   return search_is_new_ = true;
-}
-
-/// Whether two places that were listed are in contact, by the very formula of the hierarchies.
-bool ContactFinder::is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const {
-  const std::int32_t bonds = necklace().bonds_between(p, q);
-  if (bonds >= 0 ? !query.within_chains || bonds <= query.skip_bonds : !query.between_chains) return false;
-  const auto a = static_cast<std::size_t>(p), b = static_cast<std::size_t>(q);
-  const double reach = radii_[a] + radii_[b] + query.gap;
-  return reach >= 0 && box_.distance2(by_place_[a], by_place_[b]) <= reach * reach;
 }
 
 Contact ContactFinder::contact_at(std::int32_t p, std::int32_t q) const {
@@ -213,9 +255,17 @@ bool ContactFinder::by_dch(const ListParams& request, const ContactQuery& query,
     detail::FoundPairs part(necklace().particle());
     for (std::size_t row = first; row < last && !(first_only && any); ++row) {
       const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
+      const BesidePlace beside(necklace(), query, p);
+      const Vec3 at = by_place_[static_cast<std::size_t>(p)];
+      const double radius = radii_[static_cast<std::size_t>(p)];
       for (const std::int32_t q : list_.row(row)) {
-        if (!is_contact(p, q, query)) continue;
-        any = true;
+        // By the very formula of the hierarchies.
+        const double reach = radius + radii_[static_cast<std::size_t>(q)] + query.gap;
+        if (!(reach >= 0 && box_.distance2(at, by_place_[static_cast<std::size_t>(q)]) <= reach * reach))
+          continue;
+        if (!beside.asks_for(q)) continue;
+        any.store(true, std::memory_order_relaxed);
+        if (first_only) break;
         part.add(p, q);
       }
     }

@@ -127,7 +127,7 @@ TEST_P(ContactMotionTest, PackedChainsAreSearchedOverSpaceAndStretchedOnesAlongT
           EXPECT_EQ(found[k].particle2, expected[k].particle2) << what;
         }
         EXPECT_THAT(chain.force->getSearchInContext(*host),
-                    HasSubstr(is_packed ? "above 1.20: the DCH" : "below 0.80: the wrapped hierarchy"))
+                    HasSubstr(is_packed ? "above 1.80: the DCH" : "below 1.40: the wrapped hierarchy"))
             << what;
       }
     }

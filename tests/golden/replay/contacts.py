@@ -218,11 +218,11 @@ def check_choice(checks, command, docs, folder):
             checks.that(report["per_frame"]["by"] == by, f"found by {report['per_frame']['by']}")
             checks.that((choice["frames_wrapped"], choice["frames_dch"]) == (by.count("wrapped"), by.count("dch")),
                         f"frames of {choice}")
-            checks.that(choice["structure"] == by[-1] and (choice["visited_per_bead"] > 1.2) == folded, f"choice {choice}")
+            checks.that(choice["structure"] == by[-1] and (choice["visited_per_bead"] > 1.8) == folded, f"choice {choice}")
             checks.that(report["structure"]["updates"] == by.count("wrapped") - 1, f"updates of {report['structure']}")
         check_keys(checks, report, docs, {"always"}, "contacts")
         row = f"found by        wrapped hierarchy in {by.count('wrapped')} frame"
-        why = "above 1.20: the DCH" if folded else "below 0.80: the wrapped hierarchy"
+        why = "above 1.80: the DCH" if folded else "below 1.40: the wrapped hierarchy"
         table = run(command, "contacts", path, "--gap", "0.9123456789", "--radius", "0.5").stdout
         checks.that(row in table and why in table, f"the table lacks {row!r} or {why!r}: {table}")
 

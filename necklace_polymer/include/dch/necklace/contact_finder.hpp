@@ -38,13 +38,13 @@ struct ContactFinderParams {
   WrappedParams wrapped;
   /// The DCH takes over above this many visited pairs a bead, >= 0. Defaults are from measurements
   /// (docs/necklaces.md).
-  double to_dch = 1.2;
+  double to_dch = 1.8;
   /// The wrapped hierarchy comes back below this many, 0 .. to_dch.
-  double to_wrapped = 0.8;
+  double to_wrapped = 1.4;
   /// While the DCH has its turn, one search in so many is the wrapped hierarchy's, to measure, >= 1.
   int measure_every = 50;
   /// Refuse bonds that leave images undetermined, whichever structure answers: for hosts to which such a bond
-  /// means chains that do not fit the positions. Costs an unwrap() in a periodic box.
+  /// means chains that do not fit the positions.
   bool refuse_undetermined = false;
   /// Threads to search on, whichever structure does; null for that of the caller alone. Not owned; contacts
   /// do not depend on it.
@@ -104,8 +104,9 @@ class ContactFinder {
   std::optional<ListParams> request_of_turn(const ContactQuery& query);
   std::optional<ListParams> near_pairs(const ContactQuery& query) const;
   bool dch_takes(const ListParams& request);
+  void place_beads();
+  void require_determined() const;
   void measured(const ContactStats& stats);
-  bool is_contact(std::int32_t p, std::int32_t q, const ContactQuery& query) const;
   /// @param p the place of the particle of lower index
   Contact contact_at(std::int32_t p, std::int32_t q) const;
   bool by_dch(const ListParams& request, const ContactQuery& query, bool first_only,
