@@ -218,7 +218,7 @@ std::vector<IndexPair> PowerDiagram::edges() const {
   return result;
 }
 
-std::vector<IndexPair> PowerDiagram::doubles() const {
+std::vector<IndexPair> PowerDiagram::coincident() const {
   std::vector<IndexPair> result;
   if (impl_->stats.hidden == 0) return result;
   for (std::size_t k = 0; k < impl_->balls.size(); ++k) {

@@ -70,13 +70,13 @@ Request parse_skin(const std::vector<std::string>& words) {
 }
 
 Request parse_threads(const std::vector<std::string>& words) {
-  constexpr long kMost = 1024;
+  constexpr long kMaxThreads = 1024;
   Request request;
   request.action = Request::Action::threads;
   if (words.size() == 1) refuse("'dch threads' lacks its number; for example 'dch threads 4'");
   char* end = nullptr;
   const long n = std::strtol(words[1].c_str(), &end, 10);
-  if (words[1].empty() || *end != '\0' || n < 1 || n > kMost) {
+  if (words[1].empty() || *end != '\0' || n < 1 || n > kMaxThreads) {
     refuse("the number of threads is '" + words[1] +
            "' but has to be a whole number from 1 to 1024; for example 'dch threads 4'");
   }

@@ -138,8 +138,8 @@ bool NeighborDCH::sizes_differ_much() const {
     return false;
   }
   if (atom->nlocal == 0) return false;
-  const auto [least, most] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
-  return *most > kRatio * *least;
+  const auto [min, max] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
+  return *max > kRatio * *min;
 }
 
 void NeighborDCH::prepare_search() {

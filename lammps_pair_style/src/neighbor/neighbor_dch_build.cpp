@@ -19,7 +19,7 @@ namespace LAMMPS_NS {
 namespace {
 
 // A pair of types without interaction has cutoff 0 in LAMMPS, which still lists coincident atoms.
-constexpr double kSmallestCutoff = 1e-100;
+constexpr double kMinCutoff = 1e-100;
 
 double seconds_since(double& start) {
   const double now = MPI_Wtime();
@@ -122,7 +122,7 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   if (served.by_radius) {
     params.radii = points_.radii();
     params.skin = skin;
-    if (params.radii.empty()) params.cutoffs = dch::TypeCutoffs(kSmallestCutoff);  // the box is still empty
+    if (params.radii.empty()) params.cutoffs = dch::TypeCutoffs(kMinCutoff);  // the box is still empty
     return params;
   }
   if (atom->ntypes > 1 && cutneighmin < cutneighmax) {
@@ -140,7 +140,7 @@ dch::TypeCutoffs NeighborDCH::type_cutoffs() const {
   for (int a = 1; a <= n; ++a) {
     for (int b = 1; b <= n; ++b) {
       const double cutoff = std::sqrt(std::max(cutneighsq[a][b], cutneighsq[b][a]));
-      matrix.push_back(std::clamp(cutoff, kSmallestCutoff, cutneighmax));
+      matrix.push_back(std::clamp(cutoff, kMinCutoff, cutneighmax));
     }
   }
   return dch::TypeCutoffs(n, std::move(matrix));

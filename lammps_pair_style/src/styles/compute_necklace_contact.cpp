@@ -19,7 +19,7 @@ namespace LAMMPS_NS {
 namespace {
 
 const std::string kName = "Compute necklace/contact: ";
-constexpr int kLargestSkip = 1000000;
+constexpr int kMaxSkip = 1000000;
 
 /// A finite number, else NaN.
 double number(const char* word) {
@@ -73,9 +73,9 @@ void ComputeNecklaceContact::read_keywords(int narg, char** arg) {
     }
     if (keyword == "skip") {
       const double bonds = number(arg[at + 1]);
-      if (!(bonds >= 0 && bonds <= kLargestSkip && bonds == std::floor(bonds)))
+      if (!(bonds >= 0 && bonds <= kMaxSkip && bonds == std::floor(bonds)))
         error->all(FLERR, kName + "skip is '" + value + "' but has to be a whole number from 0 to " +
-                              std::to_string(kLargestSkip));
+                              std::to_string(kMaxSkip));
       query_.skip_bonds = static_cast<int>(bonds);
     } else {
       if (value != "all" && value != "within" && value != "between")

@@ -71,9 +71,9 @@ ContactMap::ContactMap(const Necklace& necklace, const ContactQuery& query, std:
     : query_(query),
       place_(detail::places_by_particle(necklace)),
       places_(static_cast<std::int32_t>(necklace.size())) {
-  detail::require_parameter(max_bins >= 1 && max_bins <= kMostBins,
+  detail::require_parameter(max_bins >= 1 && max_bins <= kMaxBins,
                             "the number of bins is " + std::to_string(max_bins) + "; it has to be 1 to " +
-                                std::to_string(kMostBins));
+                                std::to_string(kMaxBins));
   detail::require_parameter(query.skip_bonds >= 0,
                             "skip_bonds is " + std::to_string(query.skip_bonds) + "; it has to be 0 or more");
   if (necklace.chains().size() <= static_cast<std::size_t>(max_bins)) {

@@ -50,14 +50,14 @@ Touching touching_two(const Ball& a, const Ball& b) {
 
 /// The first center is that of the first ball + q: finds the weights of the balls' centers in it.
 void weigh(Touching& result, Vec3 q, const std::array<Vec3, 3>& dual, int others) {
-  double first = 1, least = INFINITY;
+  double first = 1, min_weight = INFINITY;
   for (int k = 0; k < others; ++k) {
     const double weight = dot(q, dual[static_cast<std::size_t>(k)]);
     first -= weight;
-    if (weight < least) least = weight, result.weakest = k + 1;
+    if (weight < min_weight) min_weight = weight, result.weakest = k + 1;
   }
-  if (first < least) result.weakest = 0;
-  result.central = std::min(first, least) >= 0;
+  if (first < min_weight) result.weakest = 0;
+  result.central = std::min(first, min_weight) >= 0;
 }
 
 /// For three or four balls: with q the center relative to that of the first ball, s the radius less the
@@ -68,11 +68,11 @@ template <bool kWeigh>
 Touching touching_more(Vec3 origin, const std::array<Vec3, 3>& d, const std::array<double, 3>& f,
                        const std::array<Vec3, 3>& dual, int others) {
   Vec3 u, v;
-  double least = 0;
+  double min_s = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(others); ++k) {
     u = u + (0.5 * (norm2(d[k]) - f[k] * f[k])) * dual[k];
     v = v + f[k] * dual[k];
-    least = std::max(least, f[k]);
+    min_s = std::max(min_s, f[k]);
   }
   Touching result;
   if (f[0] == 0 && f[1] == 0 && f[2] == 0) {
@@ -87,7 +87,7 @@ Touching touching_more(Vec3 origin, const std::array<Vec3, 3>& d, const std::arr
   const double sum = b >= 0 ? -(b + root) : root - b;  // the one without cancellation
   const std::array<double, 2> solutions{sum / a, c / sum};
   for (const double s : solutions) {
-    if (!(s >= least && std::isfinite(s))) continue;
+    if (!(s >= min_s && std::isfinite(s))) continue;
     const Vec3 q = u + s * v;
     if (kWeigh && result.count == 0) weigh(result, q, dual, others);
     result.center[static_cast<std::size_t>(result.count++)] = origin + q;
@@ -161,7 +161,7 @@ double reach(const Few& few, Vec3 center) {
 /// Whatever the center, the ball around it that reaches the farthest side encloses all; the minimum one is
 /// the least of these. So of the balls that subsets touch the one of least reach is the answer, and no
 /// tolerance decides. Subsets have to hold all of `required`; smaller ones come first and win ties.
-EnclosingBall least(const Few& few, unsigned required) {
+EnclosingBall smallest_of(const Few& few, unsigned required) {
   double best = INFINITY;
   EnclosingBall result;
   for (int size = 1; size <= std::min(few.size, 4); ++size) {
@@ -196,14 +196,14 @@ EnclosingBall ball_of_basis(Span<const Ball> balls, const Basis& basis) {
     }
     part.remove(found.weakest);
   }
-  return least(few, 0);
+  return smallest_of(few, 0);
 }
 
 EnclosingBall exchange(Span<const Ball> balls, const Basis& basis, std::int32_t entering) {
   Few few;
   few.add(balls, entering);
   for (const std::int32_t k : basis.indices()) few.add(balls, k);
-  return least(few, 1);
+  return smallest_of(few, 1);
 }
 
 }  // namespace dch::necklace::detail

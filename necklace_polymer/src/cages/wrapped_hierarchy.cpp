@@ -14,8 +14,9 @@ namespace dch::necklace {
 
 namespace {
 
-/// Cages of no more beads are looked at as a whole, which is one loop over beads that stand side by side.
-constexpr std::int32_t kFewestWatched = 32;
+/// An update looks at all beads of a cage that has no more than these: one loop over beads that stand side by
+/// side in memory.
+constexpr std::int32_t kMaxUnwatched = 32;
 
 /// What rounding may take from the bound on where beads are that are not watched, relative to the cage.
 constexpr double kWatchMargin = 1e-12;
@@ -45,7 +46,7 @@ WrappedHierarchy::WrappedHierarchy(Necklace necklace, const WrappedParams& param
   }
   if (params.verification != Verification::watched) return;
   for (const ChainTrees::Node& node : trees().nodes()) {
-    const bool large = node.count > kFewestWatched;
+    const bool large = node.count > kMaxUnwatched;
     watch_of_.push_back(large ? static_cast<std::int32_t>(watches_.size()) : -1);
     if (large) watches_.emplace_back();
   }
@@ -128,7 +129,7 @@ std::int32_t WrappedHierarchy::farthest(std::int32_t k, const EnclosingBall& fou
                                         double& reach) {
   const ChainTrees::Node& node = trees().node(k);
   if (verification == Verification::cascade) return farthest_by_cascade(k, found, reach);
-  if (verification == Verification::watched && node.count > kFewestWatched) {
+  if (verification == Verification::watched && node.count > kMaxUnwatched) {
     const auto watch = static_cast<std::size_t>(watch_of_[static_cast<std::size_t>(k)]);
     return farthest_of_watched(node, watches_[watch], found, reach);
   }
@@ -221,7 +222,7 @@ std::int32_t WrappedHierarchy::farthest_of_watched(const ChainTrees::Node& node,
   const Vec3 center = found.ball.center;
   const double since = watch.travelled + std::sqrt(norm2(center - watch.center));
   // Right after a look the farthest bead is among those watched, wherever it is.
-  if (!(watch.rest + since <= found.ball.radius * (1 - kWatchMargin))) look(node, center, watch);
+  if (!(watch.rest + since <= found.ball.radius * (1 - kWatchMargin))) scan(node, center, watch);
   const Ball* const balls = beads().data();
   reach = found.ball.radius * (1 + detail::kContainmentTolerance);
   std::int32_t farthest = -1;
@@ -235,7 +236,7 @@ std::int32_t WrappedHierarchy::farthest_of_watched(const ChainTrees::Node& node,
 }
 
 /// Watches the beads of a node that reach farthest from a center.
-void WrappedHierarchy::look(const ChainTrees::Node& node, Vec3 center, Watch& watch) {
+void WrappedHierarchy::scan(const ChainTrees::Node& node, Vec3 center, Watch& watch) {
   std::array<double, std::tuple_size<decltype(Watch::places)>::value> far;
   far.fill(-1);
   for (std::int32_t place = node.first; place < node.first + node.count; ++place) {

@@ -107,9 +107,9 @@ std::optional<Contact> ClosestPair::find(int skip_bonds, ClosestPairStats* stats
 
 /// The balls at each place where there are several, by the one that stands for them, in order of particles.
 ClosestPair::Places ClosestPair::shared_places() const {
-  const std::vector<IndexPair> doubles = diagram_->doubles();
-  Places places(doubles.empty() ? 0 : beads_.size());
-  for (const auto& [bead, stands] : doubles) {
+  const std::vector<IndexPair> coincident = diagram_->coincident();
+  Places places(coincident.empty() ? 0 : beads_.size());
+  for (const auto& [bead, stands] : coincident) {
     auto& place = places[static_cast<std::size_t>(stands)];
     if (place.empty()) place.push_back(stands);
     place.push_back(bead);
@@ -159,11 +159,11 @@ void ClosestPair::look_along_chains(Best& best, int skip_bonds, ClosestPairStats
   for (std::size_t chain = 0; chain < necklace_.chains().size(); ++chain) {
     const std::int32_t first = necklace_.first_place(chain);
     const std::int32_t beads = necklace_.first_place(chain + 1) - first;
-    const auto most =
+    const auto max_bonds =
         static_cast<std::int32_t>(std::min<std::int64_t>(2 * std::int64_t{skip_bonds}, beads - 1));
     const bool closed = necklace_.chains().closed(chain);
     for (std::int32_t k = 0; k < beads; ++k) {
-      for (std::int32_t bonds = skip_bonds + 1; bonds <= most; ++bonds) {
+      for (std::int32_t bonds = skip_bonds + 1; bonds <= max_bonds; ++bonds) {
         if (k + bonds >= beads && !closed) break;
         ++stats.common;
         best.offer(first + k, first + (k + bonds) % beads);

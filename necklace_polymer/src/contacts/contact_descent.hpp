@@ -21,12 +21,14 @@ class BondRule {
   bool leaves_out(std::int32_t bonds) const { return bonds <= skip_ || around_ - bonds <= skip_; }
   /// All pairs of the ranges, as far as that is plain.
   bool leaves_out_all(const ChainTrees::Node& a, const ChainTrees::Node& b) const {
-    const std::int32_t least = b.first - (a.first + a.count - 1), most = b.first + b.count - 1 - a.first;
-    return most <= skip_ || around_ - least <= skip_;
+    const std::int32_t min_bonds = b.first - (a.first + a.count - 1);
+    const std::int32_t max_bonds = b.first + b.count - 1 - a.first;
+    return max_bonds <= skip_ || around_ - min_bonds <= skip_;
   }
   bool leaves_out_some(const ChainTrees::Node& a, const ChainTrees::Node& b) const {
-    const std::int32_t least = b.first - (a.first + a.count - 1), most = b.first + b.count - 1 - a.first;
-    return least <= skip_ || around_ - most <= skip_;
+    const std::int32_t min_bonds = b.first - (a.first + a.count - 1);
+    const std::int32_t max_bonds = b.first + b.count - 1 - a.first;
+    return min_bonds <= skip_ || around_ - max_bonds <= skip_;
   }
 
  private:
@@ -71,10 +73,10 @@ class ContactDescent {
     return {skip_, hierarchy_.necklace().chains().closed(chain), trees_.node(trees_.roots()[chain]).count};
   }
 
-  void take_steps(ContactTask task, std::int64_t most) {
+  void take_steps(ContactTask task, std::int64_t max_steps) {
     const BondRule rule = rule_of(task);
     for (std::int64_t taken = 0; !visitor_.done(); ++taken) {
-      if (taken == most) return stack_.push_back(task);
+      if (taken == max_steps) return stack_.push_back(task);
       if (step(task, rule)) continue;
       if (stack_.empty()) return;
       task = stack_.back();

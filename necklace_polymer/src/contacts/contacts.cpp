@@ -61,7 +61,7 @@ struct Certified : All {
 /// others waiting.
 constexpr int kPartsOfThread = 8;
 /// Nodes of fewer beads are not worth a task.
-constexpr std::int64_t kFewestBeads = 64;
+constexpr std::int64_t kMinTaskBeads = 64;
 
 template <class Visitor>
 ContactStats search_alone(const CageHierarchy& hierarchy, const ContactQuery& query, Visitor& visitor) {
@@ -76,7 +76,7 @@ ContactStats search_alone(const CageHierarchy& hierarchy, const ContactQuery& qu
 /// The parts of a search on several threads.
 struct SearchParts {
   detail::ChainTasks chains;
-  std::int64_t most;                         ///< beads of a task that is left whole
+  std::int64_t max_beads;                    ///< beads of a task that is left whole
   std::vector<detail::ContactTask> smaller;  ///< what those of more beads were begun into
 };
 
@@ -86,20 +86,20 @@ SearchParts parts_of(const CageHierarchy& hierarchy, const ContactQuery& query, 
   const ChainTrees& trees = hierarchy.trees();
   SearchParts parts{{hierarchy, query, false}, 0, {}};
   const auto beads = static_cast<std::int64_t>(hierarchy.necklace().size());
-  parts.most = std::max(beads / (kPartsOfThread * threads), kFewestBeads);
+  parts.max_beads = std::max(beads / (kPartsOfThread * threads), kMinTaskBeads);
   std::vector<detail::ContactTask> large;
   std::int64_t longest = 0;
   for (const std::int32_t root : trees.roots())
     longest = std::max<std::int64_t>(longest, trees.node(root).count);
-  for (std::size_t chain = 0; 2 * longest > parts.most && chain < parts.chains.chains(); ++chain) {
+  for (std::size_t chain = 0; 2 * longest > parts.max_beads && chain < parts.chains.chains(); ++chain) {
     parts.chains.of_chain(chain, [&](const detail::ContactTask& task) {
-      if (beads_of(trees, task) > parts.most) large.push_back(task);
+      if (beads_of(trees, task) > parts.max_beads) large.push_back(task);
     });
   }
   while (!large.empty()) {
     const detail::ContactTask task = large.back();
     large.pop_back();
-    if (beads_of(trees, task) > parts.most) {
+    if (beads_of(trees, task) > parts.max_beads) {
       descent.begin(task, large);
     } else {
       parts.smaller.push_back(task);
@@ -124,7 +124,7 @@ ContactStats search_side_by_side(const CageHierarchy& hierarchy, const ContactQu
   const auto run_every = [&](std::size_t chain, detail::ContactDescent<Visitor>& descent) {
     for (; chain < parts.chains.chains(); chain += static_cast<std::size_t>(count)) {
       parts.chains.of_chain(chain, [&](const detail::ContactTask& task) {
-        if (beads_of(trees, task) <= parts.most) descent.run(task);
+        if (beads_of(trees, task) <= parts.max_beads) descent.run(task);
       });
     }
   };

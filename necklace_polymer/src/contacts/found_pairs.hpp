@@ -42,12 +42,12 @@ class FoundPairs {
   /// In ascending order of particles. O(c lg c) for c contacts; O(c) if the particles are not many more than
   /// the contacts and none has many.
   const std::vector<Pair>& sorted(Executor* executor) {
-    std::uint64_t most = 0;
-    for (const Pair& pair : pairs_) most = std::max(most, pair.key >> 32);
-    if (pairs_.size() < most / 8) {
+    std::uint64_t last = 0;
+    for (const Pair& pair : pairs_) last = std::max(last, pair.key >> 32);
+    if (pairs_.size() < last / 8) {
       sort(pairs_.begin(), pairs_.end());
     } else {
-      sort_by_rows(most, executor);
+      sort_by_rows(last, executor);
     }
     return pairs_;
   }
@@ -59,17 +59,17 @@ class FoundPairs {
     std::sort(first, last, [](const Pair& a, const Pair& b) { return a.key < b.key; });
   }
 
-  /// Counts the contacts of each lower particle, of which `most` is the last, puts them together, and sorts
-  /// what one has.
-  void sort_by_rows(std::uint64_t most, Executor* executor) {
-    std::vector<std::size_t> end(most + 2, 0);
+  /// Counts the contacts of each lower particle, of which `last_row` is the last, puts them together, and
+  /// sorts what one has.
+  void sort_by_rows(std::uint64_t last_row, Executor* executor) {
+    std::vector<std::size_t> end(last_row + 2, 0);
     for (const Pair& pair : pairs_) ++end[(pair.key >> 32) + 1];
     for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
     std::vector<Pair> rows(pairs_.size());
     for (const Pair& pair : pairs_) rows[end[pair.key >> 32]++] = pair;
     pairs_.swap(rows);
     const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(k); };
-    for_ranges(executor, most + 1, [&](std::uint64_t first, std::uint64_t last) {
+    for_ranges(executor, last_row + 1, [&](std::uint64_t first, std::uint64_t last) {
       for (std::uint64_t i = first; i < last; ++i) sort(at(i == 0 ? 0 : end[i - 1]), at(end[i]));
     });
   }

@@ -10,7 +10,7 @@ namespace {
 
 // Kinds of particles whose pairs the kernels can keep in registers. With more, parameters are mixed pair by
 // pair: as fast whatever their number.
-constexpr std::size_t kMostKinds = 4;
+constexpr std::size_t kMaxKinds = 4;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void CpuCalcDCHNonbondedForceKernel::makeForces() {
     parametersOf.push_back({p.epsilon, p.sigma});
   }
   std::size_t side = kinds.size();
-  if (side <= kMostKinds) {
+  if (side <= kMaxKinds) {
     std::vector<dch::LennardJonesPair> matrix(side * side);
     for (const auto& [a, kindA] : kinds)
       for (const auto& [b, kindB] : kinds)

@@ -26,7 +26,7 @@ struct ContactWords {
   bool quiet = false;
 };
 
-constexpr std::int64_t kMostBins = 4096;
+constexpr std::int64_t kMaxBins = 4096;
 
 void declare_contact_options(CLI::App& command, ContactWords& words) {
   command
@@ -74,7 +74,7 @@ void declare_options(CLI::App& command, ContactWords& words) {
       .add_option("--bins", words.bins,
                   fmt::format("Bins of the contact map at most, up to {}. Default 512; shorter chains have a "
                               "bin for each bead",
-                              kMostBins))
+                              kMaxBins))
       ->type_name("N");
   command
       .add_option("--frames", words.frames,
@@ -106,7 +106,7 @@ ContactOptions contact_options(const ContactWords& words) {
   options.query.between_chains = pairs != "within";
   options.radii = BeadRadii(words.radius);
   options.bins = static_cast<std::int32_t>(
-      parse_whole_number("--bins", words.bins, 1, kMostBins, "the largest number of bins of the map"));
+      parse_whole_number("--bins", words.bins, 1, kMaxBins, "the largest number of bins of the map"));
   if (!words.frames.empty()) options.frames = parse_frame_range(words.frames);
   options.threads = parse_threads(words.threads);
   options.data = words.data;

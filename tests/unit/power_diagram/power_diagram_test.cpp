@@ -60,7 +60,7 @@ TEST(PowerDiagram, HoldsEveryPairAloneInItsBall) {
     for (int k = 0; k < 40; ++k) balls.push_back({random.in_cube(1), 0.1});
     kept.update(balls);
     EXPECT_THAT(kept.edges(), testing::IsSupersetOf(alone_in_their_ball(balls))) << "seed " << seed;
-    EXPECT_TRUE(kept.doubles().empty());
+    EXPECT_TRUE(kept.coincident().empty());
   }
 }
 
@@ -104,10 +104,10 @@ TEST(PowerDiagram, BallsAtOnePlaceAreNamed) {
   PowerDiagram diagram;
   diagram.update(balls_at({{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}, 0.1));
   EXPECT_EQ(diagram.stats().hidden, 2);
-  const auto doubles = diagram.doubles();
-  ASSERT_EQ(doubles.size(), 2U);
-  EXPECT_EQ(doubles[0][1], doubles[1][1]);
-  std::vector<std::int32_t> standing{doubles[0][0], doubles[1][0], doubles[0][1]};
+  const auto coincident = diagram.coincident();
+  ASSERT_EQ(coincident.size(), 2U);
+  EXPECT_EQ(coincident[0][1], coincident[1][1]);
+  std::vector<std::int32_t> standing{coincident[0][0], coincident[1][0], coincident[0][1]};
   EXPECT_THAT(standing, testing::UnorderedElementsAre(0, 2, 5));
 }
 
@@ -117,7 +117,7 @@ TEST(PowerDiagram, ABallWithoutACellIsHiddenButNoDouble) {
   PowerDiagram diagram;
   diagram.update(balls);
   EXPECT_EQ(diagram.stats().hidden, 1);
-  EXPECT_TRUE(diagram.doubles().empty());
+  EXPECT_TRUE(diagram.coincident().empty());
   for (const auto& [a, b] : diagram.edges()) EXPECT_LT(b, 4) << a;
   balls[4].center = {2, 2, 2};  // comes out under motion
   diagram.update(balls);

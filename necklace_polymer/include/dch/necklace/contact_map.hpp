@@ -19,12 +19,14 @@ namespace dch::necklace {
 /// bins. Else a bin holds several whole chains.
 class ContactMap {
  public:
-  static constexpr std::int32_t kMostBins = 1 << 14;
+  static constexpr std::int32_t kMaxBins = 1 << 14;
+  /// The name of before, for one version.
+  [[deprecated("it is kMaxBins now")]] static constexpr std::int32_t kMostBins = kMaxBins;
 
   /// No bins.
   ContactMap() = default;
   /// @param query what the contacts are found with: it says which pairs pairs() counts
-  /// @param max_bins 1 .. kMostBins; memory is 4 max_bins (max_bins + 1) bytes and 4 a particle
+  /// @param max_bins 1 .. kMaxBins; memory is 4 max_bins (max_bins + 1) bytes and 4 a particle
   /// @throws InvalidParameter for max_bins out of range, skip_bonds < 0.
   ContactMap(const Necklace& necklace, const ContactQuery& query, std::int32_t max_bins = 512);
 

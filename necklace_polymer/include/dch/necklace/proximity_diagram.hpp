@@ -31,7 +31,9 @@ class ProximityDiagram {
 
   /// Balls that are left out of edges(), since one with the same center and radius stands for them:
   /// {ball, the one that does}, ascending.
-  virtual std::vector<IndexPair> doubles() const = 0;
+  virtual std::vector<IndexPair> coincident() const = 0;
+  /// The name of before, for one version.
+  [[deprecated("it is coincident() now")]] std::vector<IndexPair> doubles() const { return coincident(); }
 
   virtual std::string name() const = 0;  ///< "power diagram"
 };

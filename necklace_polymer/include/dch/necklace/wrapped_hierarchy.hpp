@@ -87,7 +87,7 @@ class WrappedHierarchy : public CageHierarchy {
   std::int32_t farthest_of_range(const ChainTrees::Node& node, const EnclosingBall& found, double& reach);
   std::int32_t farthest_of_watched(const ChainTrees::Node& node, Watch& watch, const EnclosingBall& found,
                                    double& reach);
-  void look(const ChainTrees::Node& node, Vec3 center, Watch& watch);
+  void scan(const ChainTrees::Node& node, Vec3 center, Watch& watch);
   void note_motion();
 
   WrappedParams params_;

@@ -49,7 +49,7 @@ class PowerDiagram : public ProximityDiagram {
 
   void update(Span<const Ball> balls) override;
   std::vector<IndexPair> edges() const override;
-  std::vector<IndexPair> doubles() const override;
+  std::vector<IndexPair> coincident() const override;
   std::string name() const override { return "power diagram"; }
 
   const PowerDiagramStats& stats() const;
