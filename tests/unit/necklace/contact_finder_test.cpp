@@ -291,6 +291,19 @@ TEST(ContactFinder, TellsItsMemory) {
   EXPECT_GE(finder.memory_bytes(), wrapped + 400 * sizeof(dch::Vec3));
 }
 
+TEST(ContactFinder, CountsBondsAroundRingsTheShorterWayInBothTurns) {
+  Chains chains(6);
+  chains.add(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5}, true);
+  const Necklace ring(chains, 1.0);  // all touch all
+  std::vector<Vec3> hexagon;
+  for (int k = 0; k < 6; ++k) hexagon.push_back({std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0});
+  ask_in_both_turns(ring, hexagon, Box::none(), [&](ContactFinder& finder) {
+    const std::size_t contacts[] = {15, 9, 3, 0};  // 6, 6 and 3 pairs are 1, 2 and 3 bonds apart
+    for (int skip = 0; skip < 4; ++skip)
+      EXPECT_EQ(finder.find_contacts({0.1, skip, true, true}).size(), contacts[skip]) << skip;
+  });
+}
+
 TEST(ContactFinder, WhatNeitherStructureTakesIsRefusedInBothTurns) {
   const Necklace points = Necklace::chain({0, 0, 0});  // the DCH takes no points that are to coincide
   const std::vector<Vec3> broken{{1, 1, 1}, {5, 5, 5}, {1, 1, 1}};
