@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The same replay five times, while other programs keep the processors busy: the same report, but for times and memory,
-and the same lists. The report counts builds and repairs: of the gas either is about as much work as the other.
+and the same lists. The report counts builds and repairs: of the gas either is about as much work as the other. The same
+contacts five times, on one to three threads: the same events and the same choices of what searched for them.
 
     repeat.py DCH FOLDER_OF_TRAJECTORIES
 """
@@ -13,7 +14,7 @@ import tempfile
 
 import h5py
 
-from dch_command import Checks, run
+from dch_command import Checks, run, write_chain
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
 from busy_processors import load  # noqa: E402
@@ -58,6 +59,30 @@ def outcome(command, path, cutoff, folder):
     return without_times(json.load(open(report))), contents(lists)
 
 
+def outcome_of_contacts(command, path, threads, folder):
+    found, report = os.path.join(folder, "contacts.h5"), os.path.join(folder, "report.json")
+    result = run(command, "contacts", path, "--gap", "0.9", "--radius", "0.5", "--threads", threads, "--out", found,
+                 "--report", report)
+    if result.returncode != 0:
+        raise SystemExit(result.stderr)
+    return {**without_times(json.load(open(report))), "threads": 0}, contents(found)
+
+
+def check_contacts(checks, command, folder):
+    path = os.path.join(folder, "chain.lammpstrj")
+    for folded in (True, False):
+        write_chain(path, folded)
+        first = None
+        for repeat in range(REPEATS):
+            with load(repeat):
+                report, found = outcome_of_contacts(command, path, 1 + repeat % 3, folder)
+            # Columns of times are those of this run.
+            found = {name: values for name, values in found.items() if not any(word in name for word in TIMED)}
+            first = first or (report, found)
+            checks.that(report == first[0] and found == first[1], f"contacts, folded: {folded}, run {repeat}: others")
+            checks.that((report["choice"]["frames_dch"] > 0) == folded and len(found) > 8, f"choice {report['choice']}")
+
+
 def main(command, data):
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -72,6 +97,7 @@ def main(command, data):
                 different = [key for key in report if report[key] != first[0][key]]
                 checks.that(report == first[0], f"{name}, run {repeat}: other values of {different}")
                 checks.that(lists == first[1] and lists, f"{name}, run {repeat}: other lists")
+        check_contacts(checks, command, folder)
     checks.finish()
 
 
