@@ -108,9 +108,9 @@ void LennardJones::take_matrix(const std::vector<LennardJonesPair>& matrix, bool
       largest_cutoff_ = std::max(largest_cutoff_, pair.cutoff);
     }
   }
-  constexpr std::size_t kLeast = detail::kFewTypes * detail::kFewTypes;
-  for (auto& table : full_) table.resize(std::max(table.size(), kLeast));
-  for (auto& table : mixed_) table.resize(std::max(table.size(), kLeast));
+  constexpr std::size_t kMin = detail::kFewTypes * detail::kFewTypes;
+  for (auto& table : full_) table.resize(std::max(table.size(), kMin));
+  for (auto& table : mixed_) table.resize(std::max(table.size(), kMin));
 }
 
 double LennardJones::common_cutoff() const {

@@ -35,7 +35,7 @@ SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
 
 # What is run for a file: objects of test programs, and which of their tests, stage by stage.
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
-             ["*Certificate*:Repair.*:Maintenance*:Update.*:LoneNodes.*:Insertion.*:Removal.*:PackingOf*:"
+             ["*Certificate*:Repair.*:Maintenance*:Update.*:Singletons.*:Insertion.*:Removal.*:PackingOf*:"
               "*RepairOfSmallScenes*",
               "Work.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
               "*/Packing.TheCheck*/D1",

@@ -109,12 +109,12 @@ typename S::V exp_of_negative(typename S::V y) {
   // ln 2 in two parts, the first so short that integers times it are exact.
   constexpr Real kLn2High = kSingle ? Real(0x1.62ep-1) : Real(0x1.62e42feep-1);
   constexpr Real kLn2Low = kSingle ? Real(0x1.0bfbe8p-15) : Real(0x1.a39ef35793c76p-33);
-  constexpr Real kLeast = kSingle ? Real(-87) : Real(-708);
+  constexpr Real kMin = kSingle ? Real(-87) : Real(-708);
   // 1/k!, highest first: the remainder is below 0.35^8/8! (single) or 0.35^14/14! (double).
   constexpr double kSeries[] = {
       1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040,
       1.0 / 720,        1.0 / 120,       1.0 / 24,       1.0 / 6,       0.5,          1.0,         1.0};
-  y = S::max(y, S::set1(kLeast));
+  y = S::max(y, S::set1(kMin));
   const V shifted = S::madd(y, S::set1(kLog2OfE), S::set1(kInteger));
   const V n = S::sub(shifted, S::set1(kInteger));
   const V rest = S::madd(n, S::set1(-kLn2Low), S::madd(n, S::set1(-kLn2High), y));

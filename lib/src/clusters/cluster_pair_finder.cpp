@@ -13,7 +13,7 @@ namespace {
 constexpr int kSlots = ClusterPairs::kSlots;
 constexpr double kInflate = 1 + 1e-12;
 constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a < b
-constexpr std::int32_t kMostShifts = 0x10000;          ///< that the entries of a row can tell apart
+constexpr std::int32_t kMaxShifts = 0x10000;           ///< that the entries of a row can tell apart
 /// Parts of the work for each thread, so that none waits long for the last one.
 constexpr int kPartsPerThread = 4;
 constexpr double kFloatRounding = 0x1p-24;
@@ -158,7 +158,7 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
   found = kernels_->near_clusters(part.near.data() + own, part.near[static_cast<std::size_t>(own)], limit2_,
                                   chosen, found);
   const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
-  const bool any_shift = part.source.back().shift - first_shift < kMostShifts;
+  const bool any_shift = part.source.back().shift - first_shift < kMaxShifts;
   if (!excludes && !drops_types_ && ghost_[static_cast<std::size_t>(c)] == 0 && any_shift)
     return append_whole_row(c, own, first_shift, found, part);
   part.work.by_slots += found;
@@ -178,7 +178,7 @@ void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_
     if (excludes) mask &= ~std::uint32_t{part.excluded[static_cast<std::size_t>(other)]};
     if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
     if (mask == 0) continue;
-    if (!has_row || shift - first_shift >= kMostShifts) {
+    if (!has_row || shift - first_shift >= kMaxShifts) {
       if (has_row) first_shift = shift;
       part.rows.push_back({to - first, c, first_shift});
       has_row = true;

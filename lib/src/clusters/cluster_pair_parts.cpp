@@ -11,7 +11,7 @@ namespace {
 
 /// Clusters of a part, at least, and the most parts. In a Lennard-Jones melt the least part names nearly as
 /// many clusters of other parts; with smaller ones that grows, and with it what it takes to sum up.
-constexpr std::int32_t kClustersPerPart = 1024, kMostParts = 32;
+constexpr std::int32_t kClustersPerPart = 1024, kMaxParts = 32;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ void ClusterPairFinder::cut_into_parts(ClusterPairs& out) {
   out.ranges.clear();
   part_of_node_.assign(nodes_.size(), kNone);
   out.is_named_before.assign(nodes_.size(), 0);
-  const std::int32_t wanted = std::max(kClustersPerPart, out.clusters() / kMostParts);
+  const std::int32_t wanted = std::max(kClustersPerPart, out.clusters() / kMaxParts);
   const auto first_of = [&](std::int64_t shift) {
     return nodes_[static_cast<std::size_t>(out.shift[static_cast<std::size_t>(shift)].from)].first;
   };

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 /// A hierarchy serves lists whose radius is this share of its own or more.
-constexpr double kLeastShare = 0.8;
+constexpr double kMinShare = 0.8;
 
 /// List radius of a class with itself or, if it has no pairs with itself, the largest with another one.
 double own_reach(const SizeClasses& classes, std::size_t g) {
@@ -164,7 +164,7 @@ void SizedSearch::bring_up_to_date() {
                               ? std::max(reach + host_error_, kMinListRadius)  // a larger one serves as well
                               : params_.radius;  // any will do where there are no pairs
     const double radius = group.search ? group.search->hierarchy().params().radius : 0;
-    const bool fits = wanted <= radius && wanted >= kLeastShare * radius;
+    const bool fits = wanted <= radius && wanted >= kMinShare * radius;
     // It may have got no points yet, or lost them, in a list that was not finished.
     group.is_new |= group.search && group.search->hierarchy().size() != group.particle.size();
     if (!group.search || !fits || (group.is_new && keys_.empty())) {

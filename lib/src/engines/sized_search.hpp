@@ -18,7 +18,7 @@
 namespace dch::detail {
 
 /// PairSearch for particles whose cutoffs differ much: a hierarchy for each class of sizes. The pairs of two
-/// classes are found cluster by cluster of the larger one, by descending the hierarchy of the smaller one.
+/// classes are found leaf by leaf of the larger one, by descending the hierarchy of the smaller one.
 ///
 /// What the sizes are is known when a list is asked for, so update() only takes the positions and list()
 /// brings the hierarchies up to date; that time counts as maintenance.

@@ -65,11 +65,12 @@ std::int32_t Hierarchy::insert(Vec3 position, std::int32_t near) {
     throw InvalidParameter("insert(): there is no point with id " + std::to_string(near) +
                            " to look near of");
   Impl& h = *impl_;
-  // Asked before anything changes: the point may take an id and a block, and so may each lone point that it
-  // unfolds.
+  // Asked before anything changes: the point may take an id and a block, and so may each singleton that it
+  // expands.
   if (h.free_ids.empty())
     index_count(static_cast<std::int64_t>(h.slot_of_id.size()) + 1, "points", "take fewer");
-  detail::block_count(static_cast<std::int64_t>(h.points.cluster.size() + h.lone.size()) + 1, h.points.most);
+  detail::block_count(static_cast<std::int64_t>(h.points.leaf.size() + h.singletons.size()) + 1,
+                      h.points.most);
   h.repair_if_pending();
   std::int32_t id = kNone;
   h.change_or_empty([&] {

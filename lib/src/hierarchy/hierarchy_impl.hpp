@@ -37,7 +37,7 @@ struct Hierarchy::Impl : detail::Structure {
     reset(Box());
   }
 
-  /// To be called when points have come, gone or changed their cluster, slot or id.
+  /// To be called when points have come, gone or changed their leaf, slot or id.
   void note_new_places() {
     measured = false;
     leaves.forget_layout();
@@ -86,52 +86,52 @@ struct Hierarchy::Impl : detail::Structure {
     double extent;  ///< of the farthest point from the center, wrapped but not by nearest images [length]
   };
   template <class Metric>
-  void choose_clusters(const Metric& metric);
+  void choose_leaves(const Metric& metric);
   template <class Metric>
-  void settle_batch(const Metric& metric, const Batch& batch);
+  void attach_batch(const Metric& metric, const Batch& batch);
   template <class Metric>
-  Hint cluster_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
+  Hint leaf_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint);
   template <class Metric>
   void place_points(const Metric& metric);
 
   // build/fill_leaves.hpp
-  /// Points by their cluster.
+  /// Points by their leaf.
   struct Members {
-    std::vector<std::int32_t> index;  ///< those of cluster k from first[k] to first[k + 1]
+    std::vector<std::int32_t> index;  ///< those of leaf k from first[k] to first[k + 1]
     std::vector<std::int32_t> first;
 
-    void sort(const std::vector<std::int32_t>& cluster_of, std::int32_t clusters);
+    void sort(const std::vector<std::int32_t>& leaf_of, std::int32_t leaf_count);
   };
-  /// Puts points into blocks, each point into the nearest cluster that an edge joins to its own. Their ids
-  /// and positions depend on their indices, and so do their clusters, which are negative for what is no
+  /// Puts points into blocks, each point into the nearest leaf that an edge joins to its own. Their ids
+  /// and positions depend on their indices, and so do their leaves, which are negative for what is no
   /// point.
   template <class Metric, class IdOf, class PositionOf>
-  void fill_clusters(const Metric& metric, detail::LeafBlocks& blocks, std::vector<std::int32_t>& cluster_of,
-                     const IdOf& id_of, const PositionOf& position_of);
+  void fill_leaves(const Metric& metric, detail::LeafBlocks& blocks, std::vector<std::int32_t>& leaf_of,
+                   const IdOf& id_of, const PositionOf& position_of);
   template <class Metric, class PositionOf>
-  void choose_nearest(const Metric& metric, const Members& members, std::vector<std::int32_t>& cluster_of,
+  void choose_nearest(const Metric& metric, const Members& members, std::vector<std::int32_t>& leaf_of,
                       const PositionOf& position_of);
-  /// Puts the points of a cluster, in no order yet, into blocks. Their ids and positions depend on their
+  /// Puts the points of a leaf, in no order yet, into blocks. Their ids and positions depend on their
   /// indices.
   template <class IdOf, class PositionOf>
-  void fill_cluster(detail::LeafBlocks& blocks, std::int32_t cluster, std::vector<detail::LocalPoint>& local,
-                    const IdOf& id_of, const PositionOf& position_of);
+  void fill_leaf(detail::LeafBlocks& blocks, std::int32_t leaf, std::vector<detail::LocalPoint>& local,
+                 const IdOf& id_of, const PositionOf& position_of);
 
   // points/singletons.cpp: points on their own
-  void make_lone(int level, std::int32_t node);
+  void make_singleton(int level, std::int32_t node);
   /// The node's point needs another place.
-  void forget_lone(int level, std::int32_t node);
-  void unfold(int level, std::int32_t node);
-  /// Unfolds the lone nodes of a level that have edges now.
-  void unfold_joined(int level);
-  bool could_be_lone(int level, std::int32_t node) const;
-  /// Makes all nodes lone that can be.
-  void fold();
+  void forget_singleton(int level, std::int32_t node);
+  void expand(int level, std::int32_t node);
+  /// Expands the singletons of a level that have edges now.
+  void expand_joined(int level);
+  bool could_be_singleton(int level, std::int32_t node) const;
+  /// Makes a singleton of every node that can be one.
+  void collapse();
   // points/links.cpp: parents and children
   void attach(int level, std::int32_t node, std::int32_t parent);
   void detach(int level, std::int32_t node);
-  std::int32_t place_point(std::int32_t point, Vec3 at, std::int32_t cluster);
-  void take_point(std::int32_t slot);
+  std::int32_t place_point(std::int32_t point, Vec3 at, std::int32_t leaf);
+  void remove_from_block(std::int32_t slot);
   void disconnect(int level, std::int32_t node);
 
   // points/insert_remove.cpp: places for single points
@@ -147,15 +147,15 @@ struct Hierarchy::Impl : detail::Structure {
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);
   /// Gives a point nodes in the levels between `level` and its cover, linked to each other and to the cover.
   /// Returns the lowest one, or the cover's node if there are none between. From level 0 on it ends at the
-  /// first that is lone, and returns kNone.
+  /// first singleton, and returns kNone.
   template <class Metric>
-  std::int32_t lift(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
+  std::int32_t promote(const Metric& metric, int level, std::int32_t point, Vec3 at, Cover cover);
   /// Links a node of `level` >= 1 to its cover.
   template <class Metric>
-  void settle(const Metric& metric, int level, std::int32_t node, Cover cover);
+  void attach_under(const Metric& metric, int level, std::int32_t node, Cover cover);
   /// The same for a point, which gets a slot.
   template <class Metric>
-  void settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover);
+  void attach_point_under(const Metric& metric, std::int32_t point, Vec3 at, Cover cover);
   template <class Metric>
   void connect(const Metric& metric, int level, std::int32_t node);
   template <class Metric>
@@ -173,7 +173,7 @@ struct Hierarchy::Impl : detail::Structure {
   void refresh_level(const Metric& metric, int i);
   /// New positions of the points and of level 1; with this, points are measured.
   template <class Metric>
-  void refresh_clusters(const Metric& metric);
+  void refresh_leaves(const Metric& metric);
   /// New positions of the levels above, which keep those of the last repair while one is pending.
   template <class Metric>
   void refresh_centers(const Metric& metric);
@@ -201,7 +201,7 @@ struct Hierarchy::Impl : detail::Structure {
   /// Points must have been measured since they moved last.
   template <class Metric>
   void repair(const Metric& metric);
-  bool is_known_to_cover(std::int32_t cluster) const;
+  bool is_known_to_cover(std::int32_t leaf) const;
   template <class Metric>
   void cover_points(const Metric& metric);
   template <class Metric>
@@ -214,7 +214,7 @@ struct Hierarchy::Impl : detail::Structure {
   /// Whether of two nodes of a level that are too close the first one stays.
   bool keeps_first(int i, std::int32_t a, std::int32_t b) const;
   void separate_level(int i);
-  void demote(int i, std::int32_t node, std::int32_t heir);
+  void demote(int i, std::int32_t node, std::int32_t successor);
 
   // build/reorder.cpp: puts nodes in depth-first order, siblings side by side
   void reorder();
@@ -229,13 +229,13 @@ struct Hierarchy::Impl : detail::Structure {
     std::int32_t node;
     double distance2;
   };
-  Hint batch_hint;                        ///< of settle_batch(): where the last batch was
+  Hint batch_hint;                        ///< of attach_batch(): where the last batch was
   std::vector<std::int32_t> batch_nodes;  ///< and the nodes near this one
   std::vector<Vec3> batch_centers;
   std::vector<std::vector<Near>> near;  ///< of find_near(): by level, the nodes within reach
   std::vector<std::array<std::int32_t, 2>>
       too_close;  ///< of a level: pairs for separate_level(), each once, the smaller node first
-  std::vector<std::int32_t> strays;  ///< of cover_points(): ids
+  std::vector<std::int32_t> uncovered_points;  ///< of cover_points(): ids
   detail::CandidateBuffer candidates;
   detail::SiblingStore siblings;
   std::vector<std::int32_t> row;

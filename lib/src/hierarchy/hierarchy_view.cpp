@@ -34,7 +34,7 @@ LevelInfo HierarchyView::level(int i) const {
   LevelInfo info;
   info.covering_radius = level.radius;
   info.edge_threshold = level.threshold;
-  info.nodes = structure_->alive(i) + structure_->lone_above(i);
+  info.nodes = structure_->alive(i) + structure_->singletons_above(i);
   info.edges = i > 0 ? level.edges.entries() / 2 : -1;
   for (std::int32_t k = 0; k < level.size(); ++k)
     info.max_degree =
@@ -44,7 +44,7 @@ LevelInfo HierarchyView::level(int i) const {
 
 int HierarchyView::top_level(std::int32_t id) const {
   if (!contains(id)) throw InvalidParameter("top_level(): there is no point with id " + std::to_string(id));
-  int i = structure_->is_lone_point(id) ? structure_->lowest_node(id).level : 0;
+  int i = structure_->is_singleton_point(id) ? structure_->lowest_node(id).level : 0;
   while (i < structure_->top() && structure_->node_of(id, i + 1) != kNone) ++i;
   return i;
 }

@@ -14,47 +14,46 @@ namespace dch::detail {
 
 /// Blocks whose slots 32-bit indices name: room for 2^31 - 8 points in full blocks, for 2^28 - 1 wherever
 /// they are.
-inline constexpr std::int64_t kMostBlocks = kMaxIndexCount / kBlock;
+inline constexpr std::int64_t kMaxBlocks = kMaxIndexCount / kBlock;
 
 /// The same number.
-/// @param most fewer than kMostBlocks in tests alone
+/// @param most fewer than kMaxBlocks in tests alone
 /// @throws InvalidParameter for more blocks than that.
-inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMostBlocks) {
-  return index_count(blocks, "blocks of eight points (one or more for each cluster)", "take fewer points",
-                     most);
+inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMaxBlocks) {
+  return index_count(blocks, "blocks of eight points (one or more for each leaf)", "take fewer points", most);
 }
 
-/// Level S_0: the points, in blocks of kBlock slots. The points of one cluster (a node of level 1, their
+/// Level S_0: the points, in blocks of kBlock slots. The points of one leaf (a node of level 1, their
 /// parent) fill a chain of blocks of their own, each from its first slot on, so that lists can be made of
 /// whole blocks; reorder() puts points that are close together into one block.
 struct LeafBlocks {
-  std::vector<Vec3> position;         ///< by slot; wrapped into the cell
-  std::vector<std::int32_t> id;       ///< by slot; the caller's name of the point, kNone in an empty slot
-  std::vector<std::int32_t> cluster;  ///< by block: the parent of its points, kNone for a block not in use
-  std::vector<std::int32_t> next;     ///< by block: the next one of its cluster, or kNone
-  std::vector<std::int32_t> count;    ///< by block: points in it
-  std::vector<std::int32_t> free;     ///< blocks not in use
-  std::int32_t alive = 0;             ///< number of points
-  std::int64_t most = kMostBlocks;    ///< blocks; fewer in tests, which refuse some without 2^28 of them
+  std::vector<Vec3> position;       ///< by slot; wrapped into the cell
+  std::vector<std::int32_t> id;     ///< by slot; the caller's name of the point, kNone in an empty slot
+  std::vector<std::int32_t> leaf;   ///< by block: the parent of its points, kNone for a block not in use
+  std::vector<std::int32_t> next;   ///< by block: the next one of its leaf, or kNone
+  std::vector<std::int32_t> count;  ///< by block: points in it
+  std::vector<std::int32_t> free;   ///< blocks not in use
+  std::int32_t alive = 0;           ///< number of points
+  std::int64_t most = kMaxBlocks;   ///< blocks; fewer in tests, which refuse some without 2^28 of them
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
-  std::int32_t parent(std::int32_t slot) const { return cluster[slot / kBlock]; }
+  std::int32_t parent(std::int32_t slot) const { return leaf[slot / kBlock]; }
 
   /// Makes room for that many blocks in all.
   void reserve(std::int32_t blocks) {
     const auto room = static_cast<std::size_t>(blocks);
-    for (auto* array : {&cluster, &next, &count}) array->reserve(room);
+    for (auto* array : {&leaf, &next, &count}) array->reserve(room);
     position.reserve(room * kBlock);
     id.reserve(room * kBlock);
   }
 
-  /// A block with no points yet, for a cluster whose chain has continued with `rest`.
+  /// A block with no points yet, for a leaf whose chain has continued with `rest`.
   /// @throws InvalidParameter for more blocks than `most`.
   std::int32_t add_block(std::int32_t owner, std::int32_t rest) {
     std::int32_t block;
     if (free.empty()) {
-      block = block_count(static_cast<std::int64_t>(cluster.size()) + 1, most) - 1;
-      cluster.push_back(kNone);
+      block = block_count(static_cast<std::int64_t>(leaf.size()) + 1, most) - 1;
+      leaf.push_back(kNone);
       next.push_back(kNone);
       count.push_back(0);
       position.resize(position.size() + kBlock);
@@ -63,7 +62,7 @@ struct LeafBlocks {
       block = free.back();
       free.pop_back();
     }
-    cluster[block] = owner;
+    leaf[block] = owner;
     next[block] = rest;
     count[block] = 0;
     return block;
@@ -72,7 +71,7 @@ struct LeafBlocks {
   void free_block(std::int32_t block) {
     alive -= count[block];
     for (std::int32_t lane = 0; lane < kBlock; ++lane) id[block * kBlock + lane] = kNone;
-    cluster[block] = kNone;
+    leaf[block] = kNone;
     count[block] = 0;
     free.push_back(block);
   }
@@ -94,12 +93,12 @@ struct LeafBlocks {
   /// Keeps the memory, for the next build.
   void clear() {
     position.clear();
-    for (auto* array : {&id, &cluster, &next, &count, &free}) array->clear();
+    for (auto* array : {&id, &leaf, &next, &count, &free}) array->clear();
     alive = 0;
   }
   std::size_t memory_bytes() const {
     return position.capacity() * sizeof(Vec3) +
-           (id.capacity() + cluster.capacity() + next.capacity() + count.capacity() + free.capacity()) *
+           (id.capacity() + leaf.capacity() + next.capacity() + count.capacity() + free.capacity()) *
                sizeof(std::int32_t);
   }
 };

@@ -20,14 +20,14 @@ namespace dch {
 using detail::describe;
 using detail::kNone;
 
-/// Clusters are looked at in every image near enough, whose number grows with their extent in periods. One
+/// Leaves are looked at in every image near enough, whose number grows with their extent in periods. One
 /// that is chosen by the points is at most a few times the list radius, which a box bounds by its height.
 void Hierarchy::Impl::check_base_radius(const Box& b) const {
-  constexpr double kMostPeriods = 16;
-  const double limit = kMostPeriods * b.min_height();
+  constexpr double kMaxPeriods = 16;
+  const double limit = kMaxPeriods * b.min_height();
   if (params.base_radius <= limit || b.max_distance() <= limit) return;
   throw InvalidParameter("hierarchy parameter base_radius is " + describe(params.base_radius) +
-                         ", more than " + describe(kMostPeriods) + " times the smallest height of the box, " +
+                         ", more than " + describe(kMaxPeriods) + " times the smallest height of the box, " +
                          describe(b.min_height()) + "; leave it 0 for a choice by the points");
 }
 
@@ -98,7 +98,7 @@ std::int32_t Hierarchy::Impl::take_free_id() {
 std::size_t Hierarchy::Impl::memory_bytes() const {
   std::size_t bytes =
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
-  bytes += lone.capacity() * sizeof(LoneNode);
+  bytes += singletons.capacity() * sizeof(Singleton);
   for (const Level& level : levels) bytes += level.memory_bytes();
   return bytes + points.memory_bytes() + leaves.memory_bytes();
 }
@@ -108,12 +108,12 @@ void Hierarchy::Impl::reset(const Box& b) {
   base_radius = params.base_radius > 0 ? params.base_radius : params.radius / (2 * params.c);
   wrap_slack = 0;
   largest_reach = 0;
-  strayed = 0;
+  misplaced = 0;
   pending = false;
   note_new_places();
   levels.clear();
   points.clear();
-  lone.clear();
+  singletons.clear();
   placing_later = false;
   batch_hint = {};
   raw.clear();

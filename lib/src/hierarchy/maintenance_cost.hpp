@@ -23,7 +23,7 @@ inline constexpr double kOrphansOfDemoted = 0.4;
 
 /// Share of the nodes that may lie away from their siblings before all are put in order again. Not critical:
 /// without any reordering, repair and list of a melt of 32,000 atoms took 3 % longer after 120 rebuilds.
-inline constexpr double kStrayed = 0.1;
+inline constexpr double kMaxMisplaced = 0.1;
 
 /// Times of parts of the work [ns]: least squares over the scenes and steps of `dch_bench_maintenance`, with
 /// AVX-512 on one processor of an Intel Xeon with AMX. Only their ratios matter, and these not much.
@@ -36,7 +36,7 @@ struct MaintenanceWeights {
   } build;
   struct {
     double particle, candidate;
-  } exchange;  ///< to insert or remove one, among so many clusters
+  } exchange;  ///< to insert or remove one, among so many leaves
 };
 inline constexpr MaintenanceWeights kWeightsInBricks{
     {12.5, 15, 38, 5.3, 103}, {130, 10, 46, 103}, {100, 7.5}};
@@ -51,7 +51,7 @@ inline const MaintenanceWeights& weights_in(const Box& box) {
 inline double repair_cost(const MaintenanceWork& work, const MaintenanceWeights& weights) {
   const auto& [point, edge, orphan, candidate, reordered_point] = weights.repair;
   return point * work.points + edge * work.edges + orphan * work.orphans + candidate * work.candidates +
-         reordered_point * std::min(work.points, work.orphans / kStrayed);
+         reordered_point * std::min(work.points, work.orphans / kMaxMisplaced);
 }
 
 /// Time to build anew, longer where points have left those that they lie beside in memory [ns].

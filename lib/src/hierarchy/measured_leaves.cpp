@@ -83,7 +83,7 @@ void MeasuredLeaves::refresh(const Metric& metric, const Level& centers, Span<co
 void MeasuredLeaves::lay_out(const Level& centers, const LeafBlocks& from) {
   if (layout != 0) return;
   leaves.assign(centers.position.size(), Leaf());
-  const std::size_t most = from.cluster.size();
+  const std::size_t most = from.leaf.size();
   source.resize(most);
   count.resize(most);
   lanes.resize(most);

@@ -9,23 +9,23 @@ std::int32_t Structure::node_of(std::int32_t id, int level) const {
   if (id < 0 || static_cast<std::size_t>(id) >= slot_of_id.size()) return kNone;
   std::int32_t node = slot_of_id[id];
   int i = 0;
-  if (is_lone_point(id)) {
-    i = lone[lone_at(node)].level;
-    node = i <= level ? lone[lone_at(node)].node : kNone;
+  if (is_singleton_point(id)) {
+    i = singletons[singleton_at(node)].level;
+    node = i <= level ? singletons[singleton_at(node)].node : kNone;
   }
   for (; i < level && node != kNone; ++i) node = up(i, node);
   return node;
 }
 
-std::int32_t Structure::lone_above(int level) const {
+std::int32_t Structure::singletons_above(int level) const {
   std::int32_t count = 0;
-  for (const LoneNode& node : lone) count += node.level > level;
+  for (const Singleton& node : singletons) count += node.level > level;
   return count;
 }
 
 std::vector<std::int32_t> Structure::lone_points() const {
   std::vector<std::int32_t> ids;
-  for (const LoneNode& node : lone) ids.push_back(levels[node.level].id[node.node]);
+  for (const Singleton& node : singletons) ids.push_back(levels[node.level].id[node.node]);
   return ids;
 }
 

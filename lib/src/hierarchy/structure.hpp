@@ -20,20 +20,21 @@ namespace dch::detail {
 struct Structure {
   StructureParams params;
   Box box;
-  double base_radius = 0;                ///< R_0
-  LeafBlocks points;                     ///< level 0
-  std::vector<Level> levels;             ///< level 1 always, levels[0] holds radii only
-  std::vector<Vec3> raw;                 ///< positions as given, by id
-  std::vector<std::int32_t> slot_of_id;  ///< level-0 node of a point, kNone for free ids, or place_of_lone()
-  std::vector<std::int32_t> free_ids;    ///< min-heap
+  double base_radius = 0;     ///< R_0
+  LeafBlocks points;          ///< level 0
+  std::vector<Level> levels;  ///< level 1 always, levels[0] holds radii only
+  std::vector<Vec3> raw;      ///< positions as given, by id
+  std::vector<std::int32_t>
+      slot_of_id;  ///< level-0 node of a point, kNone for free ids, or place_of_singleton()
+  std::vector<std::int32_t> free_ids;  ///< min-heap
   SearchStats stats;
 
   /// A node without nodes below it in memory, since it has neither edges nor other descendants than itself.
-  struct LoneNode {
+  struct Singleton {
     int level;  ///< at least 2
     std::int32_t node;
   };
-  std::vector<LoneNode> lone;
+  std::vector<Singleton> singletons;
   bool placing_later = false;  ///< while building: slot_of_id holds parents
 
   /// Added to the thresholds of all levels but 0: how far the distance of wrapped points may be from the pair
@@ -42,13 +43,13 @@ struct Structure {
   double largest_reach = 0;  ///< largest WrapError::reach of the points [length]
 
   /// Whether points have moved since the structure was in order; the edges of level 1 are certified all the
-  /// same to join all clusters with points within rho_0 of each other, and lists need no more.
+  /// same to join all leaves with points within rho_0 of each other, and lists need no more.
   bool pending = false;
   std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   MeasuredLeaves leaves;
-  bool measured = false;     ///< whether `leaves` holds the points as they are now
-  std::int64_t strayed = 0;  ///< nodes that changed their parent since the nodes were last put in order
+  bool measured = false;       ///< whether `leaves` holds the points as they are now
+  std::int64_t misplaced = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   std::size_t count() const { return slot_of_id.size() - free_ids.size(); }
   bool contains(std::int32_t id) const {
@@ -70,8 +71,8 @@ struct Structure {
   /// Own node in the level above, or kNone.
   std::int32_t up(int level, std::int32_t k) const {
     if (level > 0) return levels[level].up[k];
-    const std::int32_t cluster = points.parent(k);
-    return levels[1].down[cluster] == k ? cluster : kNone;
+    const std::int32_t leaf = points.parent(k);
+    return levels[1].down[leaf] == k ? leaf : kNone;
   }
   /// Calls f(child) for the children of node `k` of level `level` >= 1.
   template <class F>
@@ -90,23 +91,26 @@ struct Structure {
   std::int32_t node_of(std::int32_t id, int level) const;
 
   // Points on their own
-  /// What slot_of_id and Level::down hold for the k-th lone node; an involution.
-  static std::int32_t place_of_lone(std::int32_t k) { return -2 - k; }
-  static std::int32_t lone_at(std::int32_t place) { return -2 - place; }
-  bool is_lone(int level, std::int32_t node) const { return level > 1 && levels[level].down[node] < kNone; }
+  /// What slot_of_id and Level::down hold for the k-th singleton; an involution.
+  static std::int32_t place_of_singleton(std::int32_t k) { return -2 - k; }
+  static std::int32_t singleton_at(std::int32_t place) { return -2 - place; }
+  bool is_singleton(int level, std::int32_t node) const {
+    return level > 1 && levels[level].down[node] < kNone;
+  }
   /// Whether a point's node of some level is not in memory, being on its own.
   bool stands_alone(std::int32_t id, int level) const {
-    return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() && is_lone_point(id) &&
-           level < lowest_node(id).level;
+    return level >= 0 && id >= 0 && static_cast<std::size_t>(id) < slot_of_id.size() &&
+           is_singleton_point(id) && level < lowest_node(id).level;
   }
-  bool is_lone_point(std::int32_t id) const { return slot_of_id[id] < kNone; }
-  /// Number of lone nodes of the levels above.
-  std::int32_t lone_above(int level) const;
-  /// Points that are lone nodes, by id.
+  bool is_singleton_point(std::int32_t id) const { return slot_of_id[id] < kNone; }
+  /// Number of singletons of the levels above.
+  std::int32_t singletons_above(int level) const;
+  /// Points that are singletons, by id.
   std::vector<std::int32_t> lone_points() const;
-  /// Lowest node of a point that is in memory: its cluster, or the lone node.
+  /// Lowest node of a point that is in memory: its leaf, or the singleton.
   Hint lowest_node(std::int32_t id) const {
-    if (is_lone_point(id)) return {lone[lone_at(slot_of_id[id])].level, lone[lone_at(slot_of_id[id])].node};
+    if (is_singleton_point(id))
+      return {singletons[singleton_at(slot_of_id[id])].level, singletons[singleton_at(slot_of_id[id])].node};
     return {1, points.parent(slot_of_id[id])};
   }
 

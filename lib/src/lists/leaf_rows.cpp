@@ -11,8 +11,9 @@ namespace dch::detail {
 namespace {
 
 /// Parts of the work for each thread, so that none waits long for the last one.
-constexpr int kPartsPerThread = 4;
-constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
+constexpr int kSlicesPerThread = 4;
+constexpr double kMaxDifference =
+    32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 void start(NeighborList& list) {
   list.kind = ListKind::half;
@@ -30,13 +31,13 @@ ListUnits units_for(const ListScene& scene, std::size_t s) {
   for (std::size_t a = 0; a <= s; ++a) {
     const MeasuredLeaves& other = scene.sources[a]->measured();
     const double reach = scene.reach_of(s, a);
-    // The largest difference of coordinates that is taken: between a point of a cluster and one within reach
-    // of the cluster's box, or between the middle of the box and a point of a block within reach of it.
+    // The largest difference of coordinates that is taken: between a point of a leaf and one within reach
+    // of the leaf's box, or between the middle of the box and a point of a block within reach of it.
     widest = std::max(
         widest, reach + std::max(own.largest_width, 0.5 * own.largest_width + other.largest_block_width));
     farthest = std::max(farthest, reach + 3 * (own.largest_extent + other.largest_extent));
   }
-  return {widest * (1 + 1e-9) / kLargest, farthest * (1 + 1e-9) / kLargest};
+  return {widest * (1 + 1e-9) / kMaxDifference, farthest * (1 + 1e-9) / kMaxDifference};
 }
 
 /// Boxes are rounded outward by more than their centers and shifts are off; three squares are rounded too.
@@ -91,49 +92,49 @@ template <class Metric>
 void LeafRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
                          const std::vector<NeighborList*>& out) {
   const Level& centers = scene.rows().centers();
-  const auto find_part = [&](Part& part, std::int32_t first, std::int32_t last) {
-    part.finder.use(instruction_set());
+  const auto find_slice = [&](Slice& slice, std::int32_t first, std::int32_t last) {
+    slice.finder.use(instruction_set());
     for (std::int32_t k = first; k < last; ++k)
-      if (centers.is_alive(k)) part.finder.append_rows(scene, k, part.lists.data());
+      if (centers.is_alive(k)) slice.finder.append_rows(scene, k, slice.lists.data());
   };
   if (!executor || executor->threads() == 1) {
-    parts_.resize(1);
-    Part& part = parts_.front();
-    part.lists.resize(out.size());
-    for (std::size_t r = 0; r < out.size(); ++r) std::swap(part.lists[r], *out[r]);
-    find_part(part, 0, centers.size());
-    for (std::size_t r = 0; r < out.size(); ++r) std::swap(part.lists[r], *out[r]);
+    slices_.resize(1);
+    Slice& slice = slices_.front();
+    slice.lists.resize(out.size());
+    for (std::size_t r = 0; r < out.size(); ++r) std::swap(slice.lists[r], *out[r]);
+    find_slice(slice, 0, centers.size());
+    for (std::size_t r = 0; r < out.size(); ++r) std::swap(slice.lists[r], *out[r]);
     return;
   }
-  const int parts = kPartsPerThread * executor->threads();
-  parts_.resize(static_cast<std::size_t>(parts));
-  executor->run(parts, [&](int p) {
-    Part& part = parts_[static_cast<std::size_t>(p)];
-    part.lists.resize(out.size());
-    for (NeighborList& list : part.lists) start(list);
-    find_part(part, share_begin(centers.size(), p, parts), share_begin(centers.size(), p + 1, parts));
+  const int slices = kSlicesPerThread * executor->threads();
+  slices_.resize(static_cast<std::size_t>(slices));
+  executor->run(slices, [&](int p) {
+    Slice& slice = slices_[static_cast<std::size_t>(p)];
+    slice.lists.resize(out.size());
+    for (NeighborList& list : slice.lists) start(list);
+    find_slice(slice, share_begin(centers.size(), p, slices), share_begin(centers.size(), p + 1, slices));
   });
   for (std::size_t r = 0; r < out.size(); ++r) append_pieces(*executor, r, *out[r]);
 }
 
-/// Puts what the parts found behind each other.
+/// Puts what the slices found behind each other.
 void LeafRows::append_pieces(Executor& executor, std::size_t list, NeighborList& out) {
-  std::vector<std::size_t> first_row(parts_.size() + 1, out.particle.size());
-  std::vector<std::size_t> first_entry(parts_.size() + 1, static_cast<std::size_t>(out.first.back()));
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const NeighborList& piece = parts_[p].lists[list];
+  std::vector<std::size_t> first_row(slices_.size() + 1, out.particle.size());
+  std::vector<std::size_t> first_entry(slices_.size() + 1, static_cast<std::size_t>(out.first.back()));
+  for (std::size_t p = 0; p < slices_.size(); ++p) {
+    const NeighborList& piece = slices_[p].lists[list];
     first_row[p + 1] = first_row[p] + piece.size();
     first_entry[p + 1] = first_entry[p] + static_cast<std::size_t>(piece.first.back());
   }
   out.first.resize(first_row.back() + 1);
   out.particle.resize(first_row.back());
-  const bool has_shell = std::any_of(parts_.begin(), parts_.end(),
-                                     [&](const Part& part) { return !part.lists[list].near_end.empty(); });
+  const bool has_shell = std::any_of(slices_.begin(), slices_.end(),
+                                     [&](const Slice& slice) { return !slice.lists[list].near_end.empty(); });
   out.near_end.resize(has_shell ? first_row.back() : 0);
   if (out.j.size() < first_entry.back()) out.j.resize(first_entry.back());
-  executor.run(static_cast<int>(parts_.size()), [&](int part) {
-    const auto p = static_cast<std::size_t>(part);
-    const NeighborList& piece = parts_[p].lists[list];
+  executor.run(static_cast<int>(slices_.size()), [&](int slice) {
+    const auto p = static_cast<std::size_t>(slice);
+    const NeighborList& piece = slices_[p].lists[list];
     std::copy(piece.particle.begin(), piece.particle.end(),
               out.particle.begin() + static_cast<std::ptrdiff_t>(first_row[p]));
     std::copy_n(piece.j.data(), piece.first.back(), out.j.data() + first_entry[p]);
@@ -148,17 +149,17 @@ void LeafRows::append_pieces(Executor& executor, std::size_t list, NeighborList&
 template <class Metric>
 void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
                                 NeighborList& out) {
-  const Level& clusters = source.centers();
+  const Level& centers = source.centers();
   const LeafBlocks& points = source.structure->points;
   std::vector<std::int32_t> own, others;
-  for (std::int32_t k = 0; k < clusters.size(); ++k) {
-    if (!clusters.is_alive(k)) continue;
+  for (std::int32_t k = 0; k < centers.size(); ++k) {
+    if (!centers.is_alive(k)) continue;
     others.clear();
     const auto collect = [&](std::int32_t slot) { others.push_back(slot); };
-    points.for_each(clusters.first_child[k], collect);
+    points.for_each(centers.first_child[k], collect);
     own = others;
-    for (const std::int32_t other : clusters.edges.row(k))
-      if (other > k) points.for_each(clusters.first_child[other], collect);
+    for (const std::int32_t other : centers.edges.row(k))
+      if (other > k) points.for_each(centers.first_child[other], collect);
     for (std::size_t a = 0; a < own.size(); ++a) {
       auto end = static_cast<std::size_t>(out.first.back());
       if (out.j.size() < end + others.size()) out.j.resize(2 * (end + others.size()));
@@ -177,15 +178,15 @@ void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, 
 
 ListWork LeafRows::work() const {
   ListWork work;
-  for (const Part& part : parts_) work += part.finder.work();
+  for (const Slice& slice : slices_) work += slice.finder.work();
   return work;
 }
 
 std::size_t LeafRows::memory_bytes() const {
   std::size_t bytes = 0;
-  for (const Part& part : parts_) {
-    bytes += part.finder.memory_bytes();
-    for (const NeighborList& piece : part.lists)
+  for (const Slice& slice : slices_) {
+    bytes += slice.finder.memory_bytes();
+    for (const NeighborList& piece : slice.lists)
       bytes += piece.first.capacity() * sizeof(std::int64_t) +
                piece.near_end.capacity() * sizeof(std::int64_t) +
                (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);

@@ -24,15 +24,16 @@ struct ListScene {
   std::vector<double> reach;
   double error;  ///< how far the distance of two positions may be from their pair distance [length]
   Executor* executor;
-  std::vector<std::int32_t> lone = {};  ///< particles in no leaf, since they have no neighbors: empty rows
+  std::vector<std::int32_t> singletons =
+      {};  ///< particles in no leaf: without neighbors, so their rows are empty
 
   double reach_of(std::size_t a, std::size_t b) const { return reach[a * sources.size() + b]; }
 };
 
-/// Writes neighbor lists from clusters of points that the conflict graph joins: the level-0 edges, enumerated
+/// Writes neighbor lists from leaves that the conflict graph joins: the level-0 edges, enumerated
 /// among the children of equal or neighboring level-1 nodes (Lemma 5.3.1(5)).
 ///
-/// Points are held relative to the center of their cluster, as 16-bit integers: a test of 32 pairs is a few
+/// Points are held relative to the center of their leaf, as 16-bit integers: a test of 32 pairs is a few
 /// instructions, and its precision does not depend on the box. What such a test leaves open, a band of about
 /// a thousandth of the cutoff, is decided by the pair distance in double. The integer arithmetic is the same
 /// on every instruction set, so the rows are too; and they do not depend on the number of threads.
@@ -40,7 +41,7 @@ class LeafRows {
  public:
   /// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like
   /// all others. What the filters' cutoffs depend on must be the same for all, and the first one's list
-  /// radius the largest. Edges must join all clusters of a source with points within its reach of each other.
+  /// radius the largest. Edges must join all leaves of a source with points within its reach of each other.
   template <class Metric>
   void find(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
             const std::vector<NeighborList*>& out);
@@ -57,12 +58,12 @@ class LeafRows {
   static void find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
                                NeighborList& out);
 
-  /// What one part of the work found, where there is more than one.
-  struct Part {
+  /// What one slice of the leaves gave: on several threads there are several.
+  struct Slice {
     RowFinder finder;
     std::vector<NeighborList> lists;
   };
-  std::vector<Part> parts_;
+  std::vector<Slice> slices_;
 };
 
 }  // namespace dch::detail

@@ -96,7 +96,7 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
   }
   with_metric(scene.box, [&](const auto& metric) { leaf_rows_.find(metric, scene, sorted_filters, rows); });
   for (NeighborList* list : rows) {
-    for (const std::int32_t particle : scene.lone) {
+    for (const std::int32_t particle : scene.singletons) {
       list->particle.push_back(particle);
       list->first.push_back(list->first.back());
       if (!list->near_end.empty()) list->near_end.push_back(list->first.back());

@@ -26,7 +26,7 @@ void NearRanges<Metric>::add_if_near(const NearSource& near, const Leaf& other, 
   if (norm2(between) <= limit * limit) add(*near.source, other, between);
 }
 
-/// All images of a cluster that are near; of a cluster and itself each pair of images once.
+/// All images of a leaf that are near; of a leaf and itself each pair of images once.
 template <class Metric>
 void NearRanges<Metric>::add_images(const NearSource& near, std::int32_t other) {
   const Leaf& other_leaf = near.source->measured().leaves[other];

@@ -10,21 +10,21 @@
 
 namespace dch::detail {
 
-/// A hierarchy whose points may be in the rows of a cluster.
+/// A hierarchy whose points may be in the rows of a leaf.
 struct NearSource {
   const LeafSource* source;
   double reach;            ///< largest list radius of its points with those of the rows [length]
   std::int16_t box_limit;  ///< see ListKernels::collect
-  bool one_image;          ///< whether only the nearest image of a cluster can matter to another one
+  bool one_image;          ///< whether only the nearest image of a leaf can matter to another one
 };
 
-/// The blocks of clusters near a cluster, as ranges that ListKernels take.
+/// The blocks of leaves near a leaf, as ranges that ListKernels take.
 template <class Metric>
 class NearRanges {
  public:
   using Leaf = MeasuredLeaves::Leaf;
 
-  /// @param rows the hierarchy of the cluster k
+  /// @param rows the hierarchy of leaf k
   NearRanges(const Metric& metric, const Box& box, const LeafSource& rows, std::int32_t k,
              std::vector<BlockRange>& ranges)
       : metric_(metric),
@@ -36,10 +36,10 @@ class NearRanges {
         center_(rows.centers().position[k]),
         ranges_(ranges) {}
 
-  /// Clusters of the same hierarchy, each pair once: in the turn of the one that comes first. A cluster meets
+  /// Leaves of the same hierarchy, each pair once: in the turn of the one that comes first. A leaf meets
   /// itself once, first of all, and in each of half of its images.
   void find_own(const NearSource& near);
-  /// Clusters of another hierarchy. Returns how many of its nodes were looked at.
+  /// Leaves of another hierarchy. Returns how many of its nodes were looked at.
   std::int64_t find_others(const NearSource& near);
 
  private:

@@ -22,12 +22,12 @@ struct MeltWords {
 };
 
 int run(const MeltWords& words) {
-  constexpr std::int64_t kMostBeads = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kMaxBeads = std::numeric_limits<std::int32_t>::max();
   necklace::MeltParams params;
   params.chains = static_cast<std::int32_t>(
-      parse_whole_number("--chains", words.chains, 1, kMostBeads, "the number of chains"));
+      parse_whole_number("--chains", words.chains, 1, kMaxBeads, "the number of chains"));
   params.beads_per_chain = static_cast<std::int32_t>(
-      parse_whole_number("--beads", words.beads, 1, kMostBeads, "the number of beads of each chain"));
+      parse_whole_number("--beads", words.beads, 1, kMaxBeads, "the number of beads of each chain"));
   params.density = parse_number("--density", words.density,
                                 {0, 10, true, "the number of beads per volume of one bead diameter cubed"});
   params.seed = static_cast<std::uint64_t>(parse_whole_number(

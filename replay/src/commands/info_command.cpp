@@ -26,7 +26,7 @@ struct InfoWords {
   bool json = false, quiet = false;
 };
 
-constexpr std::size_t kMostTypesShown = 8;
+constexpr std::size_t kMaxTypesShown = 8;
 
 std::map<std::int32_t, std::int64_t> type_counts(const trajectory::Frame& frame) {
   std::map<std::int32_t, std::int64_t> counts;
@@ -46,7 +46,7 @@ std::string types_text(const trajectory::Frame& frame) {
   if (counts.empty()) return "none given";
   std::vector<std::string> parts;
   for (const auto& [type, count] : counts) {
-    if (parts.size() == kMostTypesShown) {
+    if (parts.size() == kMaxTypesShown) {
       parts.emplace_back("...");
       break;
     }

@@ -106,7 +106,7 @@ void Verifier::check_sample(const Subject& subject, const ListParams& params) {
 
 void Verifier::check_structure(const Subject& subject) {
   const bool is_current = subject.list_is_new;  // a kept list leaves the hierarchy at the earlier frame too
-  if (!subject.structure || !is_current || subject.frame->positions.size() > kMostValidatedAtoms) return;
+  if (!subject.structure || !is_current || subject.frame->positions.size() > kMaxValidatedAtoms) return;
   ++result_.structure_checks;
   std::string violation = subject.structure->validate();
   if (violation.empty()) return;
@@ -155,7 +155,7 @@ void Verifier::report_pair(const Subject& subject, const char* what, std::int32_
 
 void Verifier::report(Mismatch mismatch) {
   ++result_.mismatches;
-  if (result_.first.size() < kMostReported) result_.first.push_back(std::move(mismatch));
+  if (result_.first.size() < kMaxReported) result_.first.push_back(std::move(mismatch));
 }
 
 std::vector<std::int32_t> Verifier::sample_atoms(std::size_t n) {

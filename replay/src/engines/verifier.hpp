@@ -37,7 +37,7 @@ struct VerifyResult {
   std::int64_t rows = 0;              ///< atoms whose neighbors were compared, summed over the frames
   std::int64_t structure_checks = 0;  ///< frames whose hierarchy was checked by PairSearch::validate()
   std::int64_t mismatches = 0;  ///< rows' entries missing or extra, rows out of order, broken structures
-  std::vector<Mismatch> first;  ///< the first kMostReported of them
+  std::vector<Mismatch> first;  ///< the first kMaxReported of them
 };
 
 /// Compares lists with the all-pairs oracle.
@@ -47,13 +47,13 @@ struct VerifyResult {
 /// pair within the cutoff alone; what it holds beyond is the skin's.
 class Verifier {
  public:
-  static constexpr std::size_t kMostReported = 20;
+  static constexpr std::size_t kMaxReported = 20;
   static constexpr std::int64_t kSampledFrames = 10;
   static constexpr std::size_t kSampledAtoms = 1000;
   static constexpr std::uint64_t kSeed = 20060517;
   /// PairSearch::validate() takes n^2 steps a level; larger hierarchies are checked through their lists
   /// alone.
-  static constexpr std::size_t kMostValidatedAtoms = 5000;
+  static constexpr std::size_t kMaxValidatedAtoms = 5000;
 
   /// @param params of the list under test; outlives the verifier
   /// @param frames number of frames that check() will see

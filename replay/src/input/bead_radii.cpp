@@ -31,9 +31,9 @@ BeadRadii::BeadRadii(const std::string& text) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string part = text.substr(begin, end - begin);
     const std::size_t equals = std::min(part.find('='), part.size());
-    constexpr std::int64_t kLargestType = std::numeric_limits<std::int32_t>::max();
+    constexpr std::int64_t kMaxType = std::numeric_limits<std::int32_t>::max();
     const auto type = static_cast<std::int32_t>(
-        parse_whole_number("--radius", part.substr(0, equals), -kLargestType, kLargestType,
+        parse_whole_number("--radius", part.substr(0, equals), -kMaxType, kMaxType,
                            "a type of atom and the radius of its beads, as in 1=0.5,2=0.7"));
     const double radius = parse_radius(part.substr(std::min(equals + 1, part.size())));
     if (!by_type_.emplace(type, radius).second) {

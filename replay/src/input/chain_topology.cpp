@@ -182,11 +182,11 @@ Topology read(const std::string& file, const ChainSource& source, const trajecto
 }
 
 std::pair<std::int32_t, std::int32_t> parse_molecules(const std::string& part) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();
   const char* const meaning = "numbers of molecules, for example 1,4-7";
   const std::size_t dash = part.find('-', 1);
   const auto number = [&](const std::string& text) {
-    return static_cast<std::int32_t>(parse_whole_number("--molecules", text, 1, kMost, meaning));
+    return static_cast<std::int32_t>(parse_whole_number("--molecules", text, 1, kMax, meaning));
   };
   const std::int32_t first = number(part.substr(0, dash));
   const std::int32_t last = dash == std::string::npos ? first : number(part.substr(dash + 1));

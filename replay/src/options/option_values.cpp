@@ -117,8 +117,8 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
 }
 
 int parse_threads(const std::string& text) {
-  constexpr std::int64_t kMostThreads = 1024;
-  return static_cast<int>(parse_whole_number("--threads", text, 1, kMostThreads, "the number of threads"));
+  constexpr std::int64_t kMaxThreads = 1024;
+  return static_cast<int>(parse_whole_number("--threads", text, 1, kMaxThreads, "the number of threads"));
 }
 
 CLI::Option* add_file_option(CLI::App& command, const std::string& option, std::string& path,

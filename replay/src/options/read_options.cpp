@@ -22,7 +22,7 @@ trajectory::ReadLimits parse_max_expanded(const std::string& word) {
   trajectory::ReadLimits limits;
   if (word.empty()) return limits;
   constexpr std::string_view kUnits = "KMGT";
-  constexpr std::int64_t kLeast = std::int64_t{1} << 20, kMost = std::int64_t{1} << 50;
+  constexpr std::int64_t kMin = std::int64_t{1} << 20, kMax = std::int64_t{1} << 50;
   const auto letter = static_cast<char>(std::toupper(static_cast<unsigned char>(word.back())));
   const std::size_t unit = kUnits.find(letter);
   const std::size_t digits = unit == std::string_view::npos ? word.size() : word.size() - 1;
@@ -30,8 +30,8 @@ trajectory::ReadLimits parse_max_expanded(const std::string& word) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + digits, number);
   const bool good =
-      error == std::errc() && end == word.data() + digits && number >= 0 && number <= kMost >> shift;
-  if (!good || number << shift < kLeast) {
+      error == std::errc() && end == word.data() + digits && number >= 0 && number <= kMax >> shift;
+  if (!good || number << shift < kMin) {
     throw UsageError(
         fmt::format("--max-expanded '{}': not a size from 1M to 1024T; give the bytes that a frame "
                     "of a compressed file may expand to, such as 8G",

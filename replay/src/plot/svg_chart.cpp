@@ -12,8 +12,8 @@
 namespace dch::cli {
 namespace {
 
-constexpr std::size_t kMostGroups = 400;
-constexpr std::size_t kMostDots = 120;  ///< more would run into each other
+constexpr std::size_t kMaxGroups = 400;
+constexpr std::size_t kMaxDots = 120;  ///< more would run into each other
 constexpr int kTicks = 5;
 constexpr int kFrameTicks = 8;
 
@@ -23,8 +23,7 @@ struct Drawn {
   std::vector<double> x;
   std::vector<std::vector<double>> y;
 
-  explicit Drawn(const FrameChart& chart)
-      : grouping(chart.x.size(), kMostGroups), x(grouping.means(chart.x)) {
+  explicit Drawn(const FrameChart& chart) : grouping(chart.x.size(), kMaxGroups), x(grouping.means(chart.x)) {
     for (const Series& series : chart.series) y.push_back(grouping.means(series.y));
   }
   /// Distance of two points along x; 1 if there is only one.
@@ -84,7 +83,7 @@ double bar_width(const Scale& x, double pitch) {
 }  // namespace
 
 std::string group_note(std::size_t frames) {
-  const Grouping grouping(frames, kMostGroups);
+  const Grouping grouping(frames, kMaxGroups);
   if (grouping.per_group == 1) return "";
   return fmt::format("each point is the mean of {} frames", grouping.per_group);
 }
@@ -106,7 +105,7 @@ std::string line_chart(const FrameChart& chart) {
       py.push_back(y(drawn.y[s][k]));
     }
     canvas.polyline(px, py, chart.series[s].color);
-    for (std::size_t k = 0; k < px.size() && px.size() <= kMostDots; ++k) {
+    for (std::size_t k = 0; k < px.size() && px.size() <= kMaxDots; ++k) {
       canvas.dot(px[k], py[k], chart.series[s].color, point_title(chart, drawn, s, k));
     }
   }
@@ -181,7 +180,7 @@ std::string logarithmic_bars(const std::vector<LabelledBar>& bars, const std::st
 
 std::string histogram(const std::vector<double>& shares, double mean, const std::string& x_label,
                       const std::string& y_label) {
-  const Grouping grouping(shares.size(), kMostGroups);
+  const Grouping grouping(shares.size(), kMaxGroups);
   const std::vector<double> heights = grouping.means(shares);
   SvgCanvas canvas;
   const double largest = *std::max_element(heights.begin(), heights.end());

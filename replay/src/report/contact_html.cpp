@@ -15,8 +15,8 @@
 namespace dch::cli {
 namespace {
 
-constexpr std::size_t kMostCells = 160;       ///< along a side of the map as drawn
-constexpr std::size_t kMostChainsDrawn = 64;  ///< more would hide the map
+constexpr std::size_t kMaxCells = 160;       ///< along a side of the map as drawn
+constexpr std::size_t kMaxChainsDrawn = 64;  ///< more would hide the map
 
 /// The first bin of a group, of bins that are merged into groups to draw them.
 std::size_t first_bin(std::size_t group, std::size_t groups, std::size_t bins) {
@@ -39,7 +39,7 @@ double group_frequency(const necklace::ContactMap& map, std::size_t a, std::size
 }
 
 std::string map_card(const ContactReport& report) {
-  const std::size_t groups = std::min(report.map.bins(), kMostCells);
+  const std::size_t groups = std::min(report.map.bins(), kMaxCells);
   HeatMap drawn;
   drawn.axis_label = "bead, along the chains";
   for (std::size_t group = 0; group <= groups; ++group) {
@@ -51,7 +51,7 @@ std::string map_card(const ContactReport& report) {
       drawn.values[a * groups + b] = drawn.values[b * groups + a] = group_frequency(report.map, a, b, groups);
     }
   }
-  if (report.chain_ends.size() - 1 <= kMostChainsDrawn) {
+  if (report.chain_ends.size() - 1 <= kMaxChainsDrawn) {
     for (std::size_t chain = 1; chain + 1 < report.chain_ends.size(); ++chain) {
       drawn.lines.push_back(report.chain_ends[chain]);
     }

@@ -152,7 +152,7 @@ TEST(Verifier, KeepsTheFirstMismatchesOnlyButCountsAll) {
   none.first.assign(201, 0);
   const VerifyResult result = verify(VerifyMode::all, params, frame, none);
   EXPECT_EQ(result.mismatches, all_pairs(frame.positions, frame.box, params).pairs());
-  EXPECT_EQ(result.first.size(), Verifier::kMostReported);
+  EXPECT_EQ(result.first.size(), Verifier::kMaxReported);
 }
 
 TEST(Verifier, ChecksTheHierarchyOfNewLists) {

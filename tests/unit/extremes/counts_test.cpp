@@ -37,7 +37,7 @@ TEST(IndexCount, EndsAtTheLargestIndexOrAtTheLimitGiven) {
 
 // The last lane of the last block has a slot that an index names, and so has the number of slots.
 TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
-  constexpr std::int64_t most = detail::kMostBlocks;
+  constexpr std::int64_t most = detail::kMaxBlocks;
   EXPECT_EQ(most, (std::int64_t{1} << 28) - 1);
   EXPECT_LE(most * detail::kBlock, kMost);
   EXPECT_EQ(detail::block_count(most), most);

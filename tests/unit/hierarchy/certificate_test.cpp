@@ -211,8 +211,8 @@ class CertificateOfLonePoints : public Certificate, public ::testing::WithParamI
     hierarchy_ = ListedHierarchy(params_with(1));
     points_ = {{0, 0, 0}, {-distance_, 0, 0}, {-distance_, 0.5, 0}};
     build_and_fold();
-    ASSERT_EQ(inside().lone.size(), 1u);
-    ASSERT_EQ(inside().lone[0].level, level);
+    ASSERT_EQ(inside().singletons.size(), 1u);
+    ASSERT_EQ(inside().singletons[0].level, level);
     ASSERT_EQ(hierarchy_.validate(), "");
   }
   /// A build folds those alone for which there were levels enough when they came.
@@ -253,7 +253,7 @@ TEST_P(CertificateOfLonePoints, AddsUpOverUpdates) {
 TEST_P(CertificateOfLonePoints, LooksAtEachOfThem) {
   points_.push_back({-2 * distance_, 0, 0});
   build_and_fold();
-  ASSERT_EQ(inside().lone.size(), 2u);
+  ASSERT_EQ(inside().singletons.size(), 2u);
   for (const std::size_t mover : {0u, 3u}) {
     const Vec3 home = points_[mover];
     move(mover, {-distance_, -0.9, 0});

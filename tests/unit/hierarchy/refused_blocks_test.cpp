@@ -37,7 +37,7 @@ class RefusedBlocks : public ::testing::Test {
   }
   void allow_blocks_there_are() {
     auto& points = HierarchyTestAccess::impl(hierarchy_).points;
-    points.most = static_cast<std::int64_t>(points.cluster.size());
+    points.most = static_cast<std::int64_t>(points.leaf.size());
   }
   void expect_right(const std::vector<Vec3>& points) {
     ListParams params;
@@ -49,7 +49,7 @@ class RefusedBlocks : public ::testing::Test {
   void expect_empty_and_usable() {
     EXPECT_EQ(hierarchy_.size(), 0u);
     EXPECT_EQ(hierarchy_.validate(), "");
-    HierarchyTestAccess::impl(hierarchy_).points.most = detail::kMostBlocks;
+    HierarchyTestAccess::impl(hierarchy_).points.most = detail::kMaxBlocks;
     hierarchy_.build(points_, box_);
     expect_right(points_);
   }
@@ -94,7 +94,7 @@ TEST_F(RefusedBlocks, InsertionFarOutsideChangesNothing) {
   EXPECT_EQ(hierarchy_.size(), kPoints);
   EXPECT_EQ(hierarchy_.stats().repairs, 0);
   expect_right(points_);
-  HierarchyTestAccess::impl(hierarchy_).points.most = detail::kMostBlocks;
+  HierarchyTestAccess::impl(hierarchy_).points.most = detail::kMaxBlocks;
   hierarchy_.insert(far_outside);
   EXPECT_EQ(hierarchy_.stats().repairs, 1);
   EXPECT_EQ(hierarchy_.validate(), "");

@@ -87,8 +87,8 @@ TEST(Repair, OrphansOfAMergedClusterAreLookedAtOnce) {
   expect_right(h, points, Box::none());
 }
 
-// Once a tenth of them have strayed from their siblings.
-TEST(Repair, NodesAreReorderedOnceManyHaveStrayed) {
+// Once more than a tenth of them are misplaced.
+TEST(Repair, NodesAreReorderedOnceManyAreMisplaced) {
   ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}, {5, 0, 0}};
   h.build(points, Box::none());
@@ -96,19 +96,19 @@ TEST(Repair, NodesAreReorderedOnceManyHaveStrayed) {
     points.push_back({0.01 * k, 0.5, 0});
     h.insert(points.back());
   }
-  const auto strayed = [&] { return HierarchyTestAccess::impl(h).strayed; };
+  const auto misplaced = [&] { return HierarchyTestAccess::impl(h).misplaced; };
   h.update(points, Box::none());
-  EXPECT_EQ(strayed(), 0);
+  EXPECT_EQ(misplaced(), 0);
   points[2].x += 5;
   h.update(points, Box::none());
   EXPECT_EQ(h.stats().reparented, 1);
-  EXPECT_EQ(strayed(), 1) << "a tenth and no more";
+  EXPECT_EQ(misplaced(), 1) << "a tenth and no more";
   h.update(points, Box::none());
-  EXPECT_EQ(strayed(), 1);
+  EXPECT_EQ(misplaced(), 1);
   points[3].x += 5;
   h.update(points, Box::none());
   EXPECT_EQ(h.stats().reparented, 2);
-  EXPECT_EQ(strayed(), 0);
+  EXPECT_EQ(misplaced(), 0);
   expect_right(h, points, Box::none());
 }
 

@@ -79,9 +79,9 @@ TEST(Insertion, UnfoldsLonePointsUpToItsReachAndNoFarther) {
     const std::vector<Vec3> points{{0, 0, 0}, {-10, 0, 0}, {-10, 0.5, 0}};
     h.build(points, Box::none());
     h.update(points, Box::none());
-    const auto& lone = HierarchyTestAccess::impl(h).lone;
-    EXPECT_EQ(lone.size(), 1u);
-    EXPECT_EQ(lone[0].level, 2);
+    const auto& singletons = HierarchyTestAccess::impl(h).singletons;
+    EXPECT_EQ(singletons.size(), 1u);
+    EXPECT_EQ(singletons[0].level, 2);
     const std::int64_t distances = h.stats().distances;
     h.insert({x, 0, 0});
     return h.stats().distances - distances;

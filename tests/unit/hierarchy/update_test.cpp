@@ -56,7 +56,7 @@ TEST(Update, BuildsWhereAllWereInserted) {
 }
 
 // Of two clusters and a point on its own, which is a root.
-TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
+TEST(Singletons, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
   for (const bool fold : {true, false}) {
     StructureParams params = params_of(EdgeRule::additive, 2);
     params.fold_lone_points = fold;
@@ -66,17 +66,17 @@ TEST(LoneNodes, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
     for (int k = 0; k < 2; ++k)
       h.update(points, Box::none());  // the level is needed although two nodes are left below
     ASSERT_EQ(h.levels(), 3);
-    EXPECT_EQ(HierarchyTestAccess::impl(h).lone.size(), fold ? 1u : 0u);
+    EXPECT_EQ(HierarchyTestAccess::impl(h).singletons.size(), fold ? 1u : 0u);
     for (int i = 0; i < h.levels(); ++i) EXPECT_EQ(h.level(i).nodes, i < 2 ? 3 : 2) << i;
     expect_right(h, points, Box::none());
     h.insert({0, 0, 100});
-    EXPECT_EQ(HierarchyTestAccess::impl(h).lone.size(), fold ? 2u : 0u);
+    EXPECT_EQ(HierarchyTestAccess::impl(h).singletons.size(), fold ? 2u : 0u);
     EXPECT_EQ(h.validate(), "");
   }
 }
 
 // In whatever order they stand: its own node may be the first of two children.
-TEST(LoneNodes, HaveNoOtherChild) {
+TEST(Singletons, HaveNoOtherChild) {
   ListedHierarchy h(params_of(EdgeRule::additive, 1));
   const std::vector<Vec3> points{{0, 0, 0}, {60, 0, 0}, {1.5, 0, 0}};
   h.build({points.data(), 2}, Box::none());
@@ -104,11 +104,11 @@ TEST(Insertion, FillsABlockBeforeItTakesAnother) {
   h.build(std::vector<Vec3>{{0, 0, 0}}, Box::none());
   for (int k = 1; k < 24; ++k) {
     h.insert({0.01 * k, 0, 0});
-    EXPECT_EQ(HierarchyTestAccess::impl(h).points.cluster.size(), static_cast<std::size_t>(k / 8 + 1));
+    EXPECT_EQ(HierarchyTestAccess::impl(h).points.leaf.size(), static_cast<std::size_t>(k / 8 + 1));
   }
   for (const std::int32_t id : {3, 7, 12}) h.remove(id);
   for (int k = 0; k < 3; ++k) h.insert({0.005, 0, 0});
-  EXPECT_EQ(HierarchyTestAccess::impl(h).points.cluster.size(), 3u) << "gaps are filled";
+  EXPECT_EQ(HierarchyTestAccess::impl(h).points.leaf.size(), 3u) << "gaps are filled";
   EXPECT_EQ(h.validate(), "");
 }
 

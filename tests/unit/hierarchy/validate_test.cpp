@@ -99,7 +99,7 @@ TEST_F(ValidateTest, ReportsAPointThatIsNotItsOwnParent) {
 }
 
 TEST_F(ValidateTest, ReportsABlockOfAnotherCluster) {
-  inside().points.cluster[inside().levels[1].first_child[0]] = 1;
+  inside().points.leaf[inside().levels[1].first_child[0]] = 1;
   expect_report("are not its own");
 }
 
@@ -162,11 +162,11 @@ class ValidateLonePointsTest : public ::testing::Test {
 
 TEST_F(ValidateLonePointsTest, SoundHierarchyPasses) {
   EXPECT_EQ(hierarchy_.validate(), "");
-  ASSERT_EQ(inside().lone.size(), 3u);
+  ASSERT_EQ(inside().singletons.size(), 3u);
 }
 
 TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
-  const auto [level, node] = inside().lone[0];
+  const auto [level, node] = inside().singletons[0];
   const Vec3 near_the_others = hierarchy_.position(0) + Vec3{0.01, 0, 0};
   for (int i = level; i < hierarchy_.levels(); ++i)  // all its nodes
     for (std::int32_t k = 0; k < inside().levels[i].size(); ++k)
@@ -176,12 +176,12 @@ TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
 }
 
 TEST_F(ValidateLonePointsTest, ReportsALonePointThatAnotherPlaceClaims) {
-  std::swap(inside().lone[0], inside().lone[1]);
+  std::swap(inside().singletons[0], inside().singletons[1]);
   expect_report("is not that of its point");
 }
 
 TEST_F(ValidateLonePointsTest, ReportsALonePointWithAnEdge) {
-  const auto [level, node] = inside().lone[0];
+  const auto [level, node] = inside().singletons[0];
   inside().levels[level].edges.push(node, node == 0 ? 1 : 0);
   expect_report("is not on its own");
 }

@@ -37,7 +37,7 @@ void decode(const FrameDecoder& decoder, const std::string& bytes, Count& count)
     ASSERT_LE(extent.needed, extent.total);
     if (extent.total > static_cast<std::int64_t>(bytes.size())) throw BrokenFrame(0, "truncated");
     if (extent.has_positions) {
-      ASSERT_LE(extent.atoms, FrameDecoder::kMostAtomsPerByte * extent.needed);
+      ASSERT_LE(extent.atoms, FrameDecoder::kMaxAtomsPerByte * extent.needed);
       decoder.decode(all.first(static_cast<std::size_t>(extent.needed)), frame);
       ASSERT_EQ(static_cast<std::int64_t>(frame.positions.size()), extent.atoms);
     }
@@ -48,7 +48,7 @@ void decode(const FrameDecoder& decoder, const std::string& bytes, Count& count)
     ++count.errors;
   }
   ASSERT_LE(static_cast<std::int64_t>(frame.positions.capacity()),
-            FrameDecoder::kMostAtomsPerByte * static_cast<std::int64_t>(bytes.size()));
+            FrameDecoder::kMaxAtomsPerByte * static_cast<std::int64_t>(bytes.size()));
 }
 
 /// All 255 other values of every byte, every cut, and every number of the header with its extremes.

@@ -34,9 +34,9 @@ auto repeat(Call call) {
 /// The path behind all symbolic links, of a file that need not exist: renaming onto a link would replace the
 /// link.
 std::string follow_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as Linux allows
+  constexpr int kMaxLinks = 40;  // as Linux allows
   fs::path target(path);
-  for (int links = 0; links < kMostLinks; ++links) {
+  for (int links = 0; links < kMaxLinks; ++links) {
     std::error_code no_link;
     const fs::path next = fs::read_symlink(target, no_link);
     if (no_link) return target.string();

@@ -42,10 +42,10 @@ class FrameDecoder {
   static constexpr std::size_t kLongestHeader = 128;
 
   /// The extent of the frame that begins with these bytes: kLongestHeader of them, or all up to the end of
-  /// the file. Atoms are at most kMostAtomsPerByte times `needed`.
+  /// the file. Atoms are at most kMaxAtomsPerByte times `needed`.
   /// @throws BrokenFrame.
   virtual FrameExtent measure(Bytes head) const = 0;
-  static constexpr std::int64_t kMostAtomsPerByte = 4;
+  static constexpr std::int64_t kMaxAtomsPerByte = 4;
 
   /// Step, time, box and positions of a frame that has positions; ids and the rest are left alone.
   /// @param bytes the first `needed` ones of the frame

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t kMagic = 1995;
 constexpr std::int32_t kMagicOfLargeSystems = 2023;
-constexpr std::int64_t kMostUncompressedAtoms = 9;
+constexpr std::int64_t kMaxUncompressedAtoms = 9;
 
 struct Header {
   std::int64_t atoms = 0;
@@ -21,7 +21,7 @@ struct Header {
   double time = 0;
   Cell cell;
   bool has_long_size = false;
-  XtcStream stream;       ///< if there are more atoms than kMostUncompressedAtoms
+  XtcStream stream;       ///< if there are more atoms than kMaxUncompressedAtoms
   std::int64_t data = 0;  ///< bytes in front of the coordinates
   std::int64_t size = 0;  ///< bytes of the coordinates
 };
@@ -33,10 +33,10 @@ void read_range(XdrCursor& cursor, XtcStream& stream) {
     if (high < low) {
       cursor.fail_here(fmt::format("the largest coordinate {} lies below the smallest {}", high, low));
     }
-    constexpr std::int64_t kMost = 2147483647;
-    if (high - low >= kMost) {
+    constexpr std::int64_t kMax = 2147483647;
+    if (high - low >= kMax) {
       cursor.fail_here(fmt::format("the coordinates {} to {} are further apart than XTC can express, {}", low,
-                                   high, kMost - 1));
+                                   high, kMax - 1));
     }
     stream.size[axis] = static_cast<std::uint32_t>(high - low + 1);
   }
@@ -56,10 +56,9 @@ void read_stream_header(XdrCursor& cursor, Header& header) {
   }
   const char* what = "the size of the compressed coordinates";
   header.size = header.has_long_size ? cursor.read_long(what) : cursor.read_int(what);
-  constexpr std::int64_t kMost = std::int64_t{1} << 40;  // far above 2^31 atoms of 3 * 32 bits
+  constexpr std::int64_t kMax = std::int64_t{1} << 40;  // far above 2^31 atoms of 3 * 32 bits
   // A position takes a bit and the flag behind it at least.
-  if (header.size <= 0 || header.size > kMost ||
-      header.atoms > FrameDecoder::kMostAtomsPerByte * header.size) {
+  if (header.size <= 0 || header.size > kMax || header.atoms > FrameDecoder::kMaxAtomsPerByte * header.size) {
     cursor.fail_here(fmt::format("{} bytes cannot hold the compressed coordinates of {} atoms", header.size,
                                  header.atoms));
   }
@@ -84,7 +83,7 @@ Header read_header(XdrCursor& cursor) {
   if (again != header.atoms) {
     cursor.fail_here(fmt::format("expected {} coordinates as in the header, found {}", header.atoms, again));
   }
-  if (header.atoms > kMostUncompressedAtoms) {
+  if (header.atoms > kMaxUncompressedAtoms) {
     read_stream_header(cursor, header);
   } else {
     header.size = header.atoms * 3 * static_cast<std::int64_t>(sizeof(float));
@@ -111,7 +110,7 @@ void XtcDecoder::decode(Bytes bytes, Frame& frame) const {
   frame.step = header.step;
   frame.time = header.time;
   frame.box = header.cell.box();
-  if (header.atoms <= kMostUncompressedAtoms) {
+  if (header.atoms <= kMaxUncompressedAtoms) {
     frame.positions.resize(static_cast<std::size_t>(header.atoms));
     for (Vec3& position : frame.positions) position = cursor.read_finite_vector("the coordinates");
     return;

@@ -35,8 +35,8 @@ class StreamDecoder {
         inverse_(static_cast<float>(1 / static_cast<double>(stream.precision))),
         small_(stream.small),
         large_(large_triple(stream.size)) {
-    constexpr std::uint32_t kMostPacked = 0xffffff;
-    packed_ = (stream.size[0] | stream.size[1] | stream.size[2]) <= kMostPacked;
+    constexpr std::uint32_t kMaxPacked = 0xffffff;
+    packed_ = (stream.size[0] | stream.size[1] | stream.size[2]) <= kMaxPacked;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low_[axis] = static_cast<std::uint32_t>(stream.low[axis]);
       size_[axis] = stream.size[axis];

@@ -203,8 +203,8 @@ std::vector<std::string> read_string_attribute(hid_t object, const std::string& 
   const Hdf5Handle type(H5Aget_type(attribute.get()));
   const Hdf5Handle space(H5Aget_space(attribute.get()));
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  constexpr hssize_t kMost = 16;  // three boundaries, or one unit
-  if (H5Tget_class(type.get()) != H5T_STRING || count < 1 || count > kMost) return {};
+  constexpr hssize_t kMax = 16;  // three boundaries, or one unit
+  if (H5Tget_class(type.get()) != H5T_STRING || count < 1 || count > kMax) return {};
 
   std::vector<std::string> strings;
   if (H5Tis_variable_str(type.get()) > 0) {

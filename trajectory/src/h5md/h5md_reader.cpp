@@ -117,9 +117,9 @@ void H5mdReader::check_positions() const {
   const auto& shape = position_->shape();
   if (shape.size() != 2 || shape[1] != 3)
     position_->fail_here("does not have three coordinates for each atom");
-  constexpr hsize_t kMostAtoms = 2147483647;
-  if (shape[0] > kMostAtoms)
-    position_->fail_here(fmt::format("has {} atoms, more than {}", shape[0], kMostAtoms));
+  constexpr hsize_t kMaxAtoms = 2147483647;
+  if (shape[0] > kMaxAtoms)
+    position_->fail_here(fmt::format("has {} atoms, more than {}", shape[0], kMaxAtoms));
   if (position_->frames() == 0) position_->fail_here("holds no frame");
 }
 

@@ -12,10 +12,10 @@ Hdf5Series::Hdf5Series(hid_t parent, const std::string& name, hid_t file_type,
   size.insert(size.begin(), 0);
   limit.insert(limit.begin(), H5S_UNLIMITED);
   // A chunk holds one large row, or many small ones; HDF5 allows 4 GiB.
-  constexpr hsize_t kMostAtoms = hsize_t{1} << 20, kSmallRows = 512, kFewNumbers = 9;
+  constexpr hsize_t kMaxAtoms = hsize_t{1} << 20, kSmallRows = 512, kFewNumbers = 9;
   hsize_t numbers = 1;
   for (hsize_t& n : chunk) {
-    n = std::min(n, kMostAtoms);
+    n = std::min(n, kMaxAtoms);
     numbers *= n;
   }
   chunk.insert(chunk.begin(), numbers <= kFewNumbers ? kSmallRows : 1);

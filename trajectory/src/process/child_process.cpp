@@ -152,11 +152,11 @@ std::string ChildProcess::wait_and_describe() {
 }
 
 std::string ChildProcess::last_words() const {
-  constexpr std::size_t kMost = 4096;
+  constexpr std::size_t kMax = 4096;
   constexpr std::size_t kShown = 600;
-  std::string raw(kMost, '\0');
+  std::string raw(kMax, '\0');
   const off_t size = ::lseek(messages_, 0, SEEK_END);
-  const off_t from = size > static_cast<off_t>(kMost) ? size - static_cast<off_t>(kMost) : 0;
+  const off_t from = size > static_cast<off_t>(kMax) ? size - static_cast<off_t>(kMax) : 0;
   const ssize_t got = ::pread(messages_, raw.data(), raw.size(), from);
   raw.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
 

@@ -33,13 +33,13 @@ class ChainWords {
 
  private:
   void add_of_range(std::int64_t id, std::vector<std::int32_t>& chain) {
-    constexpr std::size_t kMostTimes = 16;
+    constexpr std::size_t kMaxTimes = 16;
     chain.push_back(atoms_.find(lines_, id));
-    if (++in_ranges_ <= kMostTimes * atoms_.size()) return;
+    if (++in_ranges_ <= kMaxTimes * atoms_.size()) return;
     lines_.fail_here(
         fmt::format("the ranges up to here name {} atoms, more than {} times the trajectory's {}: name each "
                     "atom once, or a few times where chains branch",
-                    in_ranges_, kMostTimes, atoms_.size()));
+                    in_ranges_, kMaxTimes, atoms_.size()));
   }
 
   const LineReader& lines_;

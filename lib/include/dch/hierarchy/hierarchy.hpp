@@ -54,7 +54,7 @@ class Hierarchy {
   void build(Span<const Vec3> positions, const Box& box);
 
   /// Takes new positions, indexed by id, in a possibly changed box. With MaintenancePolicy::automatic repair
-  /// is put off as long as the displacements so far certify that the edges of level 1 still join all clusters
+  /// is put off as long as the displacements so far certify that the edges of level 1 still join all leaves
   /// with points within `radius` of each other: lists are exact all the same. Else the structure is brought
   /// up to date by black-box repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement,
   /// O(n + k lg alpha) for k changes; or a build, as the policy decides. Entries of ids that were removed are

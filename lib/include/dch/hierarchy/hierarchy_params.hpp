@@ -13,7 +13,7 @@ enum class MaintenancePolicy {
   always_rebuild  ///< build at every update
 };
 
-/// List radii that a hierarchy can have [length]: coordinates relative to clusters, and their inverse units,
+/// List radii that a hierarchy can have [length]: coordinates relative to leaves, and their inverse units,
 /// stay within single precision.
 inline constexpr double kMinListRadius = 1e-30, kMaxListRadius = 1e30;
 

@@ -11,14 +11,14 @@
 namespace dch::detail {
 namespace {
 
-constexpr std::size_t kSamples = 9;         ///< points around which others are counted
-constexpr std::size_t kLeastOthers = 4096;  ///< points that are counted, or one in kStride if that is more
+constexpr std::size_t kSamples = 9;       ///< points around which others are counted
+constexpr std::size_t kMinOthers = 4096;  ///< points that are counted, or one in kStride if that is more
 constexpr std::size_t kStride = 16;
 // Of the points within R_0 of a center about a third are its children.
 constexpr double kPointsWithinRadius = 300;
-constexpr double kLeastFactor = 0.25, kMostFactor = 4;  ///< R_0 / radius
+constexpr double kMinFactor = 0.25, kMaxFactor = 4;  ///< R_0 / radius
 
-std::size_t counted_points(std::size_t n) { return std::min(n, std::max(kLeastOthers, n / kStride)); }
+std::size_t counted_points(std::size_t n) { return std::min(n, std::max(kMinOthers, n / kStride)); }
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::int64_t density_samples(std::size_t points) {
 
 double base_radius_for(Span<const Vec3> positions, const Box& box, double radius) {
   const std::size_t n = positions.size();
-  const double most = std::min(kMostFactor * radius, std::max(box.max_cutoff(), kLeastFactor * radius));
+  const double most = std::min(kMaxFactor * radius, std::max(box.max_cutoff(), kMinFactor * radius));
   if (n < 2) return radius;
   const std::size_t others = counted_points(n);
   const double share = static_cast<double>(others) / static_cast<double>(n);
@@ -46,7 +46,7 @@ double base_radius_for(Span<const Vec3> positions, const Box& box, double radius
     }
   });
   std::nth_element(medians.begin(), medians.begin() + kSamples / 2, medians.end());
-  return std::clamp(std::sqrt(medians[kSamples / 2]), kLeastFactor * radius, most);
+  return std::clamp(std::sqrt(medians[kSamples / 2]), kMinFactor * radius, most);
 }
 
 }  // namespace dch::detail

@@ -7,9 +7,9 @@
 
 namespace dch::detail {
 
-/// A point of a cluster, to be put in order.
+/// A point of a leaf, to be put in order.
 struct LocalPoint {
-  float at[3];         ///< relative to the cluster's center [length]
+  float at[3];         ///< relative to the leaf's center [length]
   std::int32_t index;  ///< the caller's
 };
 

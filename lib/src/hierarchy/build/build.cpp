@@ -18,7 +18,7 @@ using detail::kNone;
 using detail::with_metric;
 
 namespace {
-constexpr std::size_t kLargestBatch = 64;
+constexpr std::size_t kMaxBatch = 64;
 constexpr double kCurveCells = 4;  ///< cells of the curve in R_0
 
 /// The box around points that are wrapped.
@@ -61,7 +61,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
   slot_of_id.assign(n, kNone);
   with_metric(box, [&](const auto& metric) {
     placing_later = true;
-    choose_clusters(metric);
+    choose_leaves(metric);
     placing_later = false;
     place_points(metric);
   });
@@ -72,7 +72,7 @@ void Hierarchy::Impl::build(Span<const Vec3> positions, const Box& b) {
 
 /// Makes all levels but 0. Until place_points(), slot_of_id holds the points' parents.
 template <class Metric>
-void Hierarchy::Impl::choose_clusters(const Metric& metric) {
+void Hierarchy::Impl::choose_leaves(const Metric& metric) {
   const auto order = detail::space_filling_order(raw, box, base_radius / kCurveCells);
   // Within this of the batch's center, the nearest images of a point and of a node that covers it are apart
   // by their distance.
@@ -81,21 +81,21 @@ void Hierarchy::Impl::choose_clusters(const Metric& metric) {
     const Vec3 corner = metric.wrap(raw[order[first]]);
     Extent extent{corner, corner};
     std::size_t last = first + 1;
-    for (; last < order.size() && last - first < kLargestBatch; ++last) {
+    for (; last < order.size() && last - first < kMaxBatch; ++last) {
       const Extent wider = extent.with(metric.wrap(raw[order[last]]));
       if (wider.half_diagonal() > most) break;
       extent = wider;
     }
-    settle_batch(metric, {order.data() + first, last - first, extent.center(), extent.half_diagonal()});
+    attach_batch(metric, {order.data() + first, last - first, extent.center(), extent.half_diagonal()});
     first = last;
   }
 }
 
 template <class Metric>
-void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
+void Hierarchy::Impl::attach_batch(const Metric& metric, const Batch& batch) {
   Hint hint = batch_hint;
   if (batch.size == 1) {
-    batch_hint = cluster_for(metric, metric.wrap(raw[batch.ids[0]]), batch.ids[0], hint);
+    batch_hint = leaf_for(metric, metric.wrap(raw[batch.ids[0]]), batch.ids[0], hint);
     return;
   }
   find_near(metric, batch.center, 1, (base_radius + batch.extent) * kInflate, hint);
@@ -118,7 +118,7 @@ void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
         continue;
       }
     }
-    hint = cluster_for(metric, at, *id, hint);
+    hint = leaf_for(metric, at, *id, hint);
     const bool is_new =
         hint.level == 1 && std::find(batch_nodes.begin(), batch_nodes.end(), hint.node) == batch_nodes.end();
     if (is_new) add(hint.node);
@@ -126,32 +126,31 @@ void Hierarchy::Impl::settle_batch(const Metric& metric, const Batch& batch) {
   batch_hint = hint;
 }
 
-/// Gives a point a parent in level 1, a new one if there was none, or a lone node. Returns which.
+/// Gives a point a parent in level 1, a new one if there was none, or makes it a singleton. Returns which.
 template <class Metric>
-Hierarchy::Impl::Hint Hierarchy::Impl::cluster_for(const Metric& metric, Vec3 at, std::int32_t id,
-                                                   Hint hint) {
+Hierarchy::Impl::Hint Hierarchy::Impl::leaf_for(const Metric& metric, Vec3 at, std::int32_t id, Hint hint) {
   const Cover cover = locate(metric, at, 1, hint);
-  const std::int32_t cluster = lift(metric, 0, id, at, cover);
-  if (cluster != kNone) slot_of_id[id] = cluster;
+  const std::int32_t leaf = promote(metric, 0, id, at, cover);
+  if (leaf != kNone) slot_of_id[id] = leaf;
   grow_top(metric);
-  if (!is_lone_point(id)) return {1, cluster};
-  const LoneNode& node = lone[lone_at(slot_of_id[id])];
+  if (!is_singleton_point(id)) return {1, leaf};
+  const Singleton& node = singletons[singleton_at(slot_of_id[id])];
   return {node.level, node.node};
 }
 
 template <class Metric>
 void Hierarchy::Impl::place_points(const Metric& metric) {
   const std::vector<std::int32_t> order = reorder_levels();
-  for (std::int32_t& cluster : slot_of_id)
-    if (cluster >= 0) cluster = order[cluster];
-  std::vector<std::int32_t> cluster_of = slot_of_id;
-  fill_clusters(
-      metric, points, cluster_of, [](std::size_t id) { return static_cast<std::int32_t>(id); },
+  for (std::int32_t& leaf : slot_of_id)
+    if (leaf >= 0) leaf = order[leaf];
+  std::vector<std::int32_t> leaf_of = slot_of_id;
+  fill_leaves(
+      metric, points, leaf_of, [](std::size_t id) { return static_cast<std::int32_t>(id); },
       [&](std::size_t id) { return metric.wrap(raw[id]); });
 }
 
-#define DCH_INSTANTIATE(Metric)                                  \
-  template void Hierarchy::Impl::choose_clusters(const Metric&); \
+#define DCH_INSTANTIATE(Metric)                                \
+  template void Hierarchy::Impl::choose_leaves(const Metric&); \
   template void Hierarchy::Impl::place_points(const Metric&);
 DCH_INSTANTIATE(detail::OpenMetric)
 DCH_INSTANTIATE(detail::OrthorhombicMetric)

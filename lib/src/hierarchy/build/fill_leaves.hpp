@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Points in their final order: by cluster, close together in blocks.
+// Points in their final order: by leaf, close together in blocks.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 namespace dch {
 
 template <class Metric, class IdOf, class PositionOf>
-void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::LeafBlocks& blocks,
-                                    std::vector<std::int32_t>& cluster_of, const IdOf& id_of,
-                                    const PositionOf& position_of) {
+void Hierarchy::Impl::fill_leaves(const Metric& metric, detail::LeafBlocks& blocks,
+                                  std::vector<std::int32_t>& leaf_of, const IdOf& id_of,
+                                  const PositionOf& position_of) {
   Members members;
-  members.sort(cluster_of, levels[1].size());
-  choose_nearest(metric, members, cluster_of, position_of);
-  members.sort(cluster_of, levels[1].size());
+  members.sort(leaf_of, levels[1].size());
+  choose_nearest(metric, members, leaf_of, position_of);
+  members.sort(leaf_of, levels[1].size());
   std::int64_t most = 0;
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
     most += detail::blocks_for(members.first[k + 1] - members.first[k]);
@@ -29,17 +29,17 @@ void Hierarchy::Impl::fill_clusters(const Metric& metric, detail::LeafBlocks& bl
       const Vec3 at = metric.displacement(levels[1].position[k], position_of(index));
       local.push_back(detail::local_point(at, index));
     }
-    fill_cluster(blocks, k, local, id_of, position_of);
+    fill_leaf(blocks, k, local, id_of, position_of);
   }
 }
 
-/// A point takes the nearest center in the place of another one that covers it: clusters become compact. A
+/// A point takes the nearest center in the place of another one that covers it: leaves become compact. A
 /// center as near as the one of now is within twice that distance of it, and joined to it.
 template <class Metric, class PositionOf>
 void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& members,
-                                     std::vector<std::int32_t>& cluster_of, const PositionOf& position_of) {
+                                     std::vector<std::int32_t>& leaf_of, const PositionOf& position_of) {
   struct Center {
-    Vec3 at;  ///< relative to that of the cluster
+    Vec3 at;  ///< relative to that of the leaf
     double distance2;
     std::int32_t node;
   };
@@ -69,28 +69,28 @@ void Hierarchy::Impl::choose_nearest(const Metric& metric, const Members& member
         nearest = other.node;
       }
       if (metric.distance2(position, centers.position[nearest]) <= levels[0].radius2)
-        cluster_of[members.index[m]] = nearest;
+        leaf_of[members.index[m]] = nearest;
     }
   }
   stats.distances += tested;
 }
 
 template <class IdOf, class PositionOf>
-void Hierarchy::Impl::fill_cluster(detail::LeafBlocks& blocks, std::int32_t cluster,
-                                   std::vector<detail::LocalPoint>& local, const IdOf& id_of,
-                                   const PositionOf& position_of) {
+void Hierarchy::Impl::fill_leaf(detail::LeafBlocks& blocks, std::int32_t leaf,
+                                std::vector<detail::LocalPoint>& local, const IdOf& id_of,
+                                const PositionOf& position_of) {
   const auto count = static_cast<std::int32_t>(local.size());
   const std::int32_t parts = detail::blocks_for(count);
   detail::order_by_halving(local.data(), count);
   std::int32_t last = detail::kNone, k = 0;
   for (std::int32_t part = 0; part < parts; ++part) {
-    const std::int32_t block = blocks.add_block(cluster, detail::kNone);
-    (last == detail::kNone ? levels[1].first_child[cluster] : blocks.next[last]) = block;
+    const std::int32_t block = blocks.add_block(leaf, detail::kNone);
+    (last == detail::kNone ? levels[1].first_child[leaf] : blocks.next[last]) = block;
     last = block;
     for (; k < detail::share_of_blocks(count, parts, part + 1); ++k) {
       const std::int32_t id = id_of(local[k].index);
       slot_of_id[id] = blocks.push(block, id, position_of(local[k].index));
-      if (id == levels[1].id[cluster]) levels[1].down[cluster] = slot_of_id[id];
+      if (id == levels[1].id[leaf]) levels[1].down[leaf] = slot_of_id[id];
     }
   }
 }

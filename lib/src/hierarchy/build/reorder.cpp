@@ -58,7 +58,7 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
       fresh.parent[k] = old.parent[from];  // the level above has renamed these already
       fresh.up[k] = old.up[from];
       fresh.down[k] = old.down[from];
-      if (is_lone(i, from)) lone[lone_at(old.down[from])].node = k;
+      if (is_singleton(i, from)) singletons[singleton_at(old.down[from])].node = k;
       fresh.first_child[k] = old.first_child[from];
       fresh.next_sibling[k] = renamed(order, old.next_sibling[from]);
       fresh.prev_sibling[k] = renamed(order, old.prev_sibling[from]);
@@ -80,29 +80,29 @@ std::vector<std::int32_t> Hierarchy::Impl::reorder_levels() {
 void Hierarchy::Impl::reorder() {
   reorder_levels();
   reorder_points();
-  strayed = 0;
+  misplaced = 0;
 }
 
-void Hierarchy::Impl::Members::sort(const std::vector<std::int32_t>& cluster_of, std::int32_t clusters) {
-  std::vector<std::int32_t> next(static_cast<std::size_t>(clusters) + 1, 0);
-  for (const std::int32_t cluster : cluster_of)
-    if (cluster >= 0) ++next[cluster + 1];
+void Hierarchy::Impl::Members::sort(const std::vector<std::int32_t>& leaf_of, std::int32_t leaf_count) {
+  std::vector<std::int32_t> next(static_cast<std::size_t>(leaf_count) + 1, 0);
+  for (const std::int32_t leaf : leaf_of)
+    if (leaf >= 0) ++next[leaf + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   first = next;
   index.resize(static_cast<std::size_t>(first.back()));
-  for (std::size_t k = 0; k < cluster_of.size(); ++k)
-    if (cluster_of[k] >= 0) index[next[cluster_of[k]]++] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < leaf_of.size(); ++k)
+    if (leaf_of[k] >= 0) index[next[leaf_of[k]]++] = static_cast<std::int32_t>(k);
 }
 
 void Hierarchy::Impl::reorder_points() {
-  std::vector<std::int32_t> cluster_of(points.id.size(), kNone);
+  std::vector<std::int32_t> leaf_of(points.id.size(), kNone);
   for (std::int32_t k = 0; k < levels[1].size(); ++k)
-    for_each_child(1, k, [&](std::int32_t slot) { cluster_of[slot] = k; });
+    for_each_child(1, k, [&](std::int32_t slot) { leaf_of[slot] = k; });
   detail::LeafBlocks fresh;
   fresh.most = points.most;
   with_metric(box, [&](const auto& metric) {
-    fill_clusters(
-        metric, fresh, cluster_of, [&](std::size_t slot) { return points.id[slot]; },
+    fill_leaves(
+        metric, fresh, leaf_of, [&](std::size_t slot) { return points.id[slot]; },
         [&](std::size_t slot) { return points.position[slot]; });
   });
   points = std::move(fresh);

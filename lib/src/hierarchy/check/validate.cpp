@@ -43,15 +43,15 @@ class Verdict {
   std::string text_;
 };
 
-/// Blocks of points: filled from the front, in the chain of exactly one cluster.
+/// Blocks of points: filled from the front, in the chain of exactly one leaf.
 void check_blocks(const Structure& h, Verdict& verdict) {
   const detail::LeafBlocks& points = h.points;
   std::int32_t alive = 0;
-  std::vector<char> seen(points.cluster.size(), 0);
+  std::vector<char> seen(points.leaf.size(), 0);
   for (std::int32_t k = 0; k < h.levels[1].size(); ++k) {
     if (!h.levels[1].is_alive(k)) continue;
     for (std::int32_t block = h.levels[1].first_child[k]; block != kNone; block = points.next[block]) {
-      if (!verdict.require(!seen[block] && points.cluster[block] == k, 1, "the blocks of point ",
+      if (!verdict.require(!seen[block] && points.leaf[block] == k, 1, "the blocks of point ",
                            h.levels[1].id[k], " are not its own"))
         return;
       seen[block] = 1;
@@ -63,18 +63,18 @@ void check_blocks(const Structure& h, Verdict& verdict) {
   }
   verdict.require(alive == points.alive, 0, points.alive, " points, but ", alive, " in blocks");
   for (std::size_t block = 0; block < seen.size(); ++block)
-    verdict.require(seen[block] || points.cluster[block] == kNone, 0, "block ", block, " is in no chain");
+    verdict.require(seen[block] || points.leaf[block] == kNone, 0, "block ", block, " is in no chain");
 }
 
-/// Lone nodes: known to their points, without edges and children. That no other node is near is for
+/// Singletons: known to their points, without edges and children. That no other node is near is for
 /// check_pairs().
 void check_lone_nodes(const Structure& h, Verdict& verdict) {
-  for (std::size_t k = 0; k < h.lone.size(); ++k) {
-    const auto [i, node] = h.lone[k];
-    const std::int32_t place = h.place_of_lone(static_cast<std::int32_t>(k));
+  for (std::size_t k = 0; k < h.singletons.size(); ++k) {
+    const auto [i, node] = h.singletons[k];
+    const std::int32_t place = h.place_of_singleton(static_cast<std::int32_t>(k));
     if (!verdict.require(i > 1 && i <= h.top() && h.is_alive(i, node) && h.levels[i].down[node] == place &&
                              h.slot_of_id[h.id(i, node)] == place,
-                         i, "lone node ", k, " is not that of its point"))
+                         i, "singleton ", k, " is not that of its point"))
       return;
     verdict.require(h.levels[i].first_child[node] == kNone && h.levels[i].edges.row(node).empty(), i,
                     "point ", h.id(i, node), " is not on its own");
@@ -89,18 +89,18 @@ void check_nesting(const Structure& h, Verdict& verdict) {
     const std::int32_t slot = h.slot_of_id[id];
     if (slot == kNone) continue;
     ++count;
-    if (h.is_lone_point(static_cast<std::int32_t>(id))) continue;
+    if (h.is_singleton_point(static_cast<std::int32_t>(id))) continue;
     verdict.require(slot < h.points.size() && h.points.id[slot] == static_cast<std::int32_t>(id), 0,
                     "slot of point ", id, " holds another point");
   }
-  const std::int64_t places = h.points.alive + static_cast<std::int64_t>(h.lone.size());
+  const std::int64_t places = h.points.alive + static_cast<std::int64_t>(h.singletons.size());
   verdict.require(count == places, 0, count, " points but ", places, " nodes");
   check_lone_nodes(h, verdict);
   for (int i = 0; i <= h.top(); ++i) {
-    std::int64_t lifted = 0;
+    std::int64_t promoted = 0;
     for (std::int32_t k = 0; k < h.size(i); ++k) {
       if (!h.is_alive(i, k)) continue;
-      if (i > 0 && !h.is_lone(i, k)) {
+      if (i > 0 && !h.is_singleton(i, k)) {
         const std::int32_t down = h.levels[i].down[k];
         if (!verdict.require(down != kNone && h.id(i - 1, down) == h.id(i, k) && h.up(i - 1, down) == k, i,
                              "point ", h.id(i, k), " does not stand in the level below"))
@@ -109,14 +109,14 @@ void check_nesting(const Structure& h, Verdict& verdict) {
                         "position of point ", h.id(i, k), " differs from the level below");
       }
       if (i == h.top() || h.up(i, k) == kNone) continue;
-      ++lifted;
+      ++promoted;
       verdict.require(h.levels[i + 1].down[h.up(i, k)] == k && h.parent(i, k) == h.up(i, k), i, "point ",
                       h.id(i, k), " is not its own parent although it stands in the level above");
     }
     if (i == h.top()) continue;
-    const auto lone =
-        std::count_if(h.lone.begin(), h.lone.end(), [&](const auto& n) { return n.level == i + 1; });
-    verdict.require(lifted + lone == h.alive(i + 1), i + 1, "holds nodes without a node below");
+    const auto singletons = std::count_if(h.singletons.begin(), h.singletons.end(),
+                                          [&](const auto& n) { return n.level == i + 1; });
+    verdict.require(promoted + singletons == h.alive(i + 1), i + 1, "holds nodes without a node below");
   }
 }
 
@@ -177,7 +177,7 @@ class Marks {
   std::vector<std::int32_t> row_of_;  ///< by node: the last owner that named it
 };
 
-/// A node of a level, or the point of a lone node of a level above, which stands there all the same.
+/// A node of a level, or the point of a singleton of a level above, which stands there all the same.
 struct Member {
   std::int32_t node;  ///< kNone if it is not in memory
   std::int32_t id;
@@ -187,7 +187,7 @@ std::vector<Member> members_of(const Structure& h, int i) {
   std::vector<Member> members;
   for (std::int32_t k = 0; k < h.size(i); ++k)
     if (h.is_alive(i, k)) members.push_back({k, h.id(i, k), h.position(i, k)});
-  for (const auto& [level, node] : h.lone)
+  for (const auto& [level, node] : h.singletons)
     if (level > i) members.push_back({kNone, h.id(level, node), h.position(level, node)});
   return members;
 }
@@ -233,7 +233,7 @@ void check_pairs(const Metric& metric, const Structure& h, int i, Verdict& verdi
 }
 
 /// What lists rely on while repair is put off: points within rho_0 of each other have equal or joined
-/// parents, and lone points have none so near.
+/// parents, and singletons have none so near.
 template <class Metric>
 void check_reachable_pairs(const Metric& metric, const Structure& h, Verdict& verdict) {
   Marks joined(h.size(1));
@@ -250,7 +250,7 @@ void check_reachable_pairs(const Metric& metric, const Structure& h, Verdict& ve
           require_far(metric.distance2(h.position(0, a), h.position(0, b)), h.id(0, a), h.id(0, b));
     });
   }
-  for (const auto& [level, node] : h.lone) {
+  for (const auto& [level, node] : h.singletons) {
     const std::int32_t a = h.id(level, node);
     for (std::size_t b = 0; b < h.raw.size(); ++b)
       if (static_cast<std::int32_t>(b) != a && h.slot_of_id[b] != kNone)
@@ -265,7 +265,7 @@ std::string validate(const HierarchyView& hierarchy) {
   const Structure& h = hierarchy.structure();
   const int top = h.top(), most_roots = h.params.max_roots;
   Verdict verdict;
-  verdict.require(top == 1 || h.levels[top - 1].alive() + h.lone_above(top - 1) > most_roots, top,
+  verdict.require(top == 1 || h.levels[top - 1].alive() + h.singletons_above(top - 1) > most_roots, top,
                   "is not needed");
   verdict.require(h.levels.back().alive() <= most_roots, top, "has ", h.levels.back().alive(),
                   " roots, more than ", most_roots);

@@ -44,7 +44,7 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
       if (!pending) anchors = levels[1].position;
       raw.assign(positions.begin(), positions.end());
       with_metric(box, [&](const auto& metric) {
-        refresh_clusters(metric);
+        refresh_leaves(metric);
         if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
           pending = true;
           ++stats.refreshes;
@@ -88,7 +88,7 @@ void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
 }
 
 template <class Metric>
-void Hierarchy::Impl::refresh_clusters(const Metric& metric) {
+void Hierarchy::Impl::refresh_leaves(const Metric& metric) {
   refresh_level(metric, 1);
   leaves.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
   stats.distances += points.alive;
@@ -156,10 +156,10 @@ void Hierarchy::Impl::measure(const Metric& metric) {
   measured = true;
 }
 
-// Two clusters without an edge were more than rho_1 apart when the structure was in order, so now they are
+// Two leaves without an edge were more than rho_1 apart when the structure was in order, so now they are
 // more than rho_1 minus both displacements apart, and their points more than that minus both extents: more
-// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every cluster. Lone nodes count
-// as clusters; one of level i was more than rho_1 + R_i - R_1 away from the clusters of all others.
+// than rho_0 if extent plus displacement is at most (rho_1 - rho_0) / 2 for every leaf. Singletons count
+// as leaves; one of level i was more than rho_1 + R_i - R_1 away from the leaves of all others.
 template <class Metric>
 bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
   if (detail::WrapError(box).bound(largest_reach) > wrap_slack) return false;
@@ -170,7 +170,7 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
     if (leaves.leaves[k].extent + moved > limit) return false;
     motion = std::max(motion, moved);
   }
-  for (const LoneNode& node : lone) {
+  for (const Singleton& node : singletons) {
     const Level& level = levels[node.level];
     const double moved =
         std::sqrt(metric.distance2(level.position[node.node], metric.wrap(raw[level.id[node.node]])));
@@ -211,7 +211,7 @@ bool Hierarchy::Impl::repair_pays(const Metric& metric) {
 // A particle that comes needs a parent, as do those with one that goes if it is a center; where, is not known
 // yet.
 bool Hierarchy::Impl::exchange_pays(std::size_t particles) const {
-  double near_all = 0;  // of all points in clusters, what a search near them looks at
+  double near_all = 0;  // of all points in leaves, what a search near them looks at
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k)) continue;
     const auto near_one = static_cast<double>(1 + levels[1].edges.row(k).size());

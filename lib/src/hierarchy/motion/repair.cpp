@@ -8,7 +8,7 @@
 //      incomplete;
 //   3. separate: of two nodes within R_{i-1} one is demoted, and its children are handed to the other, to be
 //      looked at when their own level's turn comes.
-// Settling the orphans one after the other, each promoted one with its edges at once, keeps the centers
+// Attaching the orphans one after the other, each promoted one with its edges at once, keeps the centers
 // separated.
 #include <algorithm>
 #include <cmath>
@@ -30,44 +30,44 @@ void Hierarchy::Impl::repair(const Metric& metric) {
     } else {
       connect_level(metric, i);
     }
-    unfold_joined(i);
+    expand_joined(i);
     separate_level(i);
   }
   cover_points(metric);  // which have no separation to keep, and whose edges are the lists
   trim_top();
-  fold();
+  collapse();
   ++stats.repairs;
   pending = false;
   note_new_places();
-  strayed += stats.reparented - reparented_before;
-  if (static_cast<double>(strayed) > detail::kStrayed * static_cast<double>(raw.size())) reorder();
+  misplaced += stats.reparented - reparented_before;
+  if (static_cast<double>(misplaced) > detail::kMaxMisplaced * static_cast<double>(raw.size())) reorder();
 }
 
-/// Whether no point of a cluster was too far from its center when they were measured. Clusters that are new
+/// Whether no point of a leaf was too far from its center when they were measured. Leaves that are new
 /// since then hold none but those that were found to be near enough.
-bool Hierarchy::Impl::is_known_to_cover(std::int32_t cluster) const {
-  const auto& clusters = leaves.leaves;
-  return static_cast<std::size_t>(cluster) >= clusters.size() || clusters[cluster].uncovered == 0;
+bool Hierarchy::Impl::is_known_to_cover(std::int32_t leaf) const {
+  const auto& known = leaves.leaves;
+  return static_cast<std::size_t>(leaf) >= known.size() || known[leaf].uncovered == 0;
 }
 
 template <class Metric>
 void Hierarchy::Impl::cover_points(const Metric& metric) {
-  strays.clear();
+  uncovered_points.clear();
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
     if (!levels[1].is_alive(k) || is_known_to_cover(k)) continue;
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
       ++stats.distances;
       if (metric.distance2(points.position[slot], center) > levels[0].radius2)
-        strays.push_back(points.id[slot]);
+        uncovered_points.push_back(points.id[slot]);
     });
   }
-  for (const std::int32_t stray : strays) {
-    const std::int32_t slot = slot_of_id[stray];
+  for (const std::int32_t point : uncovered_points) {
+    const std::int32_t slot = slot_of_id[point];
     const Hint hint{1, points.parent(slot)};
     const Vec3 at = points.position[slot];
-    take_point(slot);
-    settle_point(metric, stray, at, locate(metric, at, 1, hint));
+    remove_from_block(slot);
+    attach_point_under(metric, point, at, locate(metric, at, 1, hint));
     ++stats.reparented;
     grow_top(metric);
   }
@@ -75,15 +75,15 @@ void Hierarchy::Impl::cover_points(const Metric& metric) {
 
 template <class Metric>
 void Hierarchy::Impl::cover_level(const Metric& metric, int i) {
-  // Sizes are read anew on each turn: settling may grow the levels above, never this one. All have a parent,
-  // since demote() hands the children on.
+  // Sizes are read anew on each turn: attaching a node may grow the levels above, never this one. All have a
+  // parent, since demote() hands the children on.
   for (std::int32_t k = 0; k < levels[i].size(); ++k) {
     const Level& level = levels[i];
     if (!level.is_alive(k) || level.up[k] != kNone) continue;
     const std::int32_t parent = level.parent[k];
     ++stats.distances;
     if (metric.distance2(level.position[k], levels[i + 1].position[parent]) <= level.radius2) continue;
-    settle(metric, i, k, locate(metric, level.position[k], i + 1, {i + 1, parent}));
+    attach_under(metric, i, k, locate(metric, level.position[k], i + 1, {i + 1, parent}));
     ++stats.reparented;
     grow_top(metric);
   }
@@ -148,9 +148,9 @@ void Hierarchy::Impl::connect_level(const Metric& metric, int i) {
   for (std::int32_t parent = 0; parent < above.size(); ++parent) {  // dead ones have no children and no edges
     candidates.clear();
     const Vec3 center = above.position[parent];
-    const auto gather = [&](std::int32_t cluster) {
-      const std::int32_t begin = siblings.first[cluster];
-      const auto count = static_cast<std::size_t>(siblings.first[cluster + 1] - begin);
+    const auto gather = [&](std::int32_t near_parent) {
+      const std::int32_t begin = siblings.first[near_parent];
+      const auto count = static_cast<std::size_t>(siblings.first[near_parent + 1] - begin);
       stats.distances += static_cast<std::int64_t>(count);
       candidates.append_within(
           siblings.position.data() + begin, siblings.node.data() + begin, count, Vec3{},
@@ -180,26 +180,26 @@ bool Hierarchy::Impl::keeps_first(int i, std::int32_t a, std::int32_t b) const {
   return level.up[a] != kNone || (level.up[b] == kNone && level.id[a] < level.id[b]);
 }
 
-void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t heir) {
+void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t successor) {
   Level& level = levels[i];
   if (i > 1) {
     levels[i - 1].up[level.down[node]] = kNone;
     for (std::int32_t child = level.first_child[node]; child != kNone; child = level.first_child[node]) {
       detach(i - 1, child);
-      attach(i - 1, child, heir);
+      attach(i - 1, child, successor);
     }
   } else {
     std::int32_t last = kNone;
     for (std::int32_t block = level.first_child[node]; block != kNone; block = points.next[block]) {
-      points.cluster[block] = heir;
+      points.leaf[block] = successor;
       last = block;
     }
-    points.next[last] = level.first_child[heir];
-    level.first_child[heir] = level.first_child[node];
-    auto& clusters = leaves.leaves;
-    if (static_cast<std::size_t>(heir) >= clusters.size())
-      clusters.resize(static_cast<std::size_t>(heir) + 1);
-    ++clusters[heir].uncovered;  // for all that is known
+    points.next[last] = level.first_child[successor];
+    level.first_child[successor] = level.first_child[node];
+    auto& known = leaves.leaves;
+    if (static_cast<std::size_t>(successor) >= known.size())
+      known.resize(static_cast<std::size_t>(successor) + 1);
+    ++known[successor].uncovered;  // nothing is known of the points that it gets
   }
   detach(i, node);
   disconnect(i, node);

@@ -40,7 +40,7 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
     const double within = (reach + levels[level - 1].radius - less) * kInflate;
     near[level - 1].clear();
     for (const Near& kept : near[level]) {
-      if (is_lone(level, kept.node) && kept.distance2 <= within * within) unfold(level, kept.node);
+      if (is_singleton(level, kept.node) && kept.distance2 <= within * within) expand(level, kept.node);
       for (std::int32_t child = levels[level].first_child[kept.node]; child != kNone;
            child = levels[level - 1].next_sibling[child], ++tested) {
         const double d2 = metric.distance2(at, levels[level - 1].position[child]);
@@ -107,7 +107,7 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
     if (metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
     at.edges.push(node, other);
     at.edges.push(other, node);
-    if (is_lone(level, other)) unfold(level, other);
+    if (is_singleton(level, other)) expand(level, other);
   };
   if (level == top()) {
     for (std::int32_t root = 0; root < at.size(); ++root)
@@ -130,22 +130,22 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
 }
 
 template <class Metric>
-std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t point, Vec3 at,
-                                   Cover cover) {
+std::int32_t Hierarchy::Impl::promote(const Metric& metric, int level, std::int32_t point, Vec3 at,
+                                      Cover cover) {
   std::int32_t above = cover.parent;
   // From the top down, since a node's edges are found among the children of its parent's neighbors.
   for (int i = cover.level - 1; i > level; --i) {
-    const std::int32_t lifted = levels[i].add(point, at);
-    if (above != kNone) attach(i, lifted, above);
+    const std::int32_t promoted = levels[i].add(point, at);
+    if (above != kNone) attach(i, promoted, above);
     if (i < cover.level - 1) {
-      levels[i].up[lifted] = above;
-      levels[i + 1].down[above] = lifted;
+      levels[i].up[promoted] = above;
+      levels[i + 1].down[above] = promoted;
     }
-    connect(metric, i, lifted);
+    connect(metric, i, promoted);
     ++stats.promotions;
-    above = lifted;
-    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(lifted).empty()) {
-      make_lone(i, lifted);
+    above = promoted;
+    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(promoted).empty()) {
+      make_singleton(i, promoted);
       return kNone;
     }
   }
@@ -153,8 +153,9 @@ std::int32_t Hierarchy::Impl::lift(const Metric& metric, int level, std::int32_t
 }
 
 template <class Metric>
-void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node, Cover cover) {
-  const std::int32_t above = lift(metric, level, levels[level].id[node], levels[level].position[node], cover);
+void Hierarchy::Impl::attach_under(const Metric& metric, int level, std::int32_t node, Cover cover) {
+  const std::int32_t above =
+      promote(metric, level, levels[level].id[node], levels[level].position[node], cover);
   detach(level, node);
   if (above == kNone) return;  // a root
   attach(level, node, above);
@@ -164,9 +165,9 @@ void Hierarchy::Impl::settle(const Metric& metric, int level, std::int32_t node,
 }
 
 template <class Metric>
-void Hierarchy::Impl::settle_point(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
-  const std::int32_t above = lift(metric, 0, point, at, cover);
-  if (above == kNone) return;  // a lone point
+void Hierarchy::Impl::attach_point_under(const Metric& metric, std::int32_t point, Vec3 at, Cover cover) {
+  const std::int32_t above = promote(metric, 0, point, at, cover);
+  if (above == kNone) return;  // a singleton
   const std::int32_t slot = place_point(point, at, above);
   if (cover.level > 1) levels[1].down[above] = slot;
 }
@@ -178,7 +179,7 @@ void Hierarchy::Impl::grow_top(const Metric& metric) {
     const int i = top() - 1;
     for (std::int32_t node = 0; node < levels[i].size(); ++node) {
       if (!levels[i].is_alive(node)) continue;
-      settle(metric, i, node, locate(metric, levels[i].position[node], i + 1, {}));
+      attach_under(metric, i, node, locate(metric, levels[i].position[node], i + 1, {}));
     }
   }
 }
@@ -187,21 +188,22 @@ template <class Metric>
 void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint) {
   const Vec3 wrapped = box.wrap(at);
   raw[point] = at;
-  settle_point(metric, point, wrapped, locate(metric, wrapped, 1, hint));
+  attach_point_under(metric, point, wrapped, locate(metric, wrapped, 1, hint));
   grow_top(metric);
 }
 
 template <class Metric>
 void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
-  // Take the point out of every level first; the children it leaves behind are settled from the top down.
+  // Take the point out of every level first; the children it leaves behind find new parents from the top
+  // down.
   std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
   std::vector<Hint> hint(levels.size());  // by level: a node there or above that stays and is not far
   const Hint lowest = lowest_node(point);
   std::int32_t node = lowest.node;
-  if (is_lone_point(point)) {
-    forget_lone(lowest.level, node);
+  if (is_singleton_point(point)) {
+    forget_singleton(lowest.level, node);
   } else if (up(0, slot_of_id[point]) == kNone) {
-    take_point(slot_of_id[point]);  // the levels above know nothing of it
+    remove_from_block(slot_of_id[point]);  // the levels above know nothing of it
     return;
   }
   for (int level = lowest.level; node != kNone; ++level) {
@@ -231,11 +233,11 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
     if (hint[level].node == kNone) hint[level] = hint[level + 1];
   for (int level = top(); level > 0; --level)  // there are some in the top level if it was not that before
     for (const std::int32_t orphan : left[level])
-      settle(metric, level, orphan,
-             locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
+      attach_under(metric, level, orphan,
+                   locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
   for (const std::int32_t orphan : left[0]) {
     const Vec3 at = box.wrap(raw[orphan]);
-    settle_point(metric, orphan, at, locate(metric, at, 1, hint[1]));
+    attach_point_under(metric, orphan, at, locate(metric, at, 1, hint[1]));
   }
   grow_top(metric);
   trim_top();
@@ -243,19 +245,19 @@ void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
 
 void Hierarchy::Impl::trim_top() {
   while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
-         levels[top() - 1].alive() + lone_above(top() - 1) <= params.max_roots) {
+         levels[top() - 1].alive() + singletons_above(top() - 1) <= params.max_roots) {
     for (std::int32_t root = 0; root < levels.back().size(); ++root)
-      if (is_lone(top(), root)) unfold(top(), root);
+      if (is_singleton(top(), root)) expand(top(), root);
     pop_level();
   }
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                      \
   template Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric&, Vec3, int, double, Hint); \
-  template std::int32_t Hierarchy::Impl::lift(const Metric&, int, std::int32_t, Vec3, Cover);        \
+  template std::int32_t Hierarchy::Impl::promote(const Metric&, int, std::int32_t, Vec3, Cover);     \
   template Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric&, Vec3, int, Hint);           \
-  template void Hierarchy::Impl::settle(const Metric&, int, std::int32_t, Cover);                    \
-  template void Hierarchy::Impl::settle_point(const Metric&, std::int32_t, Vec3, Cover);             \
+  template void Hierarchy::Impl::attach_under(const Metric&, int, std::int32_t, Cover);              \
+  template void Hierarchy::Impl::attach_point_under(const Metric&, std::int32_t, Vec3, Cover);       \
   template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                          \
   template void Hierarchy::Impl::grow_top(const Metric&);                                            \
   template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);                    \

@@ -7,7 +7,7 @@ using detail::kBlock;
 using detail::kNone;
 
 void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) {
-  if (is_lone(level + 1, parent)) unfold(level + 1, parent);
+  if (is_singleton(level + 1, parent)) expand(level + 1, parent);
   Level& below = levels[level];
   Level& above = levels[level + 1];
   const std::int32_t first = above.first_child[parent];
@@ -31,21 +31,21 @@ void Hierarchy::Impl::detach(int level, std::int32_t node) {
   below.parent[node] = below.prev_sibling[node] = below.next_sibling[node] = kNone;
 }
 
-std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t cluster) {
-  std::int32_t& first = levels[1].first_child[cluster];
+std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t leaf) {
+  std::int32_t& first = levels[1].first_child[leaf];
   std::int32_t block = first;
   while (block != kNone && points.count[block] == kBlock) block = points.next[block];
-  if (block == kNone) block = first = points.add_block(cluster, first);
+  if (block == kNone) block = first = points.add_block(leaf, first);
   return slot_of_id[point] = points.push(block, point, at);
 }
 
 // Blocks stay filled from the front: the last point of the block moves into the gap.
-void Hierarchy::Impl::take_point(std::int32_t slot) {
+void Hierarchy::Impl::remove_from_block(std::int32_t slot) {
   const std::int32_t block = slot / kBlock;
   const std::int32_t last = block * kBlock + --points.count[block];
   slot_of_id[points.id[slot]] = kNone;
   if (slot != last) {
-    if (up(0, last) != kNone) levels[1].down[points.cluster[block]] = slot;
+    if (up(0, last) != kNone) levels[1].down[points.leaf[block]] = slot;
     points.position[slot] = points.position[last];
     points.id[slot] = points.id[last];
     slot_of_id[points.id[slot]] = slot;
@@ -53,7 +53,7 @@ void Hierarchy::Impl::take_point(std::int32_t slot) {
   points.id[last] = kNone;
   --points.alive;
   if (points.count[block] > 0) return;
-  std::int32_t* link = &levels[1].first_child[points.cluster[block]];
+  std::int32_t* link = &levels[1].first_child[points.leaf[block]];
   while (*link != block) link = &points.next[*link];
   *link = points.next[block];
   points.free_block(block);
