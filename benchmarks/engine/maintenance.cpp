@@ -4,7 +4,9 @@
 // and built anew, scene by scene and step by step, beside what the automatic policy does.
 #include <algorithm>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include <dch/hierarchy/hierarchy.hpp>
 
@@ -21,6 +23,7 @@ struct Options {
                                   "droplet+gas", "clusters", "shear",    "swollen"};
   std::vector<double> steps{0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1, 3};
   SceneOptions scene;
+  std::string json;
   int updates = 6, repetitions = 3, processor = 0;
 };
 
@@ -100,8 +103,15 @@ std::unique_ptr<RandomScene> moving_scene(const std::string& name, const SceneOp
   return std::unique_ptr<RandomScene>(moving);
 }
 
+void write_json(const std::string& path, const nlohmann::json& rows) {
+  std::ofstream file(path);
+  file << nlohmann::json{{"table", rows}}.dump(1) << '\n';
+  if (!file.flush()) throw Error("cannot write " + path);
+}
+
 int run(const Options& options) {
   pin_to(options.processor);
+  nlohmann::json rows = nlohmann::json::array();
   fmt::print(
       "ns a particle and update; step in list radii; orphans a particle; repairs and builds an update\n\n"
       "| Scene | Particles | Exchange of one | Step | Orphans | Repair | Build | Automatic | Repairs | "
@@ -120,12 +130,24 @@ int run(const Options& options) {
       // Where repairs are put off, displacements add up until one is due, and the two ways compare otherwise.
       const bool all_decided = automatic.builds + automatic.repairs > 1 - 1e-9;
       const std::string loss = all_decided ? fmt::format("{:.0f} %", 100 * (chosen / best - 1)) : "-";
+      rows.push_back({{"scene", name},
+                      {"particles", scene->positions.size()},
+                      {"exchange", exchange},
+                      {"step", step},
+                      {"orphans", repair.orphans},
+                      {"repair", repair.ns},
+                      {"build", build.ns},
+                      {"automatic", automatic.ns},
+                      {"repairs", automatic.repairs},
+                      {"builds", automatic.builds},
+                      {"loss", all_decided ? nlohmann::json(chosen / best - 1) : nlohmann::json()}});
       fmt::print("| {} | {} | {:.0f} | {} | {:.3f} | {:.0f} | {:.0f} | {:.0f} | {:.2f} | {:.2f} | {} |\n",
                  name, scene->positions.size(), exchange, step, repair.orphans, repair.ns, build.ns,
                  automatic.ns, automatic.repairs, automatic.builds, loss);
       std::fflush(stdout);
     }
   }
+  if (!options.json.empty()) write_json(options.json, rows);
   return kOk;
 }
 
@@ -138,6 +160,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--updates", options.updates, "Updates of a repetition")->check(CLI::PositiveNumber);
   app.add_option("--repetitions", options.repetitions, "Repetitions, of which the fastest counts")
       ->check(CLI::PositiveNumber);
+  app.add_option("--json", options.json, "File for all rows");
   app.add_option("--processor", options.processor, "Processor to stay on")->check(CLI::NonNegativeNumber);
   app.add_option("--scale", options.scene.scale, "Particles, relative to the usual number")
       ->check(CLI::PositiveNumber);

@@ -7,6 +7,6 @@ run(suite)    runs its programs and returns a record.Result; raises running.Fail
               running.Missing for what is not there
 """
 
-from . import engine, error, forces, hard, lammps, misses, necklace, openmm, peers, reference
+from . import drift, engine, error, forces, hard, lammps, misses, necklace, openmm, peers, reference
 
-ALL = (engine, peers, forces, lammps, openmm, necklace, error, misses, reference, hard)
+ALL = (engine, peers, forces, lammps, openmm, necklace, error, drift, misses, reference, hard)

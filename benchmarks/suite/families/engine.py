@@ -43,6 +43,7 @@ def run(suite):
     result.plots += growth(suite, words, report["scenes"])
     result.measurements += instruction_sets(suite, words, result)
     result.measurements += threads(suite, words, result)
+    result.tables.append(maintenance(suite))
     return result
 
 
@@ -117,6 +118,25 @@ def add_growth(scene, name, time, memory):
         if m["contender"] == "dch":
             time.setdefault(name, []).append([scene["particles"], m["median"]])
             memory.setdefault(name, []).append([scene["particles"], m["bytes_per_particle"]])
+
+
+def maintenance(suite):
+    """Repairs and builds after the same displacements, and the one of them that counted work chooses."""
+    words = [suite.program("benchmarks", "engine", "dch_bench_maintenance"), "--processor", suite.processor,
+             "--scenes", suite.pick(tiny="clusters", quick="melt4k,hotgas,droplet+gas,clusters",
+                                    full="melt4k,melt32k,hotgas,droplet+gas,clusters,shear,swollen"),
+             "--steps", suite.pick(tiny="0.1,3", quick="0.03,0.1,0.3,1", full="0.01,0.03,0.1,0.2,0.3,0.5,1,3"),
+             "--scale", suite.pick(tiny=0.1, quick=0.5, full=1), "--updates", suite.pick(tiny=2, quick=6, full=6),
+             "--repetitions", suite.pick(tiny=1, quick=2, full=3)]
+    columns = {"scene": "scene", "particles": "particles", "step": "step, list radii", "orphans": "orphans/particle",
+               "exchange": "exchange of one, ns", "repair": "repair, ns/particle", "build": "build, ns/particle",
+               "automatic": "automatic, ns/particle", "repairs": "repairs/update", "builds": "builds/update",
+               "loss": "chosen over the better, less 1"}
+    rows = suite.run_for_json(words)["table"]
+    return Table("Repair or build", list(columns.values()), [[row[key] for key in columns] for row in rows],
+                 "The same displacements are repaired and built anew; the automatic policy chooses by counted work. Orphans are "
+                 "nodes that got another parent. The last column compares the time of the way that was chosen with that of the "
+                 "better one, where every update had to choose.")
 
 
 def only_ours(suite, words, environment):

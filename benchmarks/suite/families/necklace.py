@@ -5,6 +5,7 @@ import math
 import os
 
 from ..record import Measurement, Plot, Result, Table
+from ..running import Missing
 
 NAME = "necklace"
 TITLE = "Necklaces: contacts of chains"
@@ -26,6 +27,7 @@ def run(suite):
     result.tables += [growth_table(growth), radii_table(radii)]
     add_contacts(suite, result)
     add_motion(suite, result)
+    add_diagram(suite, program, result)
     return result
 
 
@@ -106,3 +108,19 @@ def add_motion(suite, result):
                "share_of_cages_changed": "share of cages with another basis"}
     result.tables.append(Table(f"Verification of cages, {steps} steps of 0.012", list(columns.values()),
                                [[row[key] for key in columns] for row in runs[0]]))
+
+
+def add_diagram(suite, program, result):
+    """Repair of the power diagram after steps of several lengths, over building it."""
+    try:
+        table = suite.run_for_json([*program, "diagram", "--beads", suite.pick(tiny=500, quick=2000, full=10000),
+                                    "--rounds", suite.pick(tiny=2, quick=3, full=3)], missing_status=MISSING_STATUS)["table"]
+    except Missing:
+        result.left_out.append("power diagram: the build has no CGAL")
+        return
+    columns = {"shape": "shape", "beads": "beads", "step": "step", "edges_per_bead": "edges / bead",
+               "share_removed": "share of balls taken out", "build_us_per_bead": "build, us / bead",
+               "repair_to_build": "repair / build"}
+    result.tables.append(Table("The power diagram under motion", list(columns.values()),
+                               [[row[key] for key in columns] for row in table],
+                               "Edges of the diagram that was repaired and of one built anew are the same."))

@@ -40,4 +40,18 @@ def run(suite):
     result.plots.append(Plot("Steps with DCHNonbondedForce over those with NonbondedForce", "time over native", "",
                              {"DCHNonbondedForce": [[m.scene, m.facts()["ratio"]["median"]] for m in result.measurements
                                                     if m.baseline]}, kind="dots"))
+    add_contacts(suite, result)
     return result
+
+
+def add_contacts(suite, result):
+    """Steps of a melt with NecklaceContactForce, over those with the same repulsion by CustomNonbondedForce."""
+    words = ["/usr/bin/python3", suite.script("openmm", "contact_times"),
+             "--beads-per-side", suite.pick(tiny=8, quick=20, full=32), "--threads", suite.pick(tiny="1", quick="1", full="1,2"),
+             "--steps", suite.pick(tiny=2, quick=20, full=100), "--repetitions", suite.pick(tiny=2, quick=5, full=5)]
+    for one in suite.run_for_json(words, environment=python_of_build(suite), pinned=suite.size != "full"):
+        scene = f"contacts of chains, {one['beads']} beads in chains of {one['chain']}, {one['threads']} thread(s)"
+        result.measurements += [Measurement(scene, "without the force", "ms/step", one["rest"]),
+                                Measurement(scene, "CustomNonbondedForce", "ms/step", one["custom"]),
+                                Measurement(scene, "NecklaceContactForce", "ms/step", one["necklace"], "CustomNonbondedForce",
+                                            one["custom"])]
