@@ -19,7 +19,8 @@ TRAJECTORIES = {"quick": (["chain32k", "melt32k", "water30k", "melt4k"], ["--fra
 def arguments():
     parser = argparse.ArgumentParser(
         prog="benchmarks/run", description="Runs the benchmarks, each on one processor and each after its answers have been "
-        "compared, and writes one JSON file for each, benchmarks/report.html and, at full size, docs/results.md.")
+        "compared, and writes one JSON file for each and benchmarks/report.html; with --results also the kept records and "
+        "docs/results.md.")
     size = parser.add_mutually_exclusive_group()
     size.add_argument("--quick", dest="size", action="store_const", const="quick", default="full",
                       help="small sizes: ten minutes in all")
@@ -32,12 +33,15 @@ def arguments():
                         "that is not there, build/trajectories-SIZE, which is filled first")
     parser.add_argument("--out", help="folder for records and the report (default: BUILD/benchmarks/results-SIZE for the records, "
                         "benchmarks/report.html)")
-    parser.add_argument("--results", metavar="FILE", help="write the tables in Markdown to this file too; with records of full "
-                        "size of every family docs/results.md is the default")
+    parser.add_argument("--records", metavar="FOLDER", default=os.path.join(machine.ROOT, "benchmarks", "records"),
+                        help="kept records, one file for each processor (default: benchmarks/records)")
+    parser.add_argument("--results", metavar="FILE", nargs="?", const=os.path.join(machine.ROOT, "docs", "results.md"),
+                        help="put this run's records into --records, and write this page (docs/results.md without FILE) from all "
+                        "that are there")
     parser.add_argument("--processor", type=int, default=min(os.sched_getaffinity(0)),
                         help="processor to stay on (default: the first that this program may use)")
     parser.add_argument("--strict", action="store_true", help="a benchmark that lacks something it needs has failed")
-    parser.add_argument("--report-only", action="store_true", help="run nothing; write the report from the records there are")
+    parser.add_argument("--report-only", action="store_true", help="run nothing; write the reports from the records there are")
     return parser
 
 
@@ -91,26 +95,39 @@ def run_family(family, options, out):
 
 
 def write_reports(options, out):
-    records = record.read_all(out, [f.NAME for f in families.ALL])
-    if not records:
+    names = [f.NAME for f in families.ALL]
+    records = record.read_all(out, names)
+    if records:
+        page = os.path.join(out if options.out else os.path.join(machine.ROOT, "benchmarks"), "report.html")
+        there = [one["family"] for one in records]
+        html_report.write(page, records, [f.TITLE for f in families.ALL if f.NAME not in there])
+        say(page)
+    if options.results:
+        if not options.report_only:
+            keep(options, [one for one in records if not options.only or one["family"] in options.only], names)
+        kept = record.read_kept(options.records)
+        if not kept:
+            raise Failed(f"there is no record in {options.records}")
+        markdown_report.write(options.results, kept)
+        say(options.results)
+    elif not records:
         raise Failed(f"there is no record in {out}")
-    page = os.path.join(out if options.out else os.path.join(machine.ROOT, "benchmarks"), "report.html")
-    there = [record["family"] for record in records]
-    missing = [f.TITLE for f in families.ALL if f.NAME not in there]
-    html_report.write(page, records, missing)
-    say(page)
-    results = options.results
-    if not results and len(records) == len(families.ALL) and all(record["size"] == "full" for record in records):
-        results = os.path.join(machine.ROOT, "docs", "results.md")
-    if results:
-        markdown_report.write(results, records, missing)
-        say(results)
+
+
+def keep(options, records, names):
+    if options.size == "tiny" and options.records == arguments().get_default("records"):
+        raise Failed("a run of size tiny measures nothing; it keeps records only in a folder of its own, with --records")
+    try:
+        record.keep(options.records, records, names)
+    except ValueError as error:
+        raise Failed(str(error)) from error
 
 
 def main():
     options = arguments().parse_args()
     is_built = options.build is not None
     options.build = options.build or os.path.join(machine.ROOT, "build", "release")
+    options.records = os.path.abspath(options.records)
     out = os.path.abspath(options.out or os.path.join(options.build, "benchmarks", f"results-{options.size}"))
     wanted = [f for f in families.ALL if not options.only or f.NAME in options.only]
     passed, begin = [], time.monotonic()

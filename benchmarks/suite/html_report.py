@@ -21,7 +21,7 @@ pre { background: #f6f6f6; padding: .6em 1em; overflow-x: auto; font-size: 12px;
 figure { margin: 0; } figcaption { font-weight: bold; }
 figure { max-width: 100%; overflow-x: auto; }
 td.better, td.held { color: #05602c; } td.worse, td.missed { color: #a3140d; }
-td.words:nth-child(2) { white-space: nowrap; } td.held, td.missed { font-weight: bold; } td.part, td.unmeasured { color: #8a5a00; }
+td.words:nth-child(2) { white-space: nowrap; } td.held, td.missed { font-weight: bold; } td.unmeasured { color: #8a5a00; }
 details > summary { cursor: pointer; color: #1b5fc1; }
 """
 
@@ -55,17 +55,16 @@ def prose(text):
     return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(text))
 
 
-def asked_and_measured(records):
-    kinds = {ratios.HELD: "held", ratios.MISSED: "missed", ratios.PARTLY: "part", ratios.NOT_MEASURED: "unmeasured",
-             ratios.SMALLER: "unmeasured"}
-    parts = ["<h2 id='asked'>Asked and measured</h2>", f"<p>{html.escape(ratios.NOTE)}</p>",
-             f"<p>{html.escape(ratios.summary())}</p>"]
+def aims_and_records(records):
+    kinds = {ratios.HELD: "held", ratios.MISSED: "missed", ratios.NO_RECORD: "unmeasured"}
+    parts = ["<h2 id='aims'>Aims and records</h2>", f"<p>{html.escape(ratios.NOTE)}</p>",
+             f"<p>{html.escape(ratios.summary(records))}</p>"]
     for group in ratios.groups():
         rows = [[f"<td class='{kinds.get(text, 'words')}'>{html.escape(text)}</td>" for text in row]
                 for row in ratios.rows_of(group, records)]
-        parts.append(f"<h3>{html.escape(group['title'])}</h3><p>From {html.escape(group['source'])}.</p>")
+        parts.append(f"<h3>{html.escape(group['title'])}</h3><p>Discussed in {html.escape(group['source'])}.</p>")
         parts.append(table(ratios.COLUMNS, rows))
-    reasons = "".join(f"<li>{prose(reason)}</li>" for reason in ratios.WHEN_NOT)
+    reasons = "".join(f"<li>{prose(reason)}</li>" for reason in ratios.reasons(records))
     return "\n".join([*parts, f"<h2 id='when-not'>{ratios.WHEN_NOT_TITLE}</h2><ul>{reasons}</ul>"])
 
 
@@ -92,7 +91,7 @@ def family(record):
 
 
 def page(records, missing=()):
-    targets = [("asked", "Asked and measured"), ("when-not", ratios.WHEN_NOT_TITLE)]
+    targets = [("aims", "Aims and records"), ("when-not", ratios.WHEN_NOT_TITLE)]
     targets += [(r["family"], r["title"]) for r in records]
     links = " · ".join(f"<a href='#{name}'>{html.escape(title)}</a>" for name, title in targets)
     warning = words.warning(records, missing)
@@ -103,7 +102,7 @@ def page(records, missing=()):
         parts.append(f"<p class='warning'>{html.escape(warning)}</p>")
     parts.append("<p>A ratio below 1 is in favor of what stands in the row. It is the median over runs of the ratio of both "
                  "in the same run; it is colored where all runs agree.</p>")
-    parts.append(asked_and_measured(records))
+    parts.append(aims_and_records(records))
     return "\n".join(parts + [family(r) for r in records] + ["</body></html>"])
 
 

@@ -1,92 +1,120 @@
 # SPDX-License-Identifier: MIT
-"""What was aimed at beside what was measured: ratios.toml, with the ratios that records have."""
+"""What was aimed at beside what the records have: ratios.toml names the aims and where in a record each figure stands."""
 
+import fnmatch
 import os
 import tomllib
 
 from . import words
+from .record import processor_of
 
 PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "ratios.toml")
-COLUMNS = ["ratio", "asked", "measured", "held?", "in the records below", "command"]
-HELD, MISSED, PARTLY, NOT_MEASURED, NO_AIM = "held", "missed", "in part", "not measured", "-"
-SMALLER = "not measured at that size"
-NOTE = ("Times of ours over times of the other, unless a row says otherwise: smaller is better, and above 1 is a loss. 'Measured' is of "
-        "runs at full size on a Xeon with AVX-512, from the document named, and what is held or missed goes by that; the records "
-        "below are those of this report, with the processor and the size that they name. Commands are those of "
-        "benchmarks/README.md.")
+COLUMNS = ["ratio", "aim", "measured", "held?", "processor, size, date", "command"]
+HELD, MISSED, NO_AIM, NO_RECORD = "held", "missed", "-", "no record"
+NOTE = ("Times of ours over times of the other, unless a row says otherwise: smaller is better, and above 1 is a loss. Each figure "
+        "is a median from the record that its row names, with the lowest and the highest in brackets; the median decides whether "
+        "an aim is held. An aim has a row for each record that has its figure.")
 WHEN_NOT_TITLE = "When not to use DCH"
-WHEN_NOT = [
-    "Your particles are spread evenly, with one cutoff, and you can have a good SIMD grid: built anew each time from the same kernels, "
-    "it beats repair and list of the hierarchy by a quarter to two thirds. The grids of the hosts here are not that good, which is "
-    "why the adapters win.",
-    "You want three lists of an even liquid, or spheres of sizes up to 1:10: a tuned grid for each list or range of sizes is as fast. "
-    "In LAMMPS, colloids 1:50 in a dense solvent take 1.12 of the time of `neighbor multi`.",
-    "Your atoms form a thin hot gas: they leave their clusters all the time and have few neighbors, so that the best grid takes half "
-    "the time, and LAMMPS's bins two thirds (scene `hotgas`).",
-    "Your processor has no AVX-512: lists and forces gain less over the hosts' own. On an EPYC with AVX2 a step of OpenMM takes 0.50 to "
-    "0.56 of its own time in the Lennard-Jones fluid and 0.70 to 0.82 in water, where a Xeon with AVX-512 takes 0.39 and 0.42.",
-    "You need rows sorted by index: the sorting takes three times as long as finding the pairs.",
-    "Most of your time goes elsewhere. With lattice sums, bonds or many-body forces, the loop gains what lists had of it: 9 % for a "
-    "peptide in water, 29 % for embedded atoms. PME systems keep OpenMM's own force.",
-    "You have few neighbors an atom and a tuned skin, as in a Kremer-Grest melt: the loop gains a fifth over stock LAMMPS at its "
-    "best. `skin auto` does not pay in runs of some hundred steps.",
-    "You have many cores for one process, or a GPU: two threads take 0.83 of the time of one, and there are no kernels for GPUs. "
-    "Runs on several MPI processes are tested, but not measured.",
-    "About 100 bytes an atom beyond the list are too much, or 450 for each atom of a thin gas.",
-    "You look for contacts in a collapsed globule with the wrapped hierarchy of the necklaces: a cell list is faster. `ContactFinder` "
-    "takes a hierarchy over space there. The power diagram costs sixty times as much as either.",
-]
+
+
+def document():
+    with open(PATH, "rb") as file:
+        return tomllib.load(file)
 
 
 def groups():
-    with open(PATH, "rb") as file:
-        return tomllib.load(file)["group"]
+    return document()["group"]
 
 
-def verdict(row):
-    """Whether what was measured is what was asked."""
-    measured = row["measured"]
-    if not measured:
-        return NOT_MEASURED
+def limits():
+    return document()["limit"]
+
+
+def measurement_of(record, scene, name):
+    """The first one whose scene is that or, with "*" in it, is like that; None if there is none."""
+    return next((m for m in record["measurements"] if m["name"] == name and fnmatch.fnmatchcase(m["scene"], scene)), None)
+
+
+def cell_of(record, title, where, column):
+    """The number of a table in the row that has what `where` says."""
+    for table in record["tables"]:
+        if not table["title"].startswith(title):
+            continue
+        at = table["columns"].index
+        for row in table["rows"]:
+            if all(row[at(name)] == value for name, value in where.items()):
+                return row[at(column)]
+    return None
+
+
+def figure(row, record):
+    """Median, lowest and highest of the ratio in a record, or None if the record does not have it."""
+    if "cell" in row:
+        cells = [cell_of(record, row["cell"][0], where, row["cell"][1]) for where in (row["where"], row.get("over_where"))
+                 if where is not None]
+        if None in cells:
+            return None
+        value = cells[0] if len(cells) == 1 else cells[0] / cells[1]
+        return value, value, value
+    found = measurement_of(record, row["scene"], row["name"])
+    if found and "over" in row:
+        other = measurement_of(record, *row["over"])
+        return other and (found["median"] / other["median"],) * 3
+    one = found and found.get("ratio", found)
+    return one and (one["median"], one["low"], one["high"])
+
+
+def figures(row, records):
+    """The figure of a row and its record, for every record that has it."""
+    if "family" not in row:
+        return []
+    found = [(figure(row, record), record) for record in records if record["family"] == row["family"]]
+    return [(value, record) for value, record in found if value is not None]
+
+
+def text_of(value):
+    median, low, high = value
+    return words.number(median) if low == high else f"{words.number(median)} ({words.number(low)} .. {words.number(high)})"
+
+
+def origin(record):
+    return f"{processor_of(record)}, {record['size']}, {record['date']}"
+
+
+def verdict(row, value):
+    """Whether a median is what was asked."""
     if "asked" not in row:
         return NO_AIM
-    if row.get("smaller"):
-        return SMALLER
-    holds = [value >= row["asked"] if row.get("at_least") else value <= row["asked"] for value in measured]
-    return HELD if all(holds) else PARTLY if any(holds) else MISSED
-
-
-def number(value):
-    """As written, but with two digits behind the point at least where it has any."""
-    return str(value) if isinstance(value, int) or round(value, 2) != value else f"{value:.2f}"
-
-
-def range_of(values):
-    return " to ".join(number(value) for value in dict.fromkeys(values)) or "-"
-
-
-def recorded(row, records):
-    """The measurements in the records that are this ratio, with what they were measured on."""
-    if "record" not in row:
-        return []
-    family, scene, name = row["record"]
-    found = next((r for r in records if r["family"] == family), {"measurements": []})
-    return [m for m in found["measurements"] if m["name"] == name and "ratio" in m
-            and (m["scene"].startswith(scene[1:]) if scene.startswith("~") else m["scene"] == scene)]
+    return HELD if (value[0] >= row["asked"] if row.get("at_least") else value[0] <= row["asked"]) else MISSED
 
 
 def rows_of(group, records):
     """Cells of the table, as text."""
     for row in group["rows"]:
-        asked = "-" if "asked" not in row else f"at {'least' if row.get('at_least') else 'most'} {number(row['asked'])}"
-        measured = range_of(row["measured"]) + (f" ({row['note']})" if "note" in row else "")
-        here = "; ".join(f"{words.number(m['ratio']['median'])} ({words.number(m['ratio']['low'])} .. "
-                         f"{words.number(m['ratio']['high'])})" for m in recorded(row, records)) or "-"
-        yield [row["what"], asked, measured, verdict(row), here, row["command"]]
+        asked = "-" if "asked" not in row else f"at {'least' if row.get('at_least') else 'most'} {row['asked']:g}"
+        found = figures(row, records)
+        for value, record in found:
+            yield [row["what"], asked, text_of(value), verdict(row, value), origin(record), row["command"]]
+        if not found:
+            yield [row["what"], asked, NO_RECORD, NO_RECORD, "-", row["command"]]
 
 
-def summary():
-    """How many aims were held."""
-    verdicts = [verdict(row) for group in groups() for row in group["rows"]]
-    return (f"Of {sum(v != NO_AIM for v in verdicts)} aims {verdicts.count(HELD)} are held, {verdicts.count(PARTLY)} in part, "
-            f"{verdicts.count(MISSED)} missed, {sum(v in (NOT_MEASURED, SMALLER) for v in verdicts)} not measured at full size.")
+def summary(records):
+    """How many aims each processor's records hold."""
+    aims = [row for group in groups() for row in group["rows"] if "asked" in row]
+    counts = {}
+    for row in aims:
+        for value, record in figures(row, records):
+            key = f"{processor_of(record)}, size {record['size']}"
+            counts.setdefault(key, {HELD: 0, MISSED: 0})[verdict(row, value)] += 1
+    without = sum(not figures(row, records) for row in aims)
+    parts = [f"{key}: {count[HELD]} held, {count[MISSED]} missed" for key, count in counts.items()]
+    return f"Of {len(aims)} aims {without} have no record. " + "; ".join(parts) + ("." if parts else "")
+
+
+def reasons(records):
+    """When not to use DCH, each with its figures from the records."""
+    for limit in limits():
+        found = [f"{row['what']}: {text_of(value)} ({origin(record)})"
+                 for row in limit.get("figures", ()) for value, record in figures(row, records)]
+        yield limit["text"] + (" Measured: " + "; ".join(found) + "." if found else "")

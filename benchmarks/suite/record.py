@@ -2,9 +2,13 @@
 """What one benchmark has found, and the file that says so with all that a reader needs to judge it."""
 
 import dataclasses
+import datetime
 import json
 import os
+import re
 import statistics
+
+SIZES = ("tiny", "quick", "full")
 
 
 @dataclasses.dataclass
@@ -71,21 +75,32 @@ class Result:
 
 def as_record(family, result, suite, facts):
     """One JSON object; `facts` are those of machine, build, source and hosts."""
-    return {"family": family.NAME, "title": family.TITLE, "size": suite.size, "commands": suite.commands,
-            "seconds": round(suite.seconds(), 1), "processor_seconds": round(suite.processor_seconds(), 1), **facts, "checked": result.checked, "seed": result.seed,
+    return {"family": family.NAME, "title": family.TITLE, "size": suite.size,
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"), "commands": suite.commands,
+            "seconds": round(suite.seconds(), 1), "processor_seconds": round(suite.processor_seconds(), 1), **facts,
+            "checked": result.checked, "seed": result.seed,
             "list_hash": result.list_hash, "left_out": result.left_out,
             "measurements": [m.facts() for m in result.measurements],
             "tables": [dataclasses.asdict(t) for t in result.tables],
             "plots": [dataclasses.asdict(p) for p in result.plots]}
 
 
-def write(folder, record):
+def write_file(path, text):
     """The file appears under its name when it is complete."""
-    path = os.path.join(folder, record["family"] + ".json")
     with open(path + ".part", "w", encoding="utf-8") as file:
-        json.dump(record, file, indent=1)
-        file.write("\n")
+        file.write(text)
     os.replace(path + ".part", path)
+
+
+def as_json(what):
+    """Indented, but for lists of numbers and words, each of which stands in one line."""
+    innermost = r"\[\n\s*([^\[\]{}]*?)\s*\]"  # words with brackets in them may keep their lines
+    return re.sub(innermost, lambda found: "[" + re.sub(r",\n *", ", ", found.group(1)) + "]", json.dumps(what, indent=1)) + "\n"
+
+
+def write(folder, record):
+    path = os.path.join(folder, record["family"] + ".json")
+    write_file(path, as_json(record))
     return path
 
 
@@ -98,3 +113,42 @@ def read_all(folder, names):
             with open(path, encoding="utf-8") as file:
                 records.append(json.load(file))
     return records
+
+
+def processor_of(record):
+    """For people, with the instruction set."""
+    return f"{record['machine']['cpu']} ({record['machine']['instruction_set']})"
+
+
+def file_of_processor(record):
+    """Name of the file that keeps the records of a processor."""
+    name = re.sub(r"\((R|TM)\)|\b(Processor|CPU)\b|@.*", " ", record["machine"]["cpu"])
+    return re.sub(r"[^a-z0-9]+", "-", f"{name} {record['machine']['instruction_set']}".lower()).strip("-") + ".json"
+
+
+def read_kept(folder):
+    """{name without .json: records}, one file for each processor."""
+    kept = {}
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
+        if name.endswith(".json"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                kept[name.removesuffix(".json")] = json.load(file)
+    return kept
+
+
+def keep(folder, records, names):
+    """Puts records into the file of their processor, each in the place of the one of its family that is there.
+
+    `names` are the families in their order. A record of a smaller size is refused where one of a larger size is kept.
+    """
+    for record in records:
+        path = os.path.join(folder, file_of_processor(record))
+        there = read_kept(folder).get(os.path.basename(path).removesuffix(".json"), [])
+        by_family = {one["family"]: one for one in there}
+        old = by_family.get(record["family"])
+        if old and SIZES.index(old["size"]) > SIZES.index(record["size"]):
+            raise ValueError(f"{path} has '{record['family']}' at size {old['size']}; a record of size {record['size']} does not "
+                             "take its place: run that size, or remove the one that is kept")
+        by_family[record["family"]] = record
+        os.makedirs(folder, exist_ok=True)
+        write_file(path, as_json([by_family[name] for name in names if name in by_family]))

@@ -13,8 +13,6 @@ import time
 
 from .machine import ROOT
 
-SIZES = ("tiny", "quick", "full")
-
 
 class Failed(Exception):
     """A program ended badly: with a wrong answer, or not at all."""

@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
-from suite import html_report, markdown_report, plot, ratios, record, words  # noqa: E402  (the path comes first)
+from suite import families, html_report, markdown_report, plot, ratios, record, words  # noqa: E402  (the path comes first)
 from suite.machine import ROOT  # noqa: E402
 from suite.running import Failed, Missing, Suite  # noqa: E402
 
@@ -33,6 +33,10 @@ def example(folder):
         tables=[record.Table("T", ["a", "b"], [[1, 0.5], ["x < y", None]])],
         plots=[record.Plot("P", "x", "y", {"one & two": [[1.0, 0.0], [2.0, 1e-3]]})], seed=1)
     return record.as_record(ExampleFamily, result, suite(folder), facts)
+
+
+def sized(one, size):
+    return {**one, "size": size}
 
 
 class Figures(unittest.TestCase):
@@ -78,12 +82,10 @@ class Reports(unittest.TestCase):
             record.write(folder, example(folder))
             records = record.read_all(folder, ["nothing", "example"])
             self.assertEqual([r["family"] for r in records], ["example"])
-            for writer, escaped in ((html_report, "An &lt;example&gt;"), (markdown_report, "slow\\|er")):
-                path = os.path.join(folder, "report")
-                writer.write(path, records)
-                with open(path, encoding="utf-8") as file:
-                    text = file.read()
-                for expected in (escaped, "0123456789ab", "2.00 .. 6.00", "LAMMPS 1", "tiny run"):
+            for text, escaped in ((html_report.page(records), "An &lt;example&gt;"),
+                                  (markdown_report.page({"c-avx2": records}, "plots")[0], "slow\\|er")):
+                for expected in (escaped, "0123456789ab", "2.00 .. 6.00", "LAMMPS 1", "An &lt;example&gt; (tiny)"
+                                 if escaped.startswith("An") else "An <example> (tiny)", records[0]["date"]):
                     self.assertIn(expected, text)
 
     def test_a_busy_machine_is_named(self):
@@ -110,10 +112,10 @@ class Reports(unittest.TestCase):
             os.makedirs(os.path.join(folder, "results-plots"))
             with open(os.path.join(folder, "results-plots", "old.svg"), "w", encoding="utf-8"):
                 pass
-            markdown_report.write(path, [example(folder)])
-            self.assertEqual(os.listdir(os.path.join(folder, "results-plots")), ["example-1.svg"])
+            markdown_report.write(path, {"c-avx2": [example(folder)]})
+            self.assertEqual(os.listdir(os.path.join(folder, "results-plots")), ["c-avx2-example-1.svg"])
             with open(path, encoding="utf-8") as file:
-                self.assertIn("![P](results-plots/example-1.svg)", file.read())
+                self.assertIn("![P](results-plots/c-avx2-example-1.svg)", file.read())
 
 
 class Plots(unittest.TestCase):
@@ -147,33 +149,115 @@ class Plots(unittest.TestCase):
                 self.assertGreater(next_x - next_width / 2, x + width / 2, (low, high))
 
 
+class KeptRecords(unittest.TestCase):
+    def test_the_page_of_results_is_what_the_kept_records_give(self):
+        """docs/results.md and its plots: nothing typed, nothing left from older records."""
+        path = os.path.join(ROOT, "docs", "results.md")
+        folder = markdown_report.folder_of(path)
+        text, drawings = markdown_report.page(record.read_kept(os.path.join(ROOT, "benchmarks", "records")),
+                                              os.path.basename(folder))
+        remedy = "; write it by benchmarks/run --report-only --results"
+        with open(path, encoding="utf-8") as file:
+            self.assertTrue(file.read() == text, "docs/results.md is not what benchmarks/records gives" + remedy)
+        self.assertEqual(sorted(os.listdir(folder)), sorted(drawings), remedy)
+        for name, drawing in drawings.items():
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                self.assertTrue(file.read() == drawing, name + remedy)
+
+    def test_kept_records_are_of_families_and_in_the_file_of_their_processor(self):
+        kept = record.read_kept(os.path.join(ROOT, "benchmarks", "records"))
+        self.assertTrue(kept)
+        names = [family.NAME for family in families.ALL]
+        for name, records in kept.items():
+            here = [one["family"] for one in records]
+            self.assertEqual(here, [family for family in names if family in here])
+            for one in records:
+                self.assertEqual(record.file_of_processor(one), name + ".json")
+                self.assertIn(one["size"], ("quick", "full"))
+                self.assertRegex(one["date"], r"^20\d\d-\d\d-\d\d$")
+
+    def test_a_record_takes_the_place_of_that_of_its_family_and_processor(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = example(folder)
+            other = {**one, "machine": {**one["machine"], "cpu": "Intel(R) Xeon(R) Processor @ 2.0GHz", "instruction_set": "avx512"}}
+            kept = os.path.join(folder, "records")
+            for records in ([one, {**one, "family": "first"}], [{**one, "seed": 7}], [other]):
+                record.keep(kept, records, ["first", "example"])
+            found = record.read_kept(kept)
+            self.assertEqual(list(found), ["c-avx2", "intel-xeon-avx512"])
+            self.assertEqual([(r["family"], r["seed"]) for r in found["c-avx2"]], [("first", 1), ("example", 7)])
+            self.assertEqual(found["intel-xeon-avx512"], [other])
+
+    def test_a_small_run_does_not_take_the_place_of_a_large_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = example(folder)
+            kept = os.path.join(folder, "records")
+            record.keep(kept, [sized(one, "full")], ["example"])
+            with self.assertRaisesRegex(ValueError, "'example' at size full.*size quick"):
+                record.keep(kept, [sized(one, "quick")], ["example"])
+            self.assertEqual(record.read_kept(kept)["c-avx2"][0]["size"], "full")
+
+
 class Ratios(unittest.TestCase):
+    FIGURE = {"scene", "name", "over", "cell", "where", "over_where"}
+
     def test_every_row_has_what_the_table_needs(self):
+        names = [family.NAME for family in families.ALL]
+        aims = [row for group in ratios.groups() for row in group["rows"]]
         for group in ratios.groups():
-            self.assertLessEqual({"title", "source", "rows"}, set(group))
+            self.assertEqual({"title", "source", "rows"}, set(group))
+        for row in aims:
+            self.assertLessEqual(set(row), {"what", "asked", "at_least", "command", "family"} | self.FIGURE, row)
+            self.assertTrue(row["what"] and row["command"], row)
+        for row in aims + [row for limit in ratios.limits() for row in limit.get("figures", ())]:
+            figure = self.FIGURE & set(row)
+            self.assertIn(figure, (set(), {"scene", "name"}, {"scene", "name", "over"}, {"cell", "where"},
+                                   {"cell", "where", "over_where"}), row)
+            self.assertEqual("family" in row, bool(figure), row)
+            self.assertIn(row.get("family", names[0]), names, row)
+
+    def test_no_figure_is_typed(self):
+        """Numbers of an aim are what was asked, and what its words need to name a scene."""
+        for limit in ratios.limits():
+            self.assertNotRegex(limit["text"], r"\d\.\d|\d %", limit)
+        for group in ratios.groups():
             for row in group["rows"]:
-                self.assertLessEqual(set(row), {"what", "asked", "at_least", "measured", "smaller", "note", "command", "record"}, row)
-                self.assertTrue(row["what"] and row["command"], row)
-                self.assertEqual(row["measured"], sorted(row["measured"]), row)
-                self.assertLessEqual(len(row["measured"]), 2, row)
+                self.assertNotIn("measured", row)
 
     def test_verdicts(self):
-        for measured, asked, expected in (([1.0, 1.1], 1.1, ratios.HELD), ([1.0, 1.2], 1.1, ratios.PARTLY),
-                                          ([1.2], 1.1, ratios.MISSED), ([], 1.1, ratios.NOT_MEASURED)):
-            self.assertEqual(ratios.verdict({"measured": measured, "asked": asked}), expected)
-        self.assertEqual(ratios.verdict({"measured": [2.9], "asked": 3, "at_least": True}), ratios.MISSED)
-        self.assertEqual(ratios.verdict({"measured": [2.9]}), ratios.NO_AIM)
-        self.assertEqual(ratios.verdict({"measured": [0.9], "asked": 1, "smaller": True}), ratios.SMALLER)
+        for value, asked, expected in ((1.1, 1.1, ratios.HELD), (1.2, 1.1, ratios.MISSED)):
+            self.assertEqual(ratios.verdict({"asked": asked}, (value, 0.9, 1.3)), expected)
+        self.assertEqual(ratios.verdict({"asked": 3, "at_least": True}, (2.9, 2.9, 3.1)), ratios.MISSED)
+        self.assertEqual(ratios.verdict({"asked": 3, "at_least": True}, (3.0, 2.9, 3.1)), ratios.HELD)
+        self.assertEqual(ratios.verdict({}, (2.9, 2.9, 2.9)), ratios.NO_AIM)
 
-    def test_records_are_found(self):
+    def test_figures_come_from_measurements_and_tables(self):
         with tempfile.TemporaryDirectory() as folder:
-            records = [example(folder)]
-        for scene, count in (("s", 1), ("~", 1), ("t", 0)):
-            self.assertEqual(len(ratios.recorded({"record": ["example", scene, "slow|er"]}, records)), count)
-        group = {"rows": [{"what": "w", "asked": 1.3, "measured": [1.4, 1.45], "command": "c",
-                           "record": ["example", "s", "slow|er"]}]}
-        self.assertEqual(list(ratios.rows_of(group, records)),
-                         [["w", "at most 1.30", "1.40 to 1.45", ratios.MISSED, "2.00 (1.00 .. 3.00)", "c"]])
+            one = example(folder)
+        one["measurements"].append({"scene": "s", "name": "plain", "unit": "ns", "median": 6.0, "low": 5.0, "high": 7.0,
+                                    "repetitions": 3})
+        for spec, expected in (({"scene": "s", "name": "slow|er"}, (2.0, 1.0, 3.0)),
+                               ({"scene": "*", "name": "plain"}, (6.0, 5.0, 7.0)),
+                               ({"scene": "s", "name": "plain", "over": ["s", "slow|er"]}, (2.0, 2.0, 2.0)),
+                               ({"cell": ["T", "b"], "where": {"a": 1}}, (0.5, 0.5, 0.5)),
+                               ({"cell": ["T", "b"], "where": {"a": 1}, "over_where": {"a": 1}}, (1.0, 1.0, 1.0)),
+                               ({"scene": "t", "name": "plain"}, None), ({"cell": ["T", "b"], "where": {"a": 2}}, None),
+                               ({"cell": ["U", "b"], "where": {"a": 1}}, None),
+                               ({"scene": "s", "name": "plain", "over": ["s", "none"]}, None)):
+            self.assertEqual(ratios.figure(spec, one), expected, spec)
+
+    def test_an_aim_has_a_row_for_each_record_with_its_figure(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = example(folder)
+        other = {**one, "size": "full", "date": "2030-01-02", "measurements": [
+            {**one["measurements"][0], "ratio": {"to": "base", "median": 1.2, "low": 1.1, "high": 1.4, "repetitions": 3}}]}
+        row = {"what": "w", "asked": 1.3, "command": "c", "family": "example", "scene": "s", "name": "slow|er"}
+        here = ["C (avx2), tiny, " + one["date"], "c"]
+        self.assertEqual(list(ratios.rows_of({"rows": [row]}, [one, other])),
+                         [["w", "at most 1.3", "2.00 (1.00 .. 3.00)", ratios.MISSED, *here],
+                          ["w", "at most 1.3", "1.20 (1.10 .. 1.40)", ratios.HELD, "C (avx2), full, 2030-01-02", "c"]])
+        self.assertEqual(list(ratios.rows_of({"rows": [{**row, "family": "none"}]}, [one])),
+                         [["w", "at most 1.3", ratios.NO_RECORD, ratios.NO_RECORD, "-", "c"]])
 
     def test_documents_that_are_named_exist(self):
         for group in ratios.groups():

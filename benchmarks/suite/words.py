@@ -39,22 +39,24 @@ def facts(record):
     machine, build, source = record["machine"], record["build"], record["source"]
     hosts = ", ".join(f"{name} {version}" for name, version in record["hosts"].items())
     hashes = ", ".join(f"{scene} {value}" for scene, value in record["list_hash"].items())
-    return [("processor", f"{machine['cpu']}, {machine['processors']} of them, {machine['instruction_set']}"),
+    return [("date", record["date"]), ("note", record.get("note", "")),
+            ("processor", f"{machine['cpu']}, {machine['processors']} of them, {machine['instruction_set']}"),
             ("processors that others used when it began", number(machine["load_before"])),
             ("system", machine["system"]),
             ("compiler", f"{build['compiler']}, {build['type']} {build['flags']}"),
             ("commit", source["commit"][:12] + (" and changes to it" if source["changed"] else "")),
             ("hosts", hosts), ("seed", number(record["seed"])), ("list hash", hashes),
-            ("took", f"{number(record['seconds'])} s, {number(record['processor_seconds'])} s of them on the processor"), ("checked", record["checked"])]
+            ("took", f"{number(record['seconds'])} s, {number(record['processor_seconds'])} s of them on the processor"),
+            ("checked", record["checked"])]
 
 
 def warning(records, missing=()):
     """What limits the figures, or "". `missing` are titles of families that have no record."""
-    sizes = {record["size"] for record in records}
+    small = [f"{record['title']} ({record['size']})" for record in records if record["size"] != "full"]
     busy = [record["title"] for record in records if record["machine"]["load_before"] > 0.5]
     found = []
-    if sizes != {"full"}:
-        found.append(f"These are figures of a {'/'.join(sorted(sizes))} run: small sizes, for a first look.")
+    if small:
+        found.append("Small sizes, for a first look: " + ", ".join(small) + ".")
     if busy:
         found.append("Others used the machine when these began, so that times scatter: " + ", ".join(busy) + ".")
     if missing:
