@@ -5,13 +5,13 @@
 
 #include "simd/lj_terms_loops.hpp"
 
-/// All that a loop calls has to be part of it, since a call would spill every register; compilers do not see
-/// that where there are two places to call from. With a sanitizer's checks, or with arrays for registers,
-/// that would take minutes to compile.
+/// Forces inlining: a call inside of a loop would spill every register, and compilers make calls of functions
+/// that have two callers. Sanitizers and the portable set, with arrays for registers, do without: inlining
+/// would take them minutes to compile.
 #if defined(__SSE4_2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define DCH_IN_ONE_PIECE [[gnu::flatten]]
+#define DCH_FLATTEN [[gnu::flatten]]
 #else
-#define DCH_IN_ONE_PIECE
+#define DCH_FLATTEN
 #endif
 
 namespace dch::detail {
@@ -145,7 +145,7 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
 /// Separations are measured one entry ahead, if they take few registers: the chain of dependent operations
 /// through one entry is longer than what a processor can look ahead over.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
-DCH_IN_ONE_PIECE void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
+DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sums) {
   PairCoefficients<S, kParameters> coefficient(task);
   const Constants<S> constants(task.constants);
   RowCharges<S> charges{};

@@ -79,7 +79,7 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
 }
 
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
-DCH_IN_ONE_PIECE void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
+DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   LaneCoefficients<S, kParameters> coefficient(task.coefficients);
   const Constants<S> constants(task.constants);
   Coordinates<S> shift;

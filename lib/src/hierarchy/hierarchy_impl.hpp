@@ -141,7 +141,7 @@ struct Hierarchy::Impl : detail::Structure {
   template <class Metric>
   Hint find_near(const Metric& metric, Vec3 at, int target, double reach, Hint hint);
   template <class Metric>
-  void look_around(const Metric& metric, Vec3 at, Hint middle, double reach);
+  void search_around(const Metric& metric, Vec3 at, Hint middle, double reach);
   /// Finds a parent in level `target` or above for a point. Levels >= target must be in order.
   template <class Metric>
   Cover locate(const Metric& metric, Vec3 at, int target, Hint hint);

@@ -106,8 +106,7 @@ struct ClusterPairs {
   std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
   bool has_shift_vectors = false;                       ///< of `box`; not so after a search
 
-  /// A cluster whose particles were not all given in the image that is near its origin when refresh() last
-  /// took them.
+  /// A cluster whose particles lay in different periodic images at the last refresh().
   struct Torn {
     std::int32_t cluster;
     Vec3 image[kSlots];  ///< in integer multiples of the cell vectors, to be added to each

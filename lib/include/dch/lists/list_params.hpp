@@ -81,9 +81,10 @@ struct ListParams {
 
   /// >= 0; where cutoffs go by radii, not more than the skin [length]. In lists by structure, neighbors that
   /// are farther than their cutoff + skin less this come last in their row (NeighborList::near_end); 0 for no
-  /// such order. With the skin for a shell, a loop that tests the cutoff foretells what it finds. Squared
-  /// distances are rounded for this, by up to 2/1000 of that of the list radius; more than 16 types go by the
-  /// largest cutoff; and where the list radius reaches half the box, all count as nearer.
+  /// such order. With shell = skin, neighbors inside the cutoff come first in each row, so the branch of a
+  /// force loop predicts well. Squared distances are rounded for this, by up to 2/1000 of that of the list
+  /// radius; more than 16 types go by the largest cutoff; and where the list radius reaches half the box, all
+  /// count as nearer.
   double shell = 0;
 
   /// Whether pairs a little farther apart than their cutoff + skin may be listed too, none being left out:

@@ -35,7 +35,7 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
     if (room > 0 && d2 * (kInflate * kInflate) <= room * room) break;
     start.node = levels[start.level].parent[start.node];
   }
-  look_around(metric, at, start, reach + levels[start.level].radius - less);
+  search_around(metric, at, start, reach + levels[start.level].radius - less);
   for (int level = start.level; level > target; --level) {
     const double within = (reach + levels[level - 1].radius - less) * kInflate;
     near[level - 1].clear();
@@ -55,7 +55,7 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
 /// Fills near[] of a node's level with those of its neighbors, itself and in the top level all that are
 /// within reach of a point.
 template <class Metric>
-void Hierarchy::Impl::look_around(const Metric& metric, Vec3 at, Hint middle, double reach) {
+void Hierarchy::Impl::search_around(const Metric& metric, Vec3 at, Hint middle, double reach) {
   const Level& level = levels[middle.level];
   const double reach2 = reach * reach * (kInflate * kInflate);
   near[middle.level].clear();
@@ -84,7 +84,7 @@ Hierarchy::Impl::Cover Hierarchy::Impl::locate(const Metric& metric, Vec3 at, in
   for (int level = target; level <= top(); ++level) {
     if (level > guide.level) {
       guide = {level, levels[level - 1].parent[guide.node]};
-      look_around(metric, at, guide, levels[level].radius - reach);
+      search_around(metric, at, guide, levels[level].radius - reach);
     }
     const double limit2 = levels[level - 1].radius2;
     const Near* best = nullptr;
