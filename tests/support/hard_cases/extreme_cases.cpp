@@ -173,7 +173,7 @@ std::vector<Case> refusals() {
                 const Box box = Box::orthorhombic({10, 10, 10}, {true, true, true}, {1e17, 0, 0});
                 make_dch_search(1)->update(std::vector<Vec3>{{1e17, 0, 0}}, box);
               }),
-      refused("clusters of a million periods", "leave it 0",
+      refused("leaves of a million periods", "leave it 0",
               [] {
                 StructureParams params;
                 params.radius = 0.4;
