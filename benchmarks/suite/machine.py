@@ -60,6 +60,11 @@ def processors_in_use(seconds=0.5):
     return (busy_ticks() - before) / (seconds * os.sysconf("SC_CLK_TCK"))
 
 
+def is_busy(load):
+    """Whether others take so much of the machine that times scatter."""
+    return load > 0.5
+
+
 def machine():
     return {"cpu": cpu(), "processors": os.cpu_count(), "instruction_set": instruction_set(),
             "system": f"{platform.system()} {platform.release()}", "load_before": processors_in_use()}

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Numbers and facts as both reports print them."""
 
+from . import machine
+
 
 def number(value):
     """Three significant digits; whole numbers as they are."""
@@ -36,13 +38,13 @@ def measured_row(m):
 
 def facts(record):
     """Name and value of what a reader has to know of a run."""
-    machine, build, source = record["machine"], record["build"], record["source"]
+    computer, build, source = record["machine"], record["build"], record["source"]
     hosts = ", ".join(f"{name} {version}" for name, version in record["hosts"].items())
     hashes = ", ".join(f"{scene} {value}" for scene, value in record["list_hash"].items())
     return [("date", record["date"]), ("note", record.get("note", "")),
-            ("processor", f"{machine['cpu']}, {machine['processors']} of them, {machine['instruction_set']}"),
-            ("processors that others used when it began", number(machine["load_before"])),
-            ("system", machine["system"]),
+            ("processor", f"{computer['cpu']}, {computer['processors']} of them, {computer['instruction_set']}"),
+            ("processors that others used when it began", number(computer["load_before"])),
+            ("system", computer["system"]),
             ("compiler", f"{build['compiler']}, {build['type']} {build['flags']}"),
             ("commit", source["commit"][:12] + (" and changes to it" if source["changed"] else "")),
             ("hosts", hosts), ("seed", number(record["seed"])), ("list hash", hashes),
@@ -53,7 +55,7 @@ def facts(record):
 def warning(records, missing=()):
     """What limits the figures, or "". `missing` are titles of families that have no record."""
     small = [f"{record['title']} ({record['size']})" for record in records if record["size"] != "full"]
-    busy = [record["title"] for record in records if record["machine"]["load_before"] > 0.5]
+    busy = [record["title"] for record in records if machine.is_busy(record["machine"]["load_before"])]
     found = []
     if small:
         found.append("Small sizes, for a first look: " + ", ".join(small) + ".")

@@ -162,6 +162,9 @@ def threads(suite, words, result):
     if len(os.sched_getaffinity(0)) < 2:
         result.left_out.append("two threads: this program may use one processor alone")
         return
+    if suite.size != "tiny" and machine.is_busy(machine.processors_in_use()):
+        result.left_out.append("two threads: they are measured by wall clock, and others use the machine")
+        return
     report = suite.run_for_json([*words, "--scenes", "melt32k", "--threads", "2", "--scale", suite.pick(tiny=0.1, quick=1, full=1)], pinned=False)
     by_name = {m["contender"]: m["ns_per_particle"] for m in report["scenes"][0]["measurements"]}
     for name, values in by_name.items():
