@@ -29,7 +29,7 @@ void ForeignDescent<Metric>::label(const std::vector<std::int32_t>& component) {
       if (!nodes.is_alive(k)) continue;
       std::int32_t& all = of_node_[level][k];
       const auto add = [&](std::int32_t one) { all = all == kNone || all == one ? one : kMixed; };
-      if (structure_.is_lone(level, k)) add(component[nodes.id[k]]);
+      if (structure_.is_singleton(level, k)) add(component[nodes.id[k]]);
       structure_.for_each_child(level, k, [&](std::int32_t child) {
         add(level == 1 ? component[structure_.points.id[child]] : of_node_[level - 1][child]);
       });
@@ -60,7 +60,7 @@ void ForeignDescent<Metric>::search(std::int32_t id, TreeEdge& best) {
       look_at_leaf(nearest.node, best);
       continue;
     }
-    if (structure_.is_lone(nearest.level, nearest.node))
+    if (structure_.is_singleton(nearest.level, nearest.node))
       look_at_point(structure_.levels[nearest.level].id[nearest.node], best);
     structure_.for_each_child(nearest.level, nearest.node,
                               [&](std::int32_t child) { push(nearest.level - 1, child, best); });

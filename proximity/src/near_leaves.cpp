@@ -60,7 +60,7 @@ bool NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, 
   while (!stack_.empty()) {
     const Subtree next = stack_.back();
     stack_.pop_back();
-    if (structure_.is_lone(next.level, next.node)) {
+    if (structure_.is_singleton(next.level, next.node)) {
       const std::int32_t id = structure_.levels[next.level].id[next.node];
       has_one_image = has_one_image && within * kInflate < structure_.box.max_cutoff();
       add_point(id, metric.displacement(center, metric.wrap(structure_.raw[id])));

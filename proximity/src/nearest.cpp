@@ -103,7 +103,7 @@ void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
   check(params);
   const detail::Structure& structure = impl_->structure;
   make_rows(structure.slot_of_id.size(), params.k, rows);
-  const std::vector<std::int32_t> alone = structure.lone_points();
+  const std::vector<std::int32_t> alone = structure.singleton_ids();
   const std::int32_t leaves = structure.levels[1].size();
   detail::with_metric(structure.box, [&](const auto& metric) {
     using Tool = detail::LeafNearest<std::decay_t<decltype(metric)>>;

@@ -57,7 +57,7 @@ void NearestDescent<Metric>::push(const Query& query, int level, std::int32_t no
 template <class Metric>
 void NearestDescent<Metric>::open(Query& query, const Subtree& subtree) {
   if (subtree.level == 1) return look_at_leaf(query, subtree.node);
-  if (structure_.is_lone(subtree.level, subtree.node))
+  if (structure_.is_singleton(subtree.level, subtree.node))
     look_at_point(query, structure_.levels[subtree.level].id[subtree.node]);
   structure_.for_each_child(subtree.level, subtree.node,
                             [&](std::int32_t child) { push(query, subtree.level - 1, child); });

@@ -40,7 +40,7 @@ void SubtreeBalls::measure_level(const Metric& metric, const Structure& structur
     if (!at.is_alive(k)) continue;
     double radius = 0;
     std::int64_t count = 0;
-    if (structure.is_lone(level, k)) {
+    if (structure.is_singleton(level, k)) {
       radius = std::sqrt(metric.distance2(at.position[k], metric.wrap(structure.raw[at.id[k]])));
       count = 1;
     }

@@ -38,15 +38,15 @@ std::vector<StructureParams> variants() {
   wide.base_radius = 0;
   StructureParams lazy;
   lazy.radius = kRadius;
-  StructureParams unfolded = repairing();
-  unfolded.fold_lone_points = false;
+  StructureParams expanded = repairing();
+  expanded.collapse_singletons = false;
   return {repairing(),
           repairing(EdgeRule::additive, 1),
           repairing(EdgeRule::thesis, 1),
           repairing(EdgeRule::thesis, 16),
           wide,
           lazy,
-          unfolded};
+          expanded};
 }
 
 class HierarchySparse : public ::testing::TestWithParam<scenes::NamedBox> {};
@@ -76,7 +76,7 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
     }
 }
 
-// Insertion next to a lone point unfolds it, removal of the other and a repair fold it again.
+// Insertion next to a singleton expands it, removal of the other and a repair collapse it again.
 TEST_P(HierarchySparse, ValidUnderInsertionsAndRemovals) {
   const Box box = GetParam().box;
   for (const StructureParams& params : variants()) {

@@ -170,7 +170,7 @@ void SizedSearch::bring_up_to_date() {
     if (!group.search || !fits || (group.is_new && keys_.empty())) {
       StructureParams own = params_;
       own.radius = wanted;
-      own.fold_lone_points = false;  // they may have neighbors in other classes
+      own.collapse_singletons = false;  // they may have neighbors in other classes
       auto search = std::make_unique<DchSearch>(own);
       retire(group);
       group.search = std::move(search);

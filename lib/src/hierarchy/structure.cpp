@@ -23,7 +23,7 @@ std::int32_t Structure::singletons_above(int level) const {
   return count;
 }
 
-std::vector<std::int32_t> Structure::lone_points() const {
+std::vector<std::int32_t> Structure::singleton_ids() const {
   std::vector<std::int32_t> ids;
   for (const Singleton& node : singletons) ids.push_back(levels[node.level].id[node.node]);
   return ids;

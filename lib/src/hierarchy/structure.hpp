@@ -106,7 +106,7 @@ struct Structure {
   /// Number of singletons of the levels above.
   std::int32_t singletons_above(int level) const;
   /// Points that are singletons, by id.
-  std::vector<std::int32_t> lone_points() const;
+  std::vector<std::int32_t> singleton_ids() const;
   /// Lowest node of a point that is in memory: its leaf, or the singleton.
   Hint lowest_node(std::int32_t id) const {
     if (is_singleton_point(id))

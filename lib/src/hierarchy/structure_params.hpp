@@ -34,7 +34,7 @@ struct StructureParams : HierarchyParams {
   int max_roots = 16;
   /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in
   /// levels i and above only, and in no leaf; so that gas in a huge box costs as much as in a small one.
-  bool fold_lone_points = true;
+  bool collapse_singletons = true;
 };
 
 }  // namespace dch::detail

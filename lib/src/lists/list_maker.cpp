@@ -34,7 +34,7 @@ struct ListMaker::Impl {
                                     {(reach + error) * detail::kInflate},
                                     error,
                                     hierarchy.params.executor,
-                                    hierarchy.lone_points()};
+                                    hierarchy.singleton_ids()};
       finder.find(scene, hierarchy.raw, requests, out);
     });
   }

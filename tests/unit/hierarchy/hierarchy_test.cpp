@@ -195,7 +195,7 @@ TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
   params.base_radius = 0.5;
   params.max_roots = 1;
   for (const bool fold : {true, false}) {
-    params.fold_lone_points = fold;
+    params.collapse_singletons = fold;
     ListedHierarchy h(params);
     std::vector<Vec3> points = scenes::uniform(200, {5, 5, 5}, 1);
     points.push_back({200, 0, 0});

@@ -77,7 +77,7 @@ ListedHierarchy hierarchy_of_some(const std::vector<Vec3>& points, const Box& bo
   StructureParams params;
   params.radius = radius;
   params.base_radius = radius;
-  params.fold_lone_points = false;
+  params.collapse_singletons = false;
   ListedHierarchy h(params);
   h.build(points, box);
   return h;

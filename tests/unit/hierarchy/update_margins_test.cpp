@@ -73,7 +73,7 @@ TEST(Insertion, ClimbsFromAFriendThatIsFartherThanItsSurroundingsAreWide) {
 }
 
 // A point on its own in level 2, whose cluster is not in memory: it may cover the point if it is within 1.
-TEST(Insertion, UnfoldsLonePointsUpToItsReachAndNoFarther) {
+TEST(Insertion, ExpandsSingletonsUpToItsReachAndNoFarther) {
   const auto work_at = [](double x) {
     ListedHierarchy h(params_of(EdgeRule::additive, 1));
     const std::vector<Vec3> points{{0, 0, 0}, {-10, 0, 0}, {-10, 0.5, 0}};

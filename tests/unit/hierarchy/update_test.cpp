@@ -59,7 +59,7 @@ TEST(Update, BuildsWhereAllWereInserted) {
 TEST(Singletons, AreFoldedUpToTheRootsAndCountInEveryLevelBelow) {
   for (const bool fold : {true, false}) {
     StructureParams params = params_of(EdgeRule::additive, 2);
-    params.fold_lone_points = fold;
+    params.collapse_singletons = fold;
     ListedHierarchy h(params);
     const std::vector<Vec3> points{{0, 0, 0}, {100, 0, 0}, {101.5, 0, 0}};
     h.build(points, Box::none());

@@ -144,7 +144,7 @@ std::int32_t Hierarchy::Impl::promote(const Metric& metric, int level, std::int3
     connect(metric, i, promoted);
     ++stats.promotions;
     above = promoted;
-    if (level == 0 && i > 1 && params.fold_lone_points && levels[i].edges.row(promoted).empty()) {
+    if (level == 0 && i > 1 && params.collapse_singletons && levels[i].edges.row(promoted).empty()) {
       make_singleton(i, promoted);
       return kNone;
     }

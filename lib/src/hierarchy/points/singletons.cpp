@@ -65,7 +65,7 @@ bool Hierarchy::Impl::could_be_singleton(int level, std::int32_t node) const {
 }
 
 void Hierarchy::Impl::collapse() {
-  if (!params.fold_lone_points) return;
+  if (!params.collapse_singletons) return;
   for (int level = 2; level <= top(); ++level) {
     for (std::int32_t k = 0; k < levels[level].size(); ++k) {
       if (!levels[level].is_alive(k) || !could_be_singleton(level, k)) continue;
