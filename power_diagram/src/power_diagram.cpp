@@ -54,7 +54,7 @@ struct PowerDiagram::Impl {
   bool turned_over(Cell cell) const;
   bool irregular(Cell cell, int facet) const;
   std::vector<std::int32_t> choose(const std::vector<Blamed>& faults) const;
-  void insert(std::vector<std::int32_t> indices, Span<const Ball> at);
+  void insert(const std::vector<std::int32_t>& indices, Span<const Ball> at);
   void find_vertices();
 };
 
@@ -66,7 +66,7 @@ void PowerDiagram::Impl::find_vertices() {
   stats.hidden = static_cast<std::int64_t>(vertex.size() - triangulation.number_of_vertices());
 }
 
-void PowerDiagram::Impl::insert(std::vector<std::int32_t> indices, Span<const Ball> at) {
+void PowerDiagram::Impl::insert(const std::vector<std::int32_t>& indices, Span<const Ball> at) {
   std::vector<std::pair<WeightedPoint, std::int32_t>> points;
   points.reserve(indices.size());
   for (const std::int32_t k : indices) points.emplace_back(weighted(at[static_cast<std::size_t>(k)]), k);
@@ -79,7 +79,7 @@ void PowerDiagram::Impl::build(Span<const Ball> to) {
   vertex.assign(to.size(), Vertex());
   std::vector<std::int32_t> all(to.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::int32_t>(k);
-  insert(std::move(all), to);
+  insert(all, to);
   find_vertices();
 }
 
@@ -173,7 +173,7 @@ bool PowerDiagram::Impl::repair(Span<const Ball> to) {
     }
     if (triangulation.dimension() < 3) return false;
   }
-  insert(std::move(outside), to);
+  insert(outside, to);
   find_vertices();
   ++stats.repairs;
   stats.removed += static_cast<std::int64_t>(removed);

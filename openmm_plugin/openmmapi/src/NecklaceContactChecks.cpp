@@ -26,6 +26,23 @@ void checkSettings(const NecklaceContactForce& force) {
 }
 
 /// @param chainOf  by particle, which chain it stands in; takes in this one
+void checkBead(int index, int bead, double radius, std::vector<int>& chainOf) {
+  const std::string chain = "chain " + std::to_string(index);
+  const std::string particle = "particle " + std::to_string(bead);
+  if (bead < 0 || bead >= static_cast<int>(chainOf.size()))
+    refuse(chain + " names " + particle + "; the System has " + std::to_string(chainOf.size()));
+  int& owner = chainOf[static_cast<std::size_t>(bead)];
+  if (owner == index) refuse(chain + " names " + particle + " twice");
+  if (owner != kNone)
+    refuse("chains " + std::to_string(owner) + " and " + std::to_string(index) + " share " + particle +
+           "; a bead belongs to one chain");
+  owner = index;
+  if (!(std::isfinite(radius) && radius > 0))
+    refuse("the radius of " + particle + " in " + chain + " is " + textOf(radius) +
+           " nm; it must be finite and positive");
+}
+
+/// @param chainOf  as for checkBead()
 void checkChain(const NecklaceContactForce& force, int index, std::vector<int>& chainOf) {
   std::vector<int> particles;
   std::vector<double> radii;
@@ -36,20 +53,7 @@ void checkChain(const NecklaceContactForce& force, int index, std::vector<int>& 
   if (closed && particles.size() < 3)
     refuse(chain + " is closed and has " + std::to_string(particles.size()) +
            " beads; a closed chain needs at least 3");
-  for (std::size_t k = 0; k < particles.size(); ++k) {
-    const std::string particle = "particle " + std::to_string(particles[k]);
-    if (particles[k] < 0 || particles[k] >= static_cast<int>(chainOf.size()))
-      refuse(chain + " names " + particle + "; the System has " + std::to_string(chainOf.size()));
-    int& owner = chainOf[static_cast<std::size_t>(particles[k])];
-    if (owner == index) refuse(chain + " names " + particle + " twice");
-    if (owner != kNone)
-      refuse("chains " + std::to_string(owner) + " and " + std::to_string(index) + " share " + particle +
-             "; a bead belongs to one chain");
-    owner = index;
-    if (!(std::isfinite(radii[k]) && radii[k] > 0))
-      refuse("the radius of " + particle + " in " + chain + " is " + textOf(radii[k]) +
-             " nm; it must be finite and positive");
-  }
+  for (std::size_t k = 0; k < particles.size(); ++k) checkBead(index, particles[k], radii[k], chainOf);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ double DCHNonbondedKernelBase::addExceptions(const HostState& state) const {
     const auto j = static_cast<std::size_t>(exception.particle2);
     dch::Vec3 apart = state.positions[j] - state.positions[i];
     if (exceptionsArePeriodic) apart = state.box.nearest_image(apart);
-    const PairTerms terms = potential().ofException(exception, norm2(apart));
+    const PairTerms terms = PairPotential::ofException(exception, norm2(apart));
     const dch::Vec3 force = terms.forceOverR * apart;
     state.forces[i] = state.forces[i] - force;
     state.forces[j] = state.forces[j] + force;

@@ -46,7 +46,7 @@ PairTerms PairPotential::ofParticles(const DCHParameterSet::Particle& a, const D
   return terms;
 }
 
-PairTerms PairPotential::ofException(const DCHParameterSet::Exception& exception, double r2) const {
+PairTerms PairPotential::ofException(const DCHParameterSet::Exception& exception, double r2) {
   PairTerms terms = lennardJones(exception.sigma, exception.epsilon, r2);
   if (exception.chargeProd != 0) {
     const double bare = coulombConstant() * exception.chargeProd / std::sqrt(r2);

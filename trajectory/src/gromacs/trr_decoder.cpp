@@ -97,12 +97,12 @@ Header read_header(XdrCursor& cursor) {
 FrameExtent TrrDecoder::measure(Bytes head) const {
   XdrCursor cursor(head);
   const Header header = read_header(cursor);
-  const auto begin = header.size.begin();
+  const auto* const begin = header.size.data();
   FrameExtent extent;
   extent.atoms = header.atoms;
   extent.has_positions = header.has(Header::positions);
   extent.needed = std::accumulate(begin, begin + Header::velocities, cursor.offset());
-  extent.total = std::accumulate(begin, header.size.end(), cursor.offset());
+  extent.total = std::accumulate(begin, begin + header.size.size(), cursor.offset());
   return extent;
 }
 
