@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "base/progress_bar.hpp"
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
+#include "options/command_line.hpp"
 #include "options/option_values.hpp"
 #include "report/output_file.hpp"
 
@@ -28,7 +28,7 @@ struct ContactWords {
 
 constexpr std::int64_t kMaxBins = 4096;
 
-void declare_contact_options(CLI::App& command, ContactWords& words) {
+void declare_contact_options(Command& command, ContactWords& words) {
   command
       .add_option("--gap", words.gap,
                   "Two beads are in contact if their surfaces are at most this far apart, in the file's own "
@@ -67,7 +67,7 @@ void declare_contact_options(CLI::App& command, ContactWords& words) {
       ->type_name("WHICH");
 }
 
-void declare_options(CLI::App& command, ContactWords& words) {
+void declare_options(Command& command, ContactWords& words) {
   add_input_options(command, words.input, "FILE", "Trajectory, see dchmd replay --help");
   declare_contact_options(command, words);
   command
@@ -141,7 +141,7 @@ int run(const ContactWords& words) {
 
 }  // namespace
 
-void add_contacts_command(CLI::App& app, int& exit_code) {
+void add_contacts_command(Command& app, int& exit_code) {
   auto* command = app.add_subcommand("contacts",
                                      "Follow the contacts of polymer chains with themselves and each other: "
                                      "events, contact map, P(s)");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
 #include "input/frame_stream.hpp"
+#include "options/command_line.hpp"
 #include "options/option_values.hpp"
 
 namespace dch::cli {
@@ -47,7 +47,7 @@ int run(const ConvertWords& words) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& app, int& exit_code) {
+void add_convert_command(Command& app, int& exit_code) {
   auto* command =
       app.add_subcommand("convert", "Write a trajectory in another format; lengths stay in their unit");
   const auto words = std::make_shared<ConvertWords>();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "base/number_text.hpp"
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
+#include "options/command_line.hpp"
 #include "options/option_values.hpp"
 #include "report/output_file.hpp"
 
@@ -48,7 +48,7 @@ int run(const MeltWords& words) {
   return kOk;
 }
 
-void add_melt_command(CLI::App& generate, int& exit_code) {
+void add_melt_command(Command& generate, int& exit_code) {
   auto* command = generate.add_subcommand("melt",
                                           "A Kremer-Grest bead-spring melt as a LAMMPS data file (units lj); "
                                           "beads overlap, push them apart first");
@@ -66,9 +66,9 @@ void add_melt_command(CLI::App& generate, int& exit_code) {
 
 }  // namespace
 
-void add_generate_command(CLI::App& app, int& exit_code) {
+void add_generate_command(Command& app, int& exit_code) {
   auto* command = app.add_subcommand("generate", "Make input for simulations");
-  command->require_subcommand(1);
+  command->require_subcommand();
   add_melt_command(*command, exit_code);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +12,7 @@
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
 #include "input/frame_stream.hpp"
+#include "options/command_line.hpp"
 #include "options/option_values.hpp"
 #include "report/report_rows.hpp"
 #include "report/summary_json.hpp"
@@ -117,7 +117,7 @@ int run(const InfoWords& words) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, int& exit_code) {
+void add_info_command(Command& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "info", "Say what a trajectory holds: format, unit, frames, atoms, boxes, cutoff limit");
   const auto words = std::make_shared<InfoWords>();

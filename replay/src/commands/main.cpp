@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The command dchmd: sorts out which subcommand is meant and turns exceptions into exit statuses.
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
 #include <new>
-#include <sstream>
 #include <string_view>
 #include <unistd.h>
 
@@ -17,8 +15,7 @@
 #include "base/standard_streams.hpp"
 #include "base/version.hpp"
 #include "commands/commands.hpp"
-#include "commands/help_format.hpp"
-#include "commands/usage_message.hpp"
+#include "options/command_line.hpp"
 
 namespace dch::cli {
 namespace {
@@ -44,10 +41,21 @@ int fail(int exit_code, std::string_view message) {
   std::abort();
 }
 
-void declare(CLI::App& app, int& exit_code) {
-  app.set_version_flag("--version", fmt::format("dchmd {}", kVersion), "Print the version and exit");
-  app.formatter(help_format());  // subcommands inherit it
-  app.require_subcommand(1);
+constexpr const char* kDescription =
+    "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
+    "\n"
+    "First steps:\n"
+    "  dchmd info FILE                                      what a trajectory holds, and its cutoff limit\n"
+    "  dchmd replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
+    "  dchmd replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
+    "  dchmd contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
+    "  dchmd help replay                                    all options of a subcommand\n"
+    "\n"
+    "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
+    "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).";
+
+void declare(Command& app, int& exit_code) {
+  app.require_subcommand();
   add_info_command(app, exit_code);
   add_replay_command(app, exit_code);
   add_contacts_command(app, exit_code);
@@ -57,33 +65,14 @@ void declare(CLI::App& app, int& exit_code) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app(
-      "Neighbor lists for molecular dynamics from discrete center hierarchies.\n"
-      "\n"
-      "First steps:\n"
-      "  dchmd info FILE                                      what a trajectory holds, and its cutoff limit\n"
-      "  dchmd replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
-      "  dchmd replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
-      "  dchmd contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
-      "  dchmd help replay                                    all options of a subcommand\n"
-      "\n"
-      "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
-      "cannot be read or written, 128 and its number for a signal (130: Ctrl-C).",
-      "dchmd");
+  CommandLine line("dchmd", kDescription, fmt::format("dchmd {}", kVersion));
   int exit_code = kOk;
-  declare(app, exit_code);
+  declare(line.root(), exit_code);
   if (argc < 2) {
-    print_message("dchmd: no subcommand given\n\n{}", app.help());
+    print_message("dchmd: no subcommand given\n\n{}", line.root().help("dchmd"));
     return kUsage;
   }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) return fail(kUsage, usage_message(app, error));
-    std::ostringstream text;  // help or version
-    app.exit(error, text, text);
-    write_output(text.str());
-  }
+  write_output(line.parse(argc, argv));
   return exit_code;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "base/progress_bar.hpp"
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
+#include "options/command_line.hpp"
 #include "options/option_values.hpp"
 #include "report/output_file.hpp"
 #include "report/replay_report.hpp"
@@ -26,7 +26,7 @@ struct ReplayWords {
   bool half = false, full = false, quiet = false;
 };
 
-void declare_list_options(CLI::App& command, ReplayWords& words) {
+void declare_list_options(Command& command, ReplayWords& words) {
   command
       .add_option(
           "--cutoff", words.cutoff,
@@ -53,10 +53,10 @@ void declare_list_options(CLI::App& command, ReplayWords& words) {
       ->type_name("FILE");
 }
 
-void declare_engine_options(CLI::App& command, ReplayWords& words) {
+void declare_engine_options(Command& command, ReplayWords& words) {
   command.add_option("--engine", words.engine, "Who finds the pairs: dch (default), cell or allpairs")
       ->type_name("NAME");
-  command.add_option("--c", words.c, "Has no effect any more")->group("");  // not shown
+  command.add_option("--c", words.c, "Has no effect any more")->hide();
   command
       .add_option("--policy", words.policy,
                   "Whether to repair the hierarchy or to build it anew: auto (default: whichever is less "
@@ -69,7 +69,7 @@ void declare_engine_options(CLI::App& command, ReplayWords& words) {
       ->type_name("N");
 }
 
-void declare_options(CLI::App& command, ReplayWords& words) {
+void declare_options(Command& command, ReplayWords& words) {
   add_input_options(
       command, words.input, "FILE",
       "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS (.xtc, .trr, .gro), DCD (.dcd), "
@@ -182,7 +182,7 @@ int run(const ReplayWords& words) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, int& exit_code) {
+void add_replay_command(Command& app, int& exit_code) {
   auto* command = app.add_subcommand("replay",
                                      "Read a trajectory, keep one search structure up through its frames, "
                                      "and make each frame's neighbor list");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "input/trajectory_input.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 #include <dch/trajectory/file_error.hpp>
 
 #include "base/interrupt.hpp"
+#include "options/command_line.hpp"
 #include "options/read_options.hpp"
 
 namespace dch::cli {
@@ -118,7 +118,7 @@ void require_format(const InputWords& words) {
 
 }  // namespace
 
-void add_input_options(CLI::App& command, InputWords& words, const std::string& argument,
+void add_input_options(Command& command, InputWords& words, const std::string& argument,
                        const std::string& help) {
   add_file_option(command, argument, words.file, help + "; - for standard input")->required()->type_name("");
   command

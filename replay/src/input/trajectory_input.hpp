@@ -9,11 +9,9 @@
 
 #include "options/option_values.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace dch::cli {
+
+class Command;
 
 /// A trajectory as the command line names it.
 struct InputWords {
@@ -24,7 +22,7 @@ struct InputWords {
 };
 
 /// Declares the argument, --format and --max-expanded. @param help what the argument is, for the help text.
-void add_input_options(CLI::App& command, InputWords& words, const std::string& argument,
+void add_input_options(Command& command, InputWords& words, const std::string& argument,
                        const std::string& help);
 
 /// A trajectory that can be opened as often as need be. Standard input and named pipes, which can be read

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "options/option_values.hpp"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <system_error>
 
 #include "base/exit_code.hpp"
+#include "options/command_line.hpp"
 
 namespace dch::cli {
 namespace {
@@ -121,12 +121,10 @@ int parse_threads(const std::string& text) {
   return static_cast<int>(parse_whole_number("--threads", text, 1, kMaxThreads, "the number of threads"));
 }
 
-CLI::Option* add_file_option(CLI::App& command, const std::string& option, std::string& path,
-                             const std::string& help) {
-  const auto refuse_nothing = [](const std::string& name) {
-    return name.empty() ? "the name of the file is empty; give one, or leave the option out" : "";
-  };
-  return command.add_option(option, path, help)->check(refuse_nothing, "");
+Option* add_file_option(Command& command, const std::string& option, std::string& path,
+                        const std::string& help) {
+  return command.add_option(option, path, help)
+      ->refuse_empty("the name of the file is empty; give one, or leave the option out");
 }
 
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {

@@ -9,12 +9,10 @@
 
 #include "base/exit_code.hpp"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace dch::cli {
+
+class Command;
+class Option;
 
 /// Frames begin, begin + step, ... below end, counted from 0 (as Python slices).
 struct FrameRange {
@@ -72,8 +70,8 @@ struct NamedPath {
 
 /// Declares an option or argument that names a file. An empty name, which a variable of a script may have
 /// turned out to be, is refused: it would mean that none was given.
-CLI::Option* add_file_option(CLI::App& command, const std::string& option, std::string& path,
-                             const std::string& help);
+Option* add_file_option(Command& command, const std::string& option, std::string& path,
+                        const std::string& help);
 
 /// @throws UsageError if two outputs, or an output and an input, are the same file, and for an output "-".
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);

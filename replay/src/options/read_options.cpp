@@ -7,10 +7,11 @@
 #include <string_view>
 
 #include "base/exit_code.hpp"
+#include "options/command_line.hpp"
 
 namespace dch::cli {
 
-void add_max_expanded(CLI::App& command, std::string& word) {
+void add_max_expanded(Command& command, std::string& word) {
   command
       .add_option("--max-expanded", word,
                   "What a compressed file may expand to within one frame: bytes, or a number of K, M, G, T. "

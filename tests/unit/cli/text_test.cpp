@@ -4,7 +4,7 @@
 
 #include "base/number_text.hpp"
 #include "base/progress_bar.hpp"
-#include "commands/help_format.hpp"
+#include "options/help_text.hpp"
 
 namespace dch::cli {
 namespace {

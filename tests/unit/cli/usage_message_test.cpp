@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/usage_message.hpp"
+#include "options/usage_message.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "commands/usage_message.hpp"
+#include "options/usage_message.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,46 +27,16 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
   return edits[a.size()][b.size()];
 }
 
-/// The last subcommand that the command line names.
-const CLI::App& named_command(const CLI::App& app) {
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  return *command;
-}
-
-std::string full_name(const CLI::App& command) {
-  const CLI::App* const parent = command.get_parent();
-  return parent ? full_name(*parent) + " " + command.get_name() : command.get_name();
-}
-
-std::vector<std::string> subcommands_of(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(sub->get_name());
-  }
-  return names;
-}
-
-std::vector<std::string> options_of(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
-  return names;
-}
-
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string closest = closest_word(word, candidates);
   return closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest);
 }
 
 /// CLI11's own message, or a plainer one.
-std::string plain_words(const CLI::ParseError& error) {
-  const std::string text = error.what();
-  if (error.get_name() != "ArgumentMismatch") return text;
-  const std::string option = text.substr(0, text.find(':'));
-  const bool twice = text.find("At Most") != std::string::npos;
+std::string plain_words(const Misuse& misuse) {
+  if (misuse.kind != "ArgumentMismatch") return misuse.text;
+  const std::string option = misuse.text.substr(0, misuse.text.find(':'));
+  const bool twice = misuse.text.find("At Most") != std::string::npos;
   return option + (twice ? " is given more than once; give it once" : " needs a value");
 }
 
@@ -86,38 +55,35 @@ std::string closest_word(const std::string& word, const std::vector<std::string>
   return closest;
 }
 
-std::string unknown_subcommand(const CLI::App& command, const std::string& word) {
-  const std::vector<std::string> known = subcommands_of(command);
-  const std::string name = full_name(command);
+std::string unknown_subcommand(const std::string& command, const std::vector<std::string>& known,
+                               const std::string& word) {
   if (known.empty())
-    return fmt::format("unknown subcommand '{}': {} has none; see {} --help", word, name, name);
+    return fmt::format("unknown subcommand '{}': {} has none; see {} --help", word, command, command);
   return fmt::format("unknown subcommand '{}'{}; {} has {}; see {} --help", word, suggestion(word, known),
-                     name, fmt::join(known, ", "), name);
+                     command, fmt::join(known, ", "), command);
 }
 
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App& command = named_command(app);
-  const std::string name = full_name(command);
-  const std::vector<std::string> unknown = app.remaining(true);
+std::string usage_message(const Misuse& misuse) {
+  const std::string& name = misuse.command;
+  const std::vector<std::string>& unknown = misuse.unknown;
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
     return word.size() > 1 && word.front() == '-' && word != "--";
   });
-  const std::vector<std::string> known = subcommands_of(command);
+  const std::vector<std::string>& known = misuse.subcommands;
   if (!known.empty() && !unknown.empty() && option != unknown.begin()) {
-    return unknown_subcommand(command, unknown.front());
+    return unknown_subcommand(name, known, unknown.front());
   }
   if (option != unknown.end()) {
     const std::string word = option->substr(0, option->find('='));
-    return fmt::format("unknown option '{}'{}; see {} --help", word, suggestion(word, options_of(command)),
-                       name);
+    return fmt::format("unknown option '{}'{}; see {} --help", word, suggestion(word, misuse.options), name);
   }
-  if (!known.empty() && command.get_subcommands().empty()) {
+  if (!known.empty()) {
     return fmt::format("{} needs a subcommand: {}; see {} --help", name, fmt::join(known, ", "), name);
   }
   if (!unknown.empty()) {
     return fmt::format("'{}' is one argument too many; see {} --help", unknown.front(), name);
   }
-  return fmt::format("{}; see {} --help", plain_words(error), name);
+  return fmt::format("{}; see {} --help", plain_words(misuse), name);
 }
 
 }  // namespace dch::cli
