@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Replays one trajectory at three cutoffs: no mismatch with all pairs, and the same lists from all engines.
+"""Replays one trajectory at three cutoffs: no mismatch with all pairs, and the same lists from another
+engine; and with a skin, half and full lists.
 
     replay_data.py DCH TRAJECTORY
 """
@@ -8,7 +9,8 @@ import sys
 
 from dch_command import Checks, info, replay, three_cutoffs
 
-MOST_ATOMS_VERIFIED_TWICE = 5000  # with more, equal hashes carry the verification of dch's lists over to the others
+# The engine beside dch at each of the cutoffs. Equal hashes carry the verification of dch's lists over to it.
+OTHERS = ("cell", "allpairs", "cell")
 
 
 def check_clean(checks, what, result, report):
@@ -17,11 +19,9 @@ def check_clean(checks, what, result, report):
     return checks.that(report is not None and report["mismatches"] == 0, f"{what}: mismatches")
 
 
-def check_engines(checks, command, path, cutoff, facts):
-    reports = {}
-    for engine in ("dch", "cell", "allpairs"):
-        small = facts["atoms"] <= MOST_ATOMS_VERIFIED_TWICE
-        verify = "all" if engine == "dch" or small else "none"
+def check_engines(checks, command, path, cutoff, other, facts):
+    reports = []
+    for engine, verify in (("dch", "all"), (other, "none")):
         what = f"{path} --cutoff {cutoff!r} --engine {engine} --verify {verify}"
         result, report = replay(command, path, "--cutoff", repr(cutoff), "--engine", engine, "--verify", verify)
         if not check_clean(checks, what, result, report):
@@ -30,21 +30,18 @@ def check_engines(checks, command, path, cutoff, facts):
                     f"{what}: {report['frames']} frames of {facts['frames']}")
         checks.that(len(report["verify"]["frames"]) == (facts["frames"] if verify == "all" else 0),
                     f"{what}: frames verified")
-        reports[engine] = report
+        reports.append(report)
         print(f"{what}: pairs {report['pairs']}, mismatches {report['mismatches']}", flush=True)
-    for engine in ("cell", "allpairs"):
-        for key in ("pairs_per_frame", "list_hash", "degree_histogram"):
-            checks.that(reports[engine][key] == reports["dch"][key],
-                        f"{path} --cutoff {cutoff!r}: {key} of {engine} differs from that of dch")
+    for key in ("pairs_per_frame", "list_hash", "degree_histogram"):
+        checks.that(reports[1][key] == reports[0][key],
+                    f"{path} --cutoff {cutoff!r}: {key} of {other} differs from that of dch")
 
 
-def check_skin_and_full(checks, command, path, cutoff, facts):
+def check_skin_and_full(checks, command, path, cutoff):
     """The same stale list for every engine; full lists hold the pairs of half ones."""
     options = ["--cutoff", repr(cutoff), "--skin", repr(0.15 * cutoff)]
     reports = []
-    how = "all" if facts["atoms"] <= MOST_ATOMS_VERIFIED_TWICE else "sample"
-    for extra in (["--verify", how], ["--verify", how, "--full", "--policy", "repair"],
-                  ["--engine", "cell", "--verify", "sample"]):
+    for extra in (["--verify", "sample"], ["--verify", "sample", "--full", "--policy", "repair"], ["--engine", "cell"]):
         what = f"{path} {' '.join(options + extra)}"
         result, report = replay(command, path, *options, *extra)
         if check_clean(checks, what, result, report):
@@ -59,9 +56,9 @@ def main(command, path):
     checks = Checks()
     facts = info(command, path)
     cutoffs = three_cutoffs(facts["smallest_box_height"])
-    for cutoff in cutoffs:
-        check_engines(checks, command, path, cutoff, facts)
-    check_skin_and_full(checks, command, path, cutoffs[1], facts)
+    for cutoff, other in zip(cutoffs, OTHERS):
+        check_engines(checks, command, path, cutoff, other, facts)
+    check_skin_and_full(checks, command, path, cutoffs[1])
     checks.finish()
 
 
