@@ -61,8 +61,8 @@ std::vector<std::string> options_of(const CLI::App& command) {
 
 Misuse misuse(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = named_command(app);
-  return {full_name(command), subcommands_of(command), options_of(command),
-          app.remaining(true), error.get_name(),       error.what()};
+  return {full_name(command),  subcommands_of(command), options_of(command),
+          app.remaining(true), error.get_name(),        error.what()};
 }
 
 }  // namespace
