@@ -31,7 +31,7 @@ class PairPotential {
   /// @param r2  squared distance [nm^2]; nothing acts at the cutoff and beyond
   PairTerms ofParticles(const DCHParameterSet::Particle& a, const DCHParameterSet::Particle& b,
                         double r2) const;
-  static PairTerms ofException(const DCHParameterSet::Exception& exception, double r2) const;
+  static PairTerms ofException(const DCHParameterSet::Exception& exception, double r2);
 
  private:
   double cutoff = 0, switchFrom = 0, krf = 0, crf = 0;
