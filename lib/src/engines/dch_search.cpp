@@ -55,6 +55,7 @@ void DchSearch::cluster_pairs(const ListParams& params, ClusterPairs& out) {
 std::vector<LevelInfo> DchSearch::levels() {
   const HierarchyView view = hierarchy_.view();
   std::vector<LevelInfo> all;
+  all.reserve(static_cast<std::size_t>(view.levels()));
   for (int i = 0; i < view.levels(); ++i) all.push_back(view.level(i));
   return all;
 }

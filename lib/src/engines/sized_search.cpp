@@ -186,7 +186,7 @@ void SizedSearch::bring_up_to_date() {
 
 std::string SizedSearch::validate() {
   for (Group& group : groups_) {
-    const std::string fault = group.search ? group.search->validate() : std::string();
+    std::string fault = group.search ? group.search->validate() : std::string();
     if (!fault.empty()) return fault;
   }
   return {};

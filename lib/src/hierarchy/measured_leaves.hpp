@@ -40,13 +40,13 @@ struct MeasuredLeaves {
   /// Takes the positions. To be called again when a point has moved, come or gone. Counts those whose squared
   /// distance from their center exceeds `covered2`.
   template <class Metric>
-  void measure(const Metric& metric, const Level& centers, LeafBlocks& points, double covered2,
+  void measure(const Metric& metric, const Level& centers, LeafBlocks& from, double covered2,
                Executor* executor);
 
   /// The same after motion, with the new positions, by id: wraps them into their slots too, in the same pass.
   /// Those of the centers are up to date already.
   template <class Metric>
-  void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, LeafBlocks& points,
+  void refresh(const Metric& metric, const Level& centers, Span<const Vec3> positions, LeafBlocks& into,
                double covered2, Executor* executor);
 
   std::size_t memory_bytes() const;

@@ -30,12 +30,12 @@ std::vector<std::int32_t> Structure::singleton_ids() const {
 }
 
 template <class Metric>
-void Structure::neighbors(const Metric& metric, int i, std::int32_t node,
+void Structure::neighbors(const Metric& metric, int level, std::int32_t node,
                           std::vector<std::int32_t>& nodes) const {
-  if (i > 0) {
-    for (const std::int32_t other : levels[i].edges.row(node))
-      if (i == 1 ||
-          metric.distance2(levels[i].position[node], levels[i].position[other]) <= levels[i].threshold2)
+  if (level > 0) {
+    for (const std::int32_t other : levels[level].edges.row(node))
+      if (level == 1 || metric.distance2(levels[level].position[node], levels[level].position[other]) <=
+                            levels[level].threshold2)
         nodes.push_back(other);
     return;
   }

@@ -71,7 +71,7 @@ void check_blocks(const Structure& h, Verdict& verdict) {
 void check_lone_nodes(const Structure& h, Verdict& verdict) {
   for (std::size_t k = 0; k < h.singletons.size(); ++k) {
     const auto [i, node] = h.singletons[k];
-    const std::int32_t place = h.place_of_singleton(static_cast<std::int32_t>(k));
+    const std::int32_t place = Structure::place_of_singleton(static_cast<std::int32_t>(k));
     if (!verdict.require(i > 1 && i <= h.top() && h.is_alive(i, node) && h.levels[i].down[node] == place &&
                              h.slot_of_id[h.id(i, node)] == place,
                          i, "singleton ", k, " is not that of its point"))

@@ -34,6 +34,7 @@ void Hierarchy::Impl::expand(int level, std::int32_t node) {
   const Vec3 at = levels[level].position[node];
   forget_singleton(level, node);
   const std::int32_t below = levels[level - 1].add(id, at);
+  // NOLINTNEXTLINE(readability-suspicious-call-argument): the node is the parent of the one below it
   attach(level - 1, below, node);
   levels[level - 1].up[below] = node;
   levels[level - 1].complete = 0;  // it may have got neighbors there by motion
