@@ -47,7 +47,7 @@ void LennardJones::add(const PairList& pairs, Span<const Vec3> positions, const 
   for (std::size_t g = 0; g + 1 < pairs.groups.size(); ++g) {
     task.first = pairs.groups[g].first;
     task.last = pairs.groups[g + 1].first;
-    task.shift = pairs.shift(pairs.groups[g], now);
+    task.shift = PairList::shift(pairs.groups[g], now);
     if (task.first < task.last) function(task, found);
   }
   if (sums) detail::give(found, *sums);

@@ -19,7 +19,8 @@ extern "C" DCH_EXPORT void lammpsplugin_init(void* lammps, void* handle, void* r
 
 namespace dch::lammps {
 
-/// Whether the library was built for the version of this LAMMPS; if not, a message on stderr says so.
-bool fits_version(void* lammps);
+/// Whether the library was built for the version of the LAMMPS with this handle; if not, a message on stderr
+/// says so.
+bool fits_version(void* handle);
 
 }  // namespace dch::lammps

@@ -107,7 +107,7 @@ void BondFENEDCH::compute(int eflag, int vflag) {
   if (neighbor->nbondlist == 0) return;
   try {
     if (!kernel_) make_kernel();
-    const auto points = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+    const auto points = static_cast<std::size_t>(atom->nlocal) + static_cast<std::size_t>(atom->nghost);
     std::array<double, 6> sums{};
     const dch::Span<const dch::BondOfType> bonds{
         reinterpret_cast<const dch::BondOfType*>(neighbor->bondlist[0]),

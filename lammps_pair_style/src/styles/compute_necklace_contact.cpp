@@ -61,30 +61,30 @@ double ComputeNecklaceContact::positive(const char* word, const char* what) {
 }
 
 void ComputeNecklaceContact::read_keywords(int narg, char** arg) {
-  for (int at = 4; at < narg;) {
-    const std::string keyword = arg[at];
-    if (keyword != "radius" && keyword != "skip" && keyword != "pairs")
-      error->all(FLERR, kName + "unknown keyword '" + keyword + "'; there are radius, skip and pairs");
-    if (at + 1 == narg) error->all(FLERR, kName + "'" + keyword + "' lacks its value");
-    const std::string value = arg[at + 1];
-    if (keyword == "radius") {
-      at = read_radii(narg, arg, at + 1);
-      continue;
-    }
-    if (keyword == "skip") {
-      const double bonds = number(arg[at + 1]);
-      if (!(bonds >= 0 && bonds <= kMaxSkip && bonds == std::floor(bonds)))
-        error->all(FLERR, kName + "skip is '" + value + "' but has to be a whole number from 0 to " +
-                              std::to_string(kMaxSkip));
-      query_.skip_bonds = static_cast<int>(bonds);
-    } else {
-      if (value != "all" && value != "within" && value != "between")
-        error->all(FLERR, kName + "pairs is '" + value + "' but has to be all, within or between");
-      query_.within_chains = value != "between";
-      query_.between_chains = value != "within";
-    }
-    at += 2;
+  for (int at = 4; at < narg;) at = read_keyword(narg, arg, at);
+}
+
+/// @return where the next keyword stands
+int ComputeNecklaceContact::read_keyword(int narg, char** arg, int at) {
+  const std::string keyword = arg[at];
+  if (keyword != "radius" && keyword != "skip" && keyword != "pairs")
+    error->all(FLERR, kName + "unknown keyword '" + keyword + "'; there are radius, skip and pairs");
+  if (at + 1 == narg) error->all(FLERR, kName + "'" + keyword + "' lacks its value");
+  if (keyword == "radius") return read_radii(narg, arg, at + 1);
+  const std::string value = arg[at + 1];
+  if (keyword == "skip") {
+    const double bonds = number(arg[at + 1]);
+    if (!(bonds >= 0 && bonds <= kMaxSkip && bonds == std::floor(bonds)))
+      error->all(FLERR, kName + "skip is '" + value + "' but has to be a whole number from 0 to " +
+                            std::to_string(kMaxSkip));
+    query_.skip_bonds = static_cast<int>(bonds);
+  } else {
+    if (value != "all" && value != "within" && value != "between")
+      error->all(FLERR, kName + "pairs is '" + value + "' but has to be all, within or between");
+    query_.within_chains = value != "between";
+    query_.between_chains = value != "within";
   }
+  return at + 2;
 }
 
 /// One number for all types, or one for each: as many as there are up to the next keyword.
@@ -198,8 +198,8 @@ void ComputeNecklaceContact::compute_array() {
 }
 
 double ComputeNecklaceContact::memory_usage() {
-  double bytes = static_cast<double>(counts_.size() * sizeof(double) + rows_.size() * sizeof(rows_[0]) +
-                                     contacts_.size() * sizeof(contacts_[0]));
+  auto bytes = static_cast<double>(counts_.size() * sizeof(double) + rows_.size() * sizeof(rows_[0]) +
+                                   contacts_.size() * sizeof(contacts_[0]));
   if (finder_) bytes += static_cast<double>(finder_->memory_bytes());
   return bytes;
 }

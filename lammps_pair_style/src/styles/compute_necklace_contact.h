@@ -40,6 +40,7 @@ class ComputeNecklaceContact : public Compute {
   enum class Result { scalar, by_atom, local, search };
 
   void read_keywords(int narg, char** arg);
+  int read_keyword(int narg, char** arg, int at);
   int read_radii(int narg, char** arg, int at);
   double positive(const char* word, const char* what);
   void find_for(Result asked);

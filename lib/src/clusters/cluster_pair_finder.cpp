@@ -57,8 +57,8 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
     for (int b = 0; b < scene.request.cutoffs.types(); ++b)
       drops_types_ = drops_types_ || scene.request.cutoffs(a, b) == 0;
 
-  const int count = executor && executor->threads() > 1 ? kPartsPerThread * executor->threads() : 1;
-  parts_.resize(static_cast<std::size_t>(count));
+  const int parts = executor && executor->threads() > 1 ? kPartsPerThread * executor->threads() : 1;
+  parts_.resize(static_cast<std::size_t>(parts));
   const std::int32_t nodes = scene.nodes.size();
   const auto search = [&](int p) {
     Part& part = parts_[static_cast<std::size_t>(p)];
@@ -67,13 +67,13 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
     part.shift.clear();
     part.work = {};
     part.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
-    for (std::int32_t k = share_begin(nodes, p, count); k < share_begin(nodes, p + 1, count); ++k)
+    for (std::int32_t k = share_begin(nodes, p, parts); k < share_begin(nodes, p + 1, parts); ++k)
       if (scene.nodes.is_alive(k)) find_around(scene, k, out, part);
   };
-  if (count == 1) {
+  if (parts == 1) {
     search(0);
   } else {
-    executor->run(count, search);
+    executor->run(parts, search);
   }
   join(out);
   std::swap(cuts_, last_cuts_);

@@ -13,7 +13,7 @@
 
 namespace dch {
 
-Vec3 PairList::shift(const Group& group, const Box& now) const {
+Vec3 PairList::shift(const Group& group, const Box& now) {
   Vec3 sum;
   for (int axis = 0; axis < 3; ++axis)
     if (now.periodic(axis))
@@ -84,13 +84,14 @@ void PairListMaker::finish() {
     ++out_.groups[group[k]].first;  // counts, for now
   }
   auto& groups = out_.groups;
-  std::int64_t total = static_cast<std::int64_t>(near_);
+  auto total = static_cast<std::int64_t>(near_);
   groups[0].first = 0;
   for (std::size_t g = 1; g < groups.size(); ++g) total = std::exchange(groups[g].first, total) + total;
   groups.push_back({{}, total});
   out_.i.resize(static_cast<std::size_t>(total));
   out_.j.resize(static_cast<std::size_t>(total));
   std::vector<std::int64_t> next;
+  next.reserve(groups.size());
   for (const PairList::Group& g : groups) next.push_back(g.first);
   for (std::size_t k = 0; k < far_.size(); ++k) {
     const auto to = static_cast<std::size_t>(next[group[k]]++);

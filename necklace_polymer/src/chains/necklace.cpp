@@ -88,7 +88,7 @@ Necklace::Necklace(Chains chains, std::vector<double> radii)
   }
 }
 
-Necklace::Necklace(Chains chains, double radius)
+Necklace::Necklace(const Chains& chains, double radius)
     : Necklace(chains, std::vector<double>(chains.particles(), radius)) {}
 
 Necklace Necklace::chain(std::vector<double> radii, bool closed) {

@@ -125,7 +125,7 @@ ClosestPair::Places ClosestPair::shared_places() const {
 
 /// Offers the pair of smallest (i, j) at one place that are no neighbors. A bead has few neighbors, so the
 /// search is short, however many stand there.
-void ClosestPair::look_at_place(Best& best, const std::vector<std::int32_t>& place) const {
+void ClosestPair::look_at_place(Best& best, const std::vector<std::int32_t>& place) {
   for (std::size_t a = 0; a < place.size(); ++a) {
     for (std::size_t b = a + 1; b < place.size(); ++b) {
       if (best.neighbors(place[a], place[b])) continue;

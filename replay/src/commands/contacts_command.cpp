@@ -100,8 +100,8 @@ ContactOptions contact_options(const ContactWords& words) {
   options.query.skip_bonds =
       static_cast<int>(parse_whole_number("--skip-bonds", words.skip, 0, std::numeric_limits<int>::max(),
                                           "the number of bonds up to which pairs are left out"));
-  const std::string pairs = choose<std::string>(
-      "--pairs", words.pairs, {{"all", "all"}, {"within", "within"}, {"between", "between"}});
+  const auto pairs = choose<std::string>("--pairs", words.pairs,
+                                         {{"all", "all"}, {"within", "within"}, {"between", "between"}});
   options.query.within_chains = pairs != "between";
   options.query.between_chains = pairs != "within";
   options.radii = BeadRadii(words.radius);

@@ -32,7 +32,7 @@ struct ChainSource {
       0;  ///< above 0: atoms in order of id make chains of that many, and no column is needed
 
   /// How the command line gave it. @throws UsageError for numbers that are none, and two sources.
-  ChainSource(const std::string& topology, const std::string& molecules, const std::string& length);
+  ChainSource(const std::string& file, const std::string& molecules_text, const std::string& length_text);
 };
 
 /// Reads chains from a topology file, or from the molecule column of the frame if none is named. Chains of a

@@ -69,7 +69,7 @@ std::string choice_text(const ContactReport& report) {
 
 std::string structure_text(const ContactReport& report) {
   const auto& stats = report.structure;
-  const double checked = static_cast<double>(stats.cages_checked);
+  const auto checked = static_cast<double>(stats.cages_checked);
   const double part = checked > 0 ? 100 * static_cast<double>(stats.basis_changes) / checked : 0;
   return fmt::format("{}, {}, {} % of the bases changed in an update", counted(report.cages, "cage"),
                      counted(stats.updates, "update"), readable(part));

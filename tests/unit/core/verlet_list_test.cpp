@@ -188,7 +188,7 @@ TEST(StaleTest, RemembersOnePlaceUntilItForgets) {
   test.remember({}, box);
   EXPECT_FALSE(test.is_stale({}, box));
   EXPECT_THROW(StaleTest(-1), InvalidParameter);
-  EXPECT_THROW(StaleTest(std::numeric_limits<double>::quiet_NaN()), InvalidParameter);
+  EXPECT_THROW(StaleTest{std::numeric_limits<double>::quiet_NaN()}, InvalidParameter);
 }
 
 // Whichever axes they are, and whatever box was remembered before.

@@ -42,7 +42,7 @@ class ClusterPairMaker {
   /// @throws InvalidParameter as ListMaker::list(), and if the radius is outside 1e-9..1e9, where single
   /// precision might
   ///   overflow. After any throw `out` is empty or as it was.
-  void make(const HierarchyView& hierarchy, const ListParams& params, ClusterPairs& out);
+  void make(const HierarchyView& view, const ListParams& params, ClusterPairs& out);
 
   /// Of the last call.
   ClusterPairWork work() const;

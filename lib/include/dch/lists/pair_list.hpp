@@ -39,7 +39,7 @@ struct PairList {
   }
 
   /// The vector to add to second particles of a group in a cell that has changed its shape since [length].
-  Vec3 shift(const Group& group, const Box& now) const;
+  static Vec3 shift(const Group& group, const Box& now);
 
   /// Calls f(i, j, displacement from i to j) for every pair.
   template <class F>

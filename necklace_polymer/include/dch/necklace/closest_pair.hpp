@@ -56,7 +56,7 @@ class ClosestPair {
   class Best;
   using Places = std::vector<std::vector<std::int32_t>>;
   Places shared_places() const;
-  void look_at_place(Best& best, const std::vector<std::int32_t>& place) const;
+  static void look_at_place(Best& best, const std::vector<std::int32_t>& place);
   void look_at_edges(Best& best, ClosestPairStats& stats) const;
   void look_along_chains(Best& best, int skip_bonds, ClosestPairStats& stats) const;
   void look_at_listed(Best& best, ClosestPairStats& stats) const;

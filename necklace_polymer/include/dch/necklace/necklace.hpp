@@ -59,7 +59,7 @@ class Necklace {
   ///   negative, not finite or above kMaxCoordinate.
   Necklace(Chains chains, std::vector<double> radii);
   /// The same radius for all.
-  Necklace(Chains chains, double radius);
+  Necklace(const Chains& chains, double radius);
   /// One chain of all particles in order of index.
   /// @throws InvalidParameter as above, and for a ring of fewer than three beads.
   static Necklace chain(std::vector<double> radii, bool closed = false);
