@@ -72,7 +72,7 @@ void LeafNearest<Metric>::search_block(std::int32_t block, double reach, Nearest
 template <class Metric>
 void LeafNearest<Metric>::select(std::int32_t block, double reach) {
   const NearBlocks blocks = near_.blocks();
-  const auto room = static_cast<std::size_t>(near_.count() + kChunk);
+  const auto room = static_cast<std::size_t>(near_.count()) + kChunk;
   block_.resize(room);
   gap2_.resize(room);
   BoxAndReach box;
