@@ -25,6 +25,12 @@ class Random {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }
 
+  /// A vector of any type, uniform in the cube [low, high)^3; z is drawn first.
+  template <class Vector>
+  Vector vector(double low, double high) {
+    const double z = uniform(low, high), y = uniform(low, high), x = uniform(low, high);
+    return Vector(x, y, z);
+  }
   /// Uniform in the cube [-half_side, half_side)^3.
   Vec3 in_cube(double half_side) {
     const double x = uniform(-half_side, half_side), y = uniform(-half_side, half_side);

@@ -83,7 +83,9 @@ inline std::vector<Vec3> clustered(const Box& box, std::size_t n, std::uint64_t 
   std::vector<Vec3> points(n);
   for (Vec3& p : points) {
     const double reach = std::ldexp(0.5, -static_cast<int>(random.below(11)));
-    p = from_fractional(box, centers[random.below(centers.size())] + random.in_ball(reach));
+    const Vec3 off =
+        random.in_ball(reach);  // before the center: which operand comes first is up to compilers
+    p = from_fractional(box, centers[random.below(centers.size())] + off);
   }
   return points;
 }

@@ -164,8 +164,7 @@ inline void make_tangle(ContactCase& tangle, const Vec3* box, std::uint64_t seed
       if (tries % 200 == 199) walk.clear();
       const dch::Vec3 step = random.in_ball(1);
       const Vec3 ahead = Vec3(step.x, step.y, step.z) * (0.25 / std::sqrt(norm2(step)));
-      const Vec3 at = walk.empty() ? Vec3(random.uniform(0, 2), random.uniform(0, 2), random.uniform(0, 2))
-                                   : walk.back() + ahead;
+      const Vec3 at = walk.empty() ? random.vector<Vec3>(0, 2) : walk.back() + ahead;
       if (is_free(at, tangle.positions) && is_free(at, walk)) walk.push_back(at);
     }
     tangle.add_particle(Vec3(1, 1, 1) + Vec3(0.01, 0, 0) * static_cast<double>(beads));

@@ -24,8 +24,7 @@ TEST_P(ContactMotionTest, FollowsChainsStepByStep) {
     Host host(tangle.system, GetParam());
     dch::scenes::Random random(32);
     std::vector<Vec3> positions = tangle.positions, velocities(positions.size());
-    for (Vec3& v : velocities)
-      v = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)) * 0.01;
+    for (Vec3& v : velocities) v = random.vector<Vec3>(-1, 1) * 0.01;
     for (int step = 0; step < 40; ++step) {
       for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += velocities[i];
       expect_near(all_contacts(*tangle.force, positions, box), host.evaluate(positions), kContactTolerance,

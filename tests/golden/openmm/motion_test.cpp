@@ -34,8 +34,7 @@ TEST_P(MotionTest, FollowsParticlesStepByStep) {
   dch::scenes::Random random(12);
   // Slow enough that no two come so near that the digits of single precision decide over all forces.
   std::vector<Vec3> velocities(liquid.positions.size());
-  for (Vec3& v : velocities)
-    v = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)) * 0.004;
+  for (Vec3& v : velocities) v = random.vector<Vec3>(-1, 1) * 0.004;
   std::vector<Vec3> positions = liquid.positions;
   for (int step = 0; step < 40; ++step) {
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += velocities[i];

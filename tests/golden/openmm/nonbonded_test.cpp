@@ -28,7 +28,7 @@ void add_dumbbells(Case& to, int molecules, double side, std::uint64_t seed) {
   dch::scenes::Random random(seed);
   for (int m = 0; m < molecules; ++m) {
     const double q = m % 3 == 0 ? 0.4 : 0.2, sigma = m % 2 == 0 ? 0.2 : 0.1, epsilon = m % 3 == 0 ? 0.1 : 0.3;
-    const Vec3 at(side * random.uniform(), side * random.uniform(), side * random.uniform());
+    const auto at = random.vector<Vec3>(0, side);
     to.add(-q, sigma, epsilon, at);
     to.add(q, sigma, epsilon, at + Vec3(0.1, 0, 0));
     to.force->addException(2 * m, 2 * m + 1, 0, 1, 0);
