@@ -37,6 +37,7 @@ class ContactAnalysis {
   void require_gap_fits(const Scan& scan) const;
   void open_data_file();
   void follow_frames();
+  void start_search();
   void follow_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms);
   std::vector<necklace::Contact> contacts_of(const trajectory::Frame& frame, std::int64_t index,
                                              ContactFrame& record);
@@ -51,6 +52,7 @@ class ContactAnalysis {
   std::int64_t frames_expected_ = 0;
   BeadChains beads_;
   std::optional<BeadFinder> finder_;
+  std::optional<necklace::Necklace> necklace_;  ///< until start_search() hands it on
   std::unique_ptr<Executor> threads_;
   std::optional<necklace::ContactFinder> contacts_;
   necklace::ContactEvents events_;
@@ -95,17 +97,11 @@ void ContactAnalysis::take_chains(const Scan& scan) {
     report_.rings += beads_.chains.closed(chain) ? 1 : 0;
   }
   require_gap_fits(scan);
-  threads_ = make_threads(options_.threads);
-  necklace::ContactFinderParams params;
-  params.executor = threads_.get();
-  params.refuse_undetermined = true;  // such a bond is one of other chains than the trajectory's
-  contacts_.emplace(necklace::Necklace(beads_.chains, radii), params);
-  const necklace::Necklace& necklace = contacts_->necklace();
-  report_.map = necklace::ContactMap(necklace, options_.query, options_.bins);
-  report_.probability = necklace::ContactProbability(necklace, options_.query);
-  report_.cages = static_cast<std::int64_t>(contacts_->wrapped().trees().nodes().size());
+  necklace_.emplace(beads_.chains, radii);
+  report_.map = necklace::ContactMap(*necklace_, options_.query, options_.bins);
+  report_.probability = necklace::ContactProbability(*necklace_, options_.query);
   for (std::size_t chain = 0; chain <= beads_.chains.size(); ++chain) {
-    report_.chain_ends.push_back(necklace.first_place(chain));
+    report_.chain_ends.push_back(necklace_->first_place(chain));
   }
 }
 
@@ -129,11 +125,24 @@ void ContactAnalysis::open_data_file() {
   header.unit = report_.unit;
   header.time = report_.has_times ? "time" : "step";
   header.query = options_.query;
-  data_.emplace(options_.data, header, contacts_->necklace(), beads_.ids);
+  data_.emplace(options_.data, header, *necklace_, beads_.ids);
+}
+
+/// Starts the threads, so it comes after the child processes: a process that forks while its threads run
+/// hands the child whatever locks they hold, and nobody there gives them back.
+void ContactAnalysis::start_search() {
+  threads_ = make_threads(options_.threads);
+  necklace::ContactFinderParams params;
+  params.executor = threads_.get();
+  params.refuse_undetermined = true;  // such a bond is one of other chains than the trajectory's
+  contacts_.emplace(*std::move(necklace_), params);
+  necklace_.reset();
+  report_.cages = static_cast<std::int64_t>(contacts_->wrapped().trees().nodes().size());
 }
 
 void ContactAnalysis::follow_frames() {
   FrameStream stream(options_.input, options_.frames);
+  start_search();
   progress_.start("following contacts", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {

@@ -45,6 +45,8 @@ class Replay {
  private:
   void scan();
   void take_atoms(const trajectory::Frame& frame);
+  void start_engine();
+  void start_list();
   void read_exclusions(const trajectory::Frame& frame);
   void open_list_file(std::int64_t most_atoms);
   void replay_frames();
@@ -70,10 +72,7 @@ class Replay {
 };
 
 Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
-    : options_(options),
-      progress_(progress),
-      engine_(make_engine(options.engine, options.cutoff + options.skin,
-                          options.threads > 1 ? make_threads(options.threads) : nullptr)) {
+    : options_(options), progress_(progress) {
   params_.cutoffs = TypeCutoffs(options.cutoff);
   params_.skin = options.skin;
   params_.kind = options.kind;
@@ -81,7 +80,6 @@ Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
   report_.skin = options.skin;
   report_.list_kind = options.kind;
   report_.engine = options.engine;
-  if (engine_.threads) report_.threads = engine_.threads->threads();
 }
 
 ReplayReport Replay::run() {
@@ -109,11 +107,21 @@ void Replay::scan() {
   open_list_file(scan.most_atoms);
 }
 
-/// Starts a list for the atoms of `frame`. The engine stays; where atoms come and go, it is told who they
-/// are.
 void Replay::take_atoms(const trajectory::Frame& frame) {
   ids_ = frame.ids;
   read_exclusions(frame);
+}
+
+/// Starts the threads, so it comes after the child processes: a process that forks while its threads run
+/// hands the child whatever locks they hold, and nobody there gives them back.
+void Replay::start_engine() {
+  engine_ = make_engine(options_.engine, options_.cutoff + options_.skin,
+                        options_.threads > 1 ? make_threads(options_.threads) : nullptr);
+  if (engine_.threads) report_.threads = engine_.threads->threads();
+}
+
+/// Starts a list for the atoms taken. The engine stays; where atoms come and go, it is told who they are.
+void Replay::start_list() {
   std::vector<std::uint64_t> keys;
   if (atoms_change_) keys.assign(ids_.begin(), ids_.end());
   list_.emplace(borrow(*engine_.search, std::move(keys)), params_);
@@ -158,6 +166,8 @@ void Replay::open_list_file(std::int64_t most_atoms) {
 
 void Replay::replay_frames() {
   FrameStream stream(options_.input, options_.frames);
+  start_engine();
+  start_list();
   progress_.start("replaying", frames_expected_);
   trajectory::Frame frame;
   for (std::int64_t done = 0; done < frames_expected_; ++done) {
@@ -168,6 +178,7 @@ void Replay::replay_frames() {
     if (frame.ids != ids_) {
       if (!atoms_change_) fail_changed(options_.input.name());
       take_atoms(frame);
+      start_list();
     }
     replay_frame(frame, stream.index(), read_ms);
     progress_.advance(done + 1);

@@ -13,6 +13,10 @@ namespace dch::trajectory {
 /// reset, signals from the terminal ignored, no core file is written, and exit() ends it at once, without the
 /// exit handlers, stream buffers and static objects that belong to the host. The destructor kills a child
 /// that still runs.
+///
+/// A process should have started no threads of its own yet: the child has copies of the locks that they hold
+/// and none of the threads, so it may wait for ever. (The C library's own locks are safe; the allocators of
+/// sanitizers, say, are not.)
 class ChildProcess {
  public:
   /// @param body gets the child's socket; when it returns, the child ends
