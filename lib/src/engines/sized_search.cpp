@@ -87,7 +87,10 @@ void SizedSearch::make_lists(Span<const ListParams> requests, const std::vector<
     bring_up_to_date();
     maintain_seconds_ += seconds_since(start);
     const auto listing = Clock::now();
-    list_finder_.find(scene(), positions_, requests, out);
+    const ListScene leaves = scene();
+    list_finder_.find(
+        {positions_, box_, leaves.error}, requests,
+        [&](const auto& filters, const auto& lists) { leaf_rows_.find(leaves, filters, lists); }, out);
     list_seconds_ += seconds_since(listing);
   });
 }
@@ -196,7 +199,7 @@ const SearchStats& SizedSearch::stats() const {
   stats_ = retired_;
   stats_.memory_bytes = positions_.capacity() * sizeof(Vec3) + keys_.capacity() * sizeof(std::uint64_t) +
                         classes_.of.capacity() * sizeof(std::int32_t) + sizes_.memory_bytes() +
-                        list_finder_.memory_bytes();
+                        leaf_rows_.memory_bytes() + list_finder_.memory_bytes();
   for (const Group& group : groups_) {
     if (!group.search) continue;
     const SearchStats& own = group.search->stats();

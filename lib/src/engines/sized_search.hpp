@@ -13,6 +13,7 @@
 #include "engines/dch_search.hpp"
 #include "engines/size_classes.hpp"
 #include "leaves/leaf_source.hpp"
+#include "lists/leaf_rows.hpp"
 #include "lists/list_finder.hpp"
 
 namespace dch::detail {
@@ -70,6 +71,7 @@ class SizedSearch final : public PairSearch {
   std::uint64_t ids_version_ = 0;  ///< see ParticleIds
   SizeClasses classes_;
   std::vector<Group> groups_;
+  LeafRows leaf_rows_;
   ListFinder list_finder_;
   std::vector<LeafSource*> sources_;  ///< of the groups
   std::int64_t updates_ = 0;

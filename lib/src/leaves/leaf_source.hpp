@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "hierarchy/measured_leaves.hpp"
 #include "hierarchy/structure.hpp"
 #include "leaves/labelled_leaves.hpp"
+#include "leaves/own_blocks.hpp"
 #include "leaves/quantized_leaves.hpp"
 
 namespace dch::detail {
@@ -28,13 +28,11 @@ struct LeafSource {
     if (!quantized.radii.empty()) return quantized.radii.data();
     return labelled.types.empty() ? nullptr : labelled.types.data();
   }
-  /// Largest tag in blocks [first, last); 0 if there are no tags.
-  std::int16_t largest_tag(std::int32_t first, std::int32_t last) const {
-    std::int16_t largest = 0;
-    const auto* const all = tags();
-    for (std::int32_t b = first; b < last && all != nullptr; ++b)
-      largest = std::max(largest, *std::max_element(all[b].begin(), all[b].end()));
-    return largest;
+  /// Blocks [first, last) of a leaf.
+  OwnBlocks blocks(std::int32_t first, std::int32_t last) const {
+    return {quantized.points.data() + first,  quantized.spans.data() + first,
+            labelled.particle.data() + first, tags() == nullptr ? nullptr : tags() + first,
+            measured().count.data() + first,  last - first};
   }
   std::size_t memory_bytes() const { return labelled.memory_bytes() + quantized.memory_bytes(); }
 };

@@ -2,10 +2,10 @@
 #include "leaves/quantized_leaves.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "leaves/own_blocks.hpp"
 #include "leaves/rounding.hpp"
 
 namespace dch::detail {
@@ -18,24 +18,6 @@ BlockSpan span_around(const MeasuredLeaves::Corners& corners, float per_unit) {
     const float low = corners.low[axis] * per_unit, high = corners.high[axis] * per_unit;
     span.center[axis] = rounded(0.5f * (low + high));
     span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5f * (high - low)) + 2);
-  }
-  return span;
-}
-
-/// Around those of blocks [first, last), whose center and half width along an axis span_of(block, axis)
-/// gives.
-template <class SpanOf>
-BlockSpan around(std::int32_t first, std::int32_t last, const SpanOf& span_of) {
-  BlockSpan span{};
-  for (int axis = 0; axis < 3; ++axis) {
-    int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::lowest();
-    for (std::int32_t b = first; b < last; ++b) {
-      const auto [center, half_width] = span_of(b, axis);
-      least = std::min(least, center - half_width);
-      most = std::max(most, center + half_width);
-    }
-    span.center[axis] = static_cast<std::int16_t>((least + most) / 2);
-    span.half_width[axis] = static_cast<std::int16_t>((most - least + 1) / 2);
   }
   return span;
 }
@@ -79,12 +61,6 @@ void QuantizedLeaves::quantize_block(const MeasuredLeaves& measured, const Label
     box_center_[axis][b] = box.center[axis];
     box_half_width_[axis][b] = box.half_width[axis];
   }
-}
-
-BlockSpan QuantizedLeaves::span_of(std::int32_t first, std::int32_t last) const {
-  return around(first, last, [&](std::int32_t b, int axis) {
-    return std::pair<int, int>(spans[b].center[axis], spans[b].half_width[axis]);
-  });
 }
 
 BlockSpan QuantizedLeaves::box_of(std::int32_t first, std::int32_t last) const {

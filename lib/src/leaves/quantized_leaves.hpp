@@ -25,9 +25,7 @@ struct QuantizedLeaves {
   void quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const ListUnits& to_units,
                 Executor* executor);
 
-  /// Box around blocks [first, last) of a leaf.
-  BlockSpan span_of(std::int32_t first, std::int32_t last) const;
-  /// The same in the units of boxes.
+  /// Box around blocks [first, last) of a leaf, in the units of boxes.
   BlockSpan box_of(std::int32_t first, std::int32_t last) const;
   BlockSpans boxes() const;
   std::size_t memory_bytes() const;

@@ -10,19 +10,7 @@
 namespace dch::detail {
 namespace {
 
-/// Parts of the work for each thread, so that none waits long for the last one.
-constexpr int kSlicesPerThread = 4;
-constexpr double kMaxDifference =
-    32700;  ///< of a difference of coordinates in units; leaves room for rounding
-
-void start(NeighborList& list) {
-  list.kind = ListKind::half;
-  list.first.assign(1, 0);
-  list.particle.clear();
-  list.near_end.clear();
-  list.j.resize(list.j.capacity());
-  list.margin = 0;
-}
+constexpr double kMaxDifference = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 /// The finest units in which the rows of source `s` can be found.
 ListUnits units_for(const ListScene& scene, std::size_t s) {
@@ -48,10 +36,16 @@ std::int16_t box_limit(double reach, const ListUnits& units) {
 
 }  // namespace
 
+void LeafRows::find(const ListScene& scene, const std::vector<const PairFilter*>& filters,
+                    const std::vector<NeighborList*>& out) {
+  with_metric(scene.box, [&](const auto& metric) { find_with(metric, scene, filters, out); });
+}
+
 template <class Metric>
-void LeafRows::find(const Metric& metric, const ListScene& scene,
-                    const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out) {
-  for (NeighborList* list : out) start(*list);
+void LeafRows::find_with(const Metric& metric, const ListScene& scene,
+                         const std::vector<const PairFilter*>& filters,
+                         const std::vector<NeighborList*>& out) {
+  for (NeighborList* list : out) start_rows(*list);
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   const double largest = *std::max_element(scene.reach.begin(), scene.reach.end());
   if (scene.box.any_periodic() && (largest + 2 * scene.error) * kInflate >= scene.box.max_cutoff()) {
@@ -66,7 +60,7 @@ void LeafRows::find(const Metric& metric, const ListScene& scene,
                            scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
-    RowFinder::Scene<Metric> rows{metric, scene.box, {}, {}};
+    LeafScene<Metric> rows{metric, scene.box, {}, {}};
     for (std::size_t turn = 0; turn <= s; ++turn) {
       const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
       LeafSource& source = *scene.sources[a];
@@ -89,60 +83,20 @@ void LeafRows::find(const Metric& metric, const ListScene& scene,
 }
 
 template <class Metric>
-void LeafRows::find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
+void LeafRows::find_rows(const LeafScene<Metric>& scene, Executor* executor,
                          const std::vector<NeighborList*>& out) {
   const Level& centers = scene.rows().centers();
-  const auto find_slice = [&](Slice& slice, std::int32_t first, std::int32_t last) {
-    slice.finder.use(instruction_set());
-    for (std::int32_t k = first; k < last; ++k)
-      if (centers.is_alive(k)) slice.finder.append_rows(scene, k, slice.lists.data());
-  };
-  if (!executor || executor->threads() == 1) {
-    slices_.resize(1);
-    Slice& slice = slices_.front();
-    slice.lists.resize(out.size());
-    for (std::size_t r = 0; r < out.size(); ++r) std::swap(slice.lists[r], *out[r]);
-    find_slice(slice, 0, centers.size());
-    for (std::size_t r = 0; r < out.size(); ++r) std::swap(slice.lists[r], *out[r]);
-    return;
-  }
-  const int slices = kSlicesPerThread * executor->threads();
-  slices_.resize(static_cast<std::size_t>(slices));
-  executor->run(slices, [&](int p) {
-    Slice& slice = slices_[static_cast<std::size_t>(p)];
-    slice.lists.resize(out.size());
-    for (NeighborList& list : slice.lists) start(list);
-    find_slice(slice, share_begin(centers.size(), p, slices), share_begin(centers.size(), p + 1, slices));
-  });
-  for (std::size_t r = 0; r < out.size(); ++r) append_pieces(*executor, r, *out[r]);
-}
-
-/// Puts what the slices found behind each other.
-void LeafRows::append_pieces(Executor& executor, std::size_t list, NeighborList& out) {
-  std::vector<std::size_t> first_row(slices_.size() + 1, out.particle.size());
-  std::vector<std::size_t> first_entry(slices_.size() + 1, static_cast<std::size_t>(out.first.back()));
-  for (std::size_t p = 0; p < slices_.size(); ++p) {
-    const NeighborList& piece = slices_[p].lists[list];
-    first_row[p + 1] = first_row[p] + piece.size();
-    first_entry[p + 1] = first_entry[p] + static_cast<std::size_t>(piece.first.back());
-  }
-  out.first.resize(first_row.back() + 1);
-  out.particle.resize(first_row.back());
-  const bool has_shell = std::any_of(slices_.begin(), slices_.end(),
-                                     [&](const Slice& slice) { return !slice.lists[list].near_end.empty(); });
-  out.near_end.resize(has_shell ? first_row.back() : 0);
-  if (out.j.size() < first_entry.back()) out.j.resize(first_entry.back());
-  executor.run(static_cast<int>(slices_.size()), [&](int slice) {
-    const auto p = static_cast<std::size_t>(slice);
-    const NeighborList& piece = slices_[p].lists[list];
-    std::copy(piece.particle.begin(), piece.particle.end(),
-              out.particle.begin() + static_cast<std::ptrdiff_t>(first_row[p]));
-    std::copy_n(piece.j.data(), piece.first.back(), out.j.data() + first_entry[p]);
-    for (std::size_t r = 0; r < piece.near_end.size(); ++r)
-      out.near_end[first_row[p] + r] = static_cast<std::int64_t>(first_entry[p]) + piece.near_end[r];
-    for (std::size_t r = 0; r < piece.size(); ++r)
-      out.first[first_row[p] + r + 1] = static_cast<std::int64_t>(first_entry[p]) + piece.first[r + 1];
-  });
+  parts_.find(executor, out,
+              [&](LeafCandidates& near, RowFinder& finder, NeighborList* lists, int share, int shares) {
+                const std::int32_t last = share_begin(centers.size(), share + 1, shares);
+                for (std::int32_t k = share_begin(centers.size(), share, shares); k < last; ++k) {
+                  if (!centers.is_alive(k)) continue;
+                  near.for_each_part(scene, k,
+                                     [&](const OwnBlocks& own, const Candidates& around, std::int32_t count) {
+                                       finder.append_rows(scene.requests, own, around, count, lists);
+                                     });
+                }
+              });
 }
 
 /// Where lists reach half the box, with the nearest image found pair by pair.
@@ -175,31 +129,5 @@ void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, 
     }
   }
 }
-
-ListWork LeafRows::work() const {
-  ListWork work;
-  for (const Slice& slice : slices_) work += slice.finder.work();
-  return work;
-}
-
-std::size_t LeafRows::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const Slice& slice : slices_) {
-    bytes += slice.finder.memory_bytes();
-    for (const NeighborList& piece : slice.lists)
-      bytes += piece.first.capacity() * sizeof(std::int64_t) +
-               piece.near_end.capacity() * sizeof(std::int64_t) +
-               (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);
-  }
-  return bytes;
-}
-
-#define DCH_INSTANTIATE(Metric)                                                                        \
-  template void LeafRows::find(const Metric&, const ListScene&, const std::vector<const PairFilter*>&, \
-                               const std::vector<NeighborList*>&);
-DCH_INSTANTIATE(OpenMetric)
-DCH_INSTANTIATE(OrthorhombicMetric)
-DCH_INSTANTIATE(LatticeMetric)
-#undef DCH_INSTANTIATE
 
 }  // namespace dch::detail

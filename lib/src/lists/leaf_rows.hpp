@@ -9,8 +9,8 @@
 #include <dch/lists/neighbor_list.hpp>
 
 #include "leaves/leaf_source.hpp"
-#include "lists/pair_filter.hpp"
-#include "lists/row_finder.hpp"
+#include "lists/leaf_candidates.hpp"
+#include "lists/row_parts.hpp"
 
 namespace dch::detail {
 
@@ -24,8 +24,6 @@ struct ListScene {
   std::vector<double> reach;
   double error;  ///< how far the distance of two positions may be from their pair distance [length]
   Executor* executor;
-  std::vector<std::int32_t> singletons =
-      {};  ///< particles in no leaf: without neighbors, so their rows are empty
 
   double reach_of(std::size_t a, std::size_t b) const { return reach[a * sources.size() + b]; }
 };
@@ -42,28 +40,23 @@ class LeafRows {
   /// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like
   /// all others. What the filters' cutoffs depend on must be the same for all, and the first one's list
   /// radius the largest. Edges must join all leaves of a source with points within its reach of each other.
-  template <class Metric>
-  void find(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
+  void find(const ListScene& scene, const std::vector<const PairFilter*>& filters,
             const std::vector<NeighborList*>& out);
   /// Of all searches so far, with the present number of threads.
-  ListWork work() const;
-  std::size_t memory_bytes() const;
+  ListWork work() const { return parts_.work(); }
+  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
 
  private:
   template <class Metric>
-  void find_rows(const RowFinder::Scene<Metric>& scene, Executor* executor,
+  void find_with(const Metric& metric, const ListScene& scene, const std::vector<const PairFilter*>& filters,
                  const std::vector<NeighborList*>& out);
-  void append_pieces(Executor& executor, std::size_t list, NeighborList& out);
+  template <class Metric>
+  void find_rows(const LeafScene<Metric>& scene, Executor* executor, const std::vector<NeighborList*>& out);
   template <class Metric>
   static void find_by_distance(const Metric& metric, const LeafSource& source, const PairFilter& filter,
                                NeighborList& out);
 
-  /// What one slice of the leaves gave: on several threads there are several.
-  struct Slice {
-    RowFinder finder;
-    std::vector<NeighborList> lists;
-  };
-  std::vector<Slice> slices_;
+  RowParts<LeafCandidates> parts_;
 };
 
 }  // namespace dch::detail

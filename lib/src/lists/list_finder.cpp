@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "geometry/metric.hpp"
-#include "lists/pair_filter.hpp"
+#include "hierarchy/level.hpp"
 
 namespace dch::detail {
 namespace {
@@ -62,7 +61,7 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
 
 }  // namespace
 
-void ListFinder::find(const ListScene& scene, Span<const Vec3> positions, Span<const ListParams> requests,
+void ListFinder::find(const ListTask& task, Span<const ListParams> requests, const FindRows& find_rows,
                       const std::vector<NeighborList*>& out) {
   const bool alike = std::all_of(requests.begin(), requests.end(),
                                  [&](const ListParams& request) { return are_alike(request, requests[0]); });
@@ -71,15 +70,14 @@ void ListFinder::find(const ListScene& scene, Span<const Vec3> positions, Span<c
     if (alike) {
       together.push_back(&requests[r]);
     } else {
-      find_alike(scene, positions, {&requests[r]}, {out[r]});
+      find_alike(task, {&requests[r]}, find_rows, {out[r]});
     }
   }
-  if (alike && !together.empty()) find_alike(scene, positions, together, out);
+  if (alike && !together.empty()) find_alike(task, together, find_rows, out);
 }
 
-void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
-                            const std::vector<const ListParams*>& requests,
-                            const std::vector<NeighborList*>& out) {
+void ListFinder::find_alike(const ListTask& task, const std::vector<const ListParams*>& requests,
+                            const FindRows& find_rows, const std::vector<NeighborList*>& out) {
   std::vector<std::size_t> by_radius(requests.size());  // the largest first
   std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
   std::stable_sort(by_radius.begin(), by_radius.end(), [&](std::size_t a, std::size_t b) {
@@ -91,19 +89,20 @@ void ListFinder::find_alike(const ListScene& scene, Span<const Vec3> positions,
   std::vector<NeighborList*> rows;
   found_.resize(std::max(found_.size(), requests.size()));
   for (const std::size_t r : by_radius) {
-    sorted_filters.push_back(&filters.emplace_back(positions, scene.box, *requests[r], scene.error));
+    sorted_filters.push_back(&filters.emplace_back(task.positions, task.box, *requests[r], task.error));
     rows.push_back(is_ready_as_found(*requests[r]) ? out[r] : &found_[r]);
   }
-  with_metric(scene.box, [&](const auto& metric) { leaf_rows_.find(metric, scene, sorted_filters, rows); });
+  find_rows(sorted_filters, rows);
   for (NeighborList* list : rows) {
-    for (const std::int32_t particle : scene.singletons) {
+    for (const std::int32_t particle : task.singletons) {
       list->particle.push_back(particle);
       list->first.push_back(list->first.back());
       if (!list->near_end.empty()) list->near_end.push_back(list->first.back());
     }
   }
   for (std::size_t r = 0; r < requests.size(); ++r)
-    if (!is_ready_as_found(*requests[r])) put_in_order(*requests[r], positions.size(), found_[r], *out[r]);
+    if (!is_ready_as_found(*requests[r]))
+      put_in_order(*requests[r], task.positions.size(), found_[r], *out[r]);
 }
 
 void ListFinder::put_in_order(const ListParams& request, std::size_t n, const NeighborList& found,
@@ -124,7 +123,7 @@ void ListFinder::put_in_order(const ListParams& request, std::size_t n, const Ne
 }
 
 std::size_t ListFinder::memory_bytes() const {
-  std::size_t bytes = leaf_rows_.memory_bytes() + assembler_.memory_bytes();
+  std::size_t bytes = assembler_.memory_bytes();
   for (const NeighborList& list : found_)
     bytes += (list.first.capacity() + list.near_end.capacity()) * sizeof(std::int64_t) +
              (list.particle.capacity() + list.j.capacity()) * sizeof(std::int32_t);

@@ -6,6 +6,7 @@
 #include "geometry/tolerance.hpp"
 #include "hierarchy/structure.hpp"
 #include "leaves/leaf_source.hpp"
+#include "lists/leaf_rows.hpp"
 #include "lists/list_assembly.hpp"
 #include "lists/list_check.hpp"
 #include "lists/list_finder.hpp"
@@ -15,6 +16,7 @@ namespace dch {
 
 struct ListMaker::Impl {
   detail::LeafSource source;
+  detail::LeafRows rows;
   detail::ListFinder finder;
 
   void lists(const detail::Structure& hierarchy, Span<const ListParams> requests,
@@ -33,9 +35,11 @@ struct ListMaker::Impl {
                                     {sources, 1},
                                     {(reach + error) * detail::kInflate},
                                     error,
-                                    hierarchy.params.executor,
-                                    hierarchy.singleton_ids()};
-      finder.find(scene, hierarchy.raw, requests, out);
+                                    hierarchy.params.executor};
+      const std::vector<std::int32_t> singletons = hierarchy.singleton_ids();
+      finder.find(
+          {hierarchy.raw, hierarchy.box, error, singletons}, requests,
+          [&](const auto& filters, const auto& lists) { rows.find(scene, filters, lists); }, out);
     });
   }
 };
@@ -58,9 +62,9 @@ void ListMaker::lists(const HierarchyView& hierarchy, Span<const ListParams> req
   impl_->lists(hierarchy.structure(), requests, each);
 }
 
-ListWork ListMaker::work() const { return impl_->finder.work(); }
+ListWork ListMaker::work() const { return impl_->rows.work(); }
 std::size_t ListMaker::memory_bytes() const {
-  return impl_->source.memory_bytes() + impl_->finder.memory_bytes();
+  return impl_->source.memory_bytes() + impl_->rows.memory_bytes() + impl_->finder.memory_bytes();
 }
 
 }  // namespace dch

@@ -302,16 +302,18 @@ TEST_F(LabelledLeavesTest, BoxesAndTagsOfSeveralBlocks) {
   const BlockSpans boxes = quantized_.boxes();
   for (std::int32_t first = 0; first < measured_.blocks; ++first)
     for (std::int32_t last = first + 1; last <= measured_.blocks; ++last) {
-      expect_around(quantized_.span_of(first, last), first, last, [&](std::int32_t b, int axis) {
-        return std::pair<int, int>(quantized_.spans[b].center[axis], quantized_.spans[b].half_width[axis]);
-      });
+      expect_around(source_.blocks(first, last).span_of(0, last - first), first, last,
+                    [&](std::int32_t b, int axis) {
+                      return std::pair<int, int>(quantized_.spans[b].center[axis],
+                                                 quantized_.spans[b].half_width[axis]);
+                    });
       expect_around(quantized_.box_of(first, last), first, last, [&](std::int32_t b, int axis) {
         return std::pair<int, int>(boxes.center[axis][b], boxes.half_width[axis][b]);
       });
       std::int16_t largest = 0;
       for (std::int32_t b = first; b < last; ++b)
         for (const std::int16_t tag : quantized_.radii[b]) largest = std::max(largest, tag);
-      EXPECT_EQ(source_.largest_tag(first, last), largest);
+      EXPECT_EQ(source_.blocks(first, last).largest_tag(0, last - first), largest);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "hierarchy/structure.hpp"
 #include "listed_hierarchy.hpp"
+#include "lists/leaf_rows.hpp"
 #include "lists/list_finder.hpp"
 #include "lists/reach.hpp"
 #include "scenes.hpp"
@@ -111,9 +112,11 @@ TEST(Work, OfListsBetweenHierarchiesGrowsWithTheirPairsAlone) {
     ListParams request;
     request.radii = radii;
     NeighborList list;
+    detail::LeafRows rows;
     detail::ListFinder finder;
-    finder.find(scene, points, {&request, 1}, {&list});
-    const WorkOfPair work(finder.work(), list);
+    finder.find({points, box, error}, {&request, 1},
+                [&](const auto& filters, const auto& lists) { rows.find(scene, filters, lists); }, {&list});
+    const WorkOfPair work(rows.work(), list);
     EXPECT_LE(work.nodes, 2.4) << n;
     EXPECT_LE(work.boxes, 1.45) << n;
     EXPECT_LE(work.gathered, 4.8) << n;
