@@ -93,6 +93,10 @@ CellListContender::CellListContender(const Scene& scene)
   CellListContender::reset();
 }
 
+LibraryGridContender::LibraryGridContender(const Scene& scene) : requests_(requests_of(scene, false)) {
+  LibraryGridContender::reset();
+}
+
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
     : name_(std::move(name)), cells_(cells), radii_(scene.list_radii) {
   for (const double radius : radii_) widths_.push_back(best_width(scene, radius, cells));
@@ -148,6 +152,7 @@ std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Exec
   if (executor) add("dch, " + std::to_string(executor->threads()) + " threads", {.executor = executor});
   if (CellListContender::can_make(scene) && is_wanted("cell list"))
     all.push_back(std::make_unique<CellListContender>(scene));
+  if (is_wanted("grid")) all.push_back(std::make_unique<LibraryGridContender>(scene));
   // Grids are tuned when they are made, which takes a while.
   const std::string by_size = "grids by size";
   if (SizeGridContender::can_make(scene) && is_wanted(by_size))

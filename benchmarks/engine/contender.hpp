@@ -98,6 +98,22 @@ class CellListContender : public Contender {
   std::unique_ptr<PairSearch> search_;
 };
 
+/// The library's grid of cells, built anew each time.
+class LibraryGridContender : public Contender {
+ public:
+  explicit LibraryGridContender(const Scene& scene);
+
+  std::string name() const override { return "grid"; }
+  void update(const Scene& scene) override { search_->update(scene.positions, scene.box); }
+  void list(const Scene&, std::vector<NeighborList>& lists) override { search_->lists(requests_, lists); }
+  void reset() override { search_ = make_grid_search(requests_.back().list_radius()); }
+  std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
+
+ private:
+  std::vector<ListParams> requests_;
+  std::unique_ptr<PairSearch> search_;
+};
+
 /// A grid for each list, built anew each time.
 class GridContender : public Contender {
  public:

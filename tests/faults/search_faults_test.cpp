@@ -34,6 +34,7 @@ std::vector<NamedEngine> engines() {
          return make_dch_search(params);
        },
        true},
+      {"grid", [] { return make_grid_search(kRadius); }, true},
   };
 }
 

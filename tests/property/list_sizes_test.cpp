@@ -74,10 +74,18 @@ std::vector<SizeModel> size_models(std::size_t n) {
   };
 }
 
-std::unique_ptr<PairSearch> search_with(bool size_classes, Executor* executor = nullptr) {
+enum class Engine { one_hierarchy, hierarchy_by_class, grid };
+constexpr Engine kEngines[] = {Engine::one_hierarchy, Engine::hierarchy_by_class, Engine::grid};
+
+std::string text(Engine engine) {
+  return engine == Engine::one_hierarchy ? ", one" : engine == Engine::grid ? ", grid" : ", classes";
+}
+
+std::unique_ptr<PairSearch> search_with(Engine engine, Executor* executor = nullptr, double radius = kReach) {
+  if (engine == Engine::grid) return make_grid_search(radius, executor);
   HierarchyParams params;
-  params.radius = kReach;
-  params.size_classes = size_classes;
+  params.radius = radius;
+  params.size_classes = engine == Engine::hierarchy_by_class;
   params.executor = executor;
   return make_dch_search(params);
 }
@@ -96,13 +104,13 @@ TEST_P(ListSizes, ListsEqualTheOracle) {
         cell->update(scene.points, box);
         ASSERT_EQ(first_difference(cell->list(params), expected), "")
             << "cell, " << scene.name << ", " << model.name;
-        for (const bool size_classes : {false, true}) {
-          const auto search = search_with(size_classes);
+        for (const Engine engine : kEngines) {
+          const auto search = search_with(engine);
           search->update(scene.points, box);
           for (const InstructionSet set : supported_sets()) {
             set_instruction_set(set);
             ASSERT_EQ(first_difference(search->list(params), expected), "")
-                << scene.name << ", " << model.name << ", " << name(set) << (size_classes ? ", classes" : "");
+                << scene.name << ", " << model.name << ", " << name(set) << text(engine);
           }
         }
       }
@@ -122,10 +130,10 @@ TEST_P(ListSizes, ExclusionsAndGhosts) {
     ghosts.first_ghost = 150;
     for (const ListParams& params : {excluded, ghosts}) {
       const NeighborList expected = all_pairs(points, box, params);
-      for (const bool size_classes : {false, true}) {
-        const auto search = search_with(size_classes);
+      for (const Engine engine : kEngines) {
+        const auto search = search_with(engine);
         search->update(points, box);
-        ASSERT_EQ(first_difference(search->list(params), expected), "") << model.name << size_classes;
+        ASSERT_EQ(first_difference(search->list(params), expected), "") << model.name << text(engine);
         ListParams as_found = params;
         as_found.order = RowOrder::by_structure;
         const NeighborList found = search->list(as_found);
@@ -174,8 +182,9 @@ TEST_P(ListSizes, ShellComesLastOnThreadsToo) {
         params.shell = shell;
         params.order = RowOrder::by_structure;
         const NeighborList expected = all_pairs(points, box, params);
-        for (const bool size_classes : {false, true}) {
-          const auto search = search_with(size_classes, size_classes ? nullptr : pool.get());
+        for (const Engine engine : kEngines) {
+          const auto search =
+              search_with(engine, engine == Engine::hierarchy_by_class ? nullptr : pool.get());
           search->update(points, box);
           const NeighborList found = search->list(params);
           ASSERT_EQ(first_difference(sorted_by_index(found, points.size()), expected), "") << model.name;
@@ -192,7 +201,7 @@ TEST_P(ListSizes, UnderMotion) {
   const Box box = GetParam().box;
   scenes::Random random(11);
   for (const bool named : {false, true}) {
-    const auto search = search_with(true);
+    const auto search = search_with(Engine::hierarchy_by_class);
     std::vector<Vec3> points = scenes::uniform_in(box, 500, 6);
     std::vector<std::uint64_t> keys(points.size());
     for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = 10 * i;
@@ -220,8 +229,8 @@ TEST_P(ListSizes, UnderMotion) {
 }
 
 TEST(ListSizesTest, NoParticlesAndNoPairsAreNoTrouble) {
-  for (const bool size_classes : {false, true}) {
-    const auto search = search_with(size_classes);
+  for (const Engine engine : kEngines) {
+    const auto search = search_with(engine);
     const Box box = Box::orthorhombic({kSide, kSide, kSide});
     ListParams params;
     params.cutoffs = TypeCutoffs(kReach);
@@ -250,8 +259,8 @@ TEST_P(ListSizes, SeveralListsAtOnce) {
     mixed[1] = ListParams();
     mixed[1].cutoffs = TypeCutoffs(0.5);
     for (const std::vector<ListParams>& asked : {requests, mixed})
-      for (const bool size_classes : {false, true}) {
-        const auto search = search_with(size_classes);
+      for (const Engine engine : kEngines) {
+        const auto search = search_with(engine);
         search->update(points, box);
         const std::vector<NeighborList> lists = search->lists(asked);
         ASSERT_EQ(lists.size(), asked.size());
@@ -259,7 +268,7 @@ TEST_P(ListSizes, SeveralListsAtOnce) {
           const NeighborList expected = all_pairs(points, box, asked[k]);
           const NeighborList& list = lists[k];
           ASSERT_EQ(first_difference(k == 3 ? sorted_by_index(list, points.size()) : list, expected), "")
-              << model.name << ", list " << k << (size_classes ? ", classes" : "");
+              << model.name << ", list " << k << text(engine);
         }
       }
   }
@@ -269,8 +278,8 @@ TEST_P(ListSizes, SupersetsLackNoPairAndKeepToTheirMargin) {
   const Box box = GetParam().box;
   for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 400, 0.6)) {
     for (const SizeModel& model : size_models(scene.points.size())) {
-      for (const bool size_classes : {false, true}) {
-        const auto search = search_with(size_classes);
+      for (const Engine engine : kEngines) {
+        const auto search = search_with(engine);
         search->update(scene.points, box);
         ListParams params = model.params();
         params.superset = true;
@@ -299,15 +308,17 @@ TEST_P(ListSizes, ListsDoNotDependOnTheNumberOfThreads) {
   for (const SizeModel& model : size_models(points.size())) {
     ListParams params = model.params();
     params.order = RowOrder::by_structure;
-    NeighborList expected;
-    for (const int threads : {1, 3}) {
-      const auto pool = make_thread_pool(threads);
-      const auto search = search_with(true, pool.get());
-      search->update(points, box);
-      const NeighborList list = search->list(params);
-      if (threads == 1) expected = list;
-      ASSERT_EQ(list.particle, expected.particle) << model.name;
-      ASSERT_EQ(first_difference(list, expected), "") << model.name;
+    for (const Engine engine : {Engine::hierarchy_by_class, Engine::grid}) {
+      NeighborList expected;
+      for (const int threads : {1, 3}) {
+        const auto pool = make_thread_pool(threads);
+        const auto search = search_with(engine, pool.get());
+        search->update(points, box);
+        const NeighborList list = search->list(params);
+        if (threads == 1) expected = list;
+        ASSERT_EQ(list.particle, expected.particle) << model.name << text(engine);
+        ASSERT_EQ(first_difference(list, expected), "") << model.name << text(engine);
+      }
     }
   }
 }
@@ -324,13 +335,12 @@ TEST_P(ListSizes, InTheSmallestBox) {
       for (double& radius : model.radii) radius *= factor * share;
       ListParams params = model.params();
       params.skin *= factor * share * (1 - 1e-12);
-      HierarchyParams hierarchy;
-      hierarchy.radius = box.max_cutoff();
-      hierarchy.size_classes = true;
-      const auto search = make_dch_search(hierarchy);
-      search->update(points, box);
-      ASSERT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
-          << model.name << ", share " << share;
+      for (const Engine engine : {Engine::hierarchy_by_class, Engine::grid}) {
+        const auto search = search_with(engine, nullptr, box.max_cutoff());
+        search->update(points, box);
+        ASSERT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
+            << model.name << ", share " << share << text(engine);
+      }
     }
   }
 }
@@ -345,12 +355,12 @@ TEST_P(ListSizes, RequestsMayDifferWhileTheStructureStaysAsItIs) {
   ghosts.first_ghost = 150;
   in_place.radii = radii;
   in_place.skin = kSkin;
-  for (const bool size_classes : {false, true}) {
-    const auto search = search_with(size_classes);
+  for (const Engine engine : kEngines) {
+    const auto search = search_with(engine);
     search->update(points, box);
     const auto expect_pairs_of = [&](const ListParams& params, const char* what) {
       EXPECT_EQ(first_difference(search->list(params), all_pairs(points, box, params)), "")
-          << what << (size_classes ? ", classes" : "");
+          << what << text(engine);
     };
     for (int round = 0; round < 2; ++round) {
       expect_pairs_of(one_cutoff, "one cutoff");
@@ -376,7 +386,7 @@ TEST_P(ListSizes, NothingIsLeftOfWhatAListHeldBefore) {
   rough.superset = true;
   rough.order = RowOrder::by_structure;
   NeighborList list;
-  const auto dch = search_with(false), cell = make_cell_search(kReach);
+  const auto dch = search_with(Engine::one_hierarchy), cell = make_cell_search(kReach);
   for (PairSearch* search : {dch.get(), cell.get()}) {
     dch->update(points, box);
     cell->update(points, box);
@@ -395,26 +405,28 @@ TEST_P(ListSizes, BadInputIsRefusedAndForgotten) {
   const Box box = GetParam().box;
   const std::vector<Vec3> points = scenes::uniform_in(box, 200, 14);
   const SizeModel model = size_models(points.size())[1];
-  const auto search = search_with(true);
-  std::vector<Vec3> bad = points;
-  bad[17].y = std::nan("");
-  const std::vector<std::uint64_t> repeated(points.size(), 5), few(3, 1);
-  for (int round = 0; round < 2; ++round) {
-    search->update(points, box);
-    ASSERT_EQ(first_difference(search->list(model.params()), all_pairs(points, box, model.params())), "");
-    ListParams wider = model.params();
-    wider.skin = 2 * kSkin;
-    EXPECT_THROW(search->list(wider), InvalidParameter) << "beyond the radius that the search was made for";
-    for (const double shell : {-0.1, std::nan(""), 1.1 * kSkin}) {
-      ListParams shelled = model.params();
-      shelled.shell = shell;
-      EXPECT_THROW(search->list(shelled), InvalidParameter) << shell;
+  for (const Engine engine : {Engine::hierarchy_by_class, Engine::grid}) {
+    const auto search = search_with(engine);
+    std::vector<Vec3> bad = points;
+    bad[17].y = std::nan("");
+    const std::vector<std::uint64_t> repeated(points.size(), 5), few(3, 1);
+    for (int round = 0; round < 2; ++round) {
+      search->update(points, box);
+      ASSERT_EQ(first_difference(search->list(model.params()), all_pairs(points, box, model.params())), "");
+      ListParams wider = model.params();
+      wider.skin = 2 * kSkin;
+      EXPECT_THROW(search->list(wider), InvalidParameter) << "beyond the radius that the search was made for";
+      for (const double shell : {-0.1, std::nan(""), 1.1 * kSkin}) {
+        ListParams shelled = model.params();
+        shelled.shell = shell;
+        EXPECT_THROW(search->list(shelled), InvalidParameter) << shell;
+      }
+      EXPECT_THROW(search->update(bad, box), InvalidPosition);
+      EXPECT_THROW(search->list(model.params()), InvalidParameter) << "radii of particles that are not there";
+      EXPECT_THROW(search->update(points, box, repeated), InvalidParameter);
+      EXPECT_THROW(search->update(points, box, few), InvalidParameter);
+      EXPECT_THROW(search->update(points, Box::orthorhombic({5, 5, 5})), CutoffTooLarge);
     }
-    EXPECT_THROW(search->update(bad, box), InvalidPosition);
-    EXPECT_THROW(search->list(model.params()), InvalidParameter) << "radii of particles that are not there";
-    EXPECT_THROW(search->update(points, box, repeated), InvalidParameter);
-    EXPECT_THROW(search->update(points, box, few), InvalidParameter);
-    EXPECT_THROW(search->update(points, Box::orthorhombic({5, 5, 5})), CutoffTooLarge);
   }
 }
 

@@ -67,17 +67,21 @@ class RandomScene {
     const RestoreInstructionSet restore;
     set_instruction_set(one_of(supported_sets()));
     const auto search = make_dch_search(hierarchy_);
+    const auto grid = make_grid_search(hierarchy_.radius, threads_.get());
     for (int step = 0; step < 4; ++step) {
       const double motion = reach_ * std::pow(10, random_.uniform(-3, 0.5));
       for (Vec3& p : points_)
         if (step > 0) p = p + random_.in_cube(motion);
-      search->update(points_, box_.box);
-      const NeighborList list = search->list(request_), expected = all_pairs(points_, box_.box, request_);
-      ASSERT_EQ(first_difference(
-                    request_.order == RowOrder::by_structure ? sorted_by_index(list, points_.size()) : list,
-                    expected),
-                "")
-          << "step " << step << ", " << what_;
+      const NeighborList expected = all_pairs(points_, box_.box, request_);
+      for (PairSearch* const engine : {search.get(), grid.get()}) {
+        engine->update(points_, box_.box);
+        const NeighborList list = engine->list(request_);
+        ASSERT_EQ(first_difference(
+                      request_.order == RowOrder::by_structure ? sorted_by_index(list, points_.size()) : list,
+                      expected),
+                  "")
+            << engine->name() << ", step " << step << ", " << what_;
+      }
     }
     ASSERT_EQ(search->validate(), "") << what_;
   }

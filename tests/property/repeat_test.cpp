@@ -53,6 +53,25 @@ void pause_at_times(int update) {
   if (update % 5 == 3) std::this_thread::sleep_for(std::chrono::milliseconds(30));
 }
 
+/// Lists by structure of the grid, which keeps nothing.
+std::vector<NeighborList> grid_lists(const Box& box, Executor* executor) {
+  const auto search = make_grid_search(kRadius, executor);
+  std::vector<Vec3> points = scenes::uniform_in(box, 6000, 5);
+  scenes::Random random(7);
+  ListParams request;
+  request.cutoffs = TypeCutoffs(0.9);
+  request.skin = 0.1;
+  request.order = RowOrder::by_structure;
+  request.shell = 0.1;
+  std::vector<NeighborList> lists;
+  for (int update = 0; update < 3; ++update) {
+    for (Vec3& p : points) p = p + random.in_cube(0.3);
+    search->update(points, box);
+    lists.push_back(search->list(request));
+  }
+  return lists;
+}
+
 /// Steps of all lengths, so that repairs are put off, done and replaced by builds; with `keys`, particles
 /// come and go.
 Outcome run(const Box& box, bool keys, Executor* executor, Pause pause) {
@@ -122,6 +141,20 @@ TEST_P(Repeats, WithAnyInstructionSet) {
   for (const InstructionSet set : supported_sets()) {
     set_instruction_set(set);
     EXPECT_EQ(first_difference(expected, run(GetParam().box, true, nullptr, no_pause)), "") << name(set);
+  }
+}
+
+TEST_P(Repeats, OfTheGrid) {
+  const RestoreInstructionSet restore;
+  const Outcome expected{{}, grid_lists(GetParam().box, nullptr), {}};
+  ASSERT_GT(expected.lists[0].pairs(), 0);
+  for (const int threads : {2, 5}) {
+    const auto pool = make_thread_pool(threads);
+    EXPECT_EQ(first_difference(expected, {{}, grid_lists(GetParam().box, pool.get()), {}}), "") << threads;
+  }
+  for (const InstructionSet set : supported_sets()) {
+    set_instruction_set(set);
+    EXPECT_EQ(first_difference(expected, {{}, grid_lists(GetParam().box, nullptr), {}}), "") << name(set);
   }
 }
 

@@ -2,7 +2,6 @@
 #include "grid/cell_grid.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <dch/base/index_count.hpp>
@@ -10,51 +9,8 @@
 namespace dch::detail {
 namespace {
 
-/// Coordinates beyond this many cells from the middle of the points share the outermost cell. Small enough
-/// that the rounding of a coordinate stays below kWidthMargin cells.
-constexpr double kFarthest = 1 << 30;
-constexpr double kWidthMargin = 1e-6;
 /// A dense block may have this many cells for each point.
 constexpr double kDenseCellsPerPoint = 4;
-
-/// Unit vectors that complete `rank` independent vectors to a basis, orthogonal to them and to each other:
-/// exactly the axes if the vectors are parallel to axes.
-std::vector<Vec3> orthogonal_complement(const std::array<Vec3, 3>& vectors, int rank) {
-  std::vector<Vec3> frame;  // orthonormal
-  const auto remainder = [&](Vec3 v) {
-    for (const Vec3 e : frame) v = v - dot(v, e) * e;
-    return v;
-  };
-  const auto add = [&](Vec3 v) { frame.push_back((1 / std::sqrt(norm2(v))) * v); };
-  for (int k = 0; k < rank; ++k) add(remainder(vectors[static_cast<std::size_t>(k)]));
-  while (frame.size() < 3) {
-    Vec3 best;
-    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      if (const Vec3 v = remainder(axis); norm2(v) > norm2(best)) best = v;
-    }
-    add(best);
-  }
-  return {frame.begin() + rank, frame.end()};
-}
-
-/// A point in the midst of the points along a row: the median of a small sample, which outliers do not move.
-Vec3 middle_along(Vec3 row, Span<const Vec3> points) {
-  constexpr std::size_t kSample = 31;
-  if (points.empty()) return {};
-  std::vector<Vec3> sample;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
-  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
-  const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-  std::nth_element(sample.begin(), median, sample.end(),
-                   [&](Vec3 p, Vec3 q) { return dot(row, p) < dot(row, q); });
-  return *median;
-}
-
-/// Largest integer <= x, for |x| < 2^31.
-std::int32_t floor_to_integer(double x) {
-  const auto n = static_cast<std::int32_t>(x);
-  return n - (x < n);
-}
 
 }  // namespace
 
@@ -126,29 +82,6 @@ std::size_t CellNumbering::memory_bytes() const {
   return cells_.capacity() * sizeof(CellCoordinates) + buckets_.capacity() * sizeof(std::int32_t);
 }
 
-void CellGrid::lay_out(Span<const Vec3> points, const Box& box, double width) {
-  const int rank = box.rank();
-  const double widened = width * (1 + kWidthMargin);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) {
-    const Vec3 dual = box.reduced_dual()[k];
-    const double height = 1 / std::sqrt(norm2(dual));
-    const auto cells = static_cast<std::int32_t>(std::clamp(height / widened, 1.0, kFarthest));
-    const Vec3 row = static_cast<double>(cells) * dual;
-    directions_[k] = {row, box.origin(), cells, box.reduced()[k]};
-  }
-  const auto normals = orthogonal_complement(box.reduced(), rank);
-  for (std::size_t k = 0; k < normals.size(); ++k) {
-    const Vec3 row = (1 / widened) * normals[k];
-    directions_[k + static_cast<std::size_t>(rank)] = {row, middle_along(row, points), 0, {}};
-  }
-}
-
-std::int32_t CellGrid::Direction::coordinate(Vec3 p) const {
-  const std::int32_t c = floor_to_integer(std::clamp(dot(row, p - origin), -kFarthest, kFarthest));
-  if (cells == 0) return c;
-  return std::clamp(c, 0, cells - 1);  // rounding may leave a wrapped point a little outside
-}
-
 void CellGrid::clear() {
   position_.clear();
   point_.clear();
@@ -160,12 +93,10 @@ void CellGrid::build(Span<const Vec3> wrapped, const Box& box, double width) {
   clear();
   const std::size_t n = wrapped.size();
   if (n == 0) return;
-  lay_out(wrapped, box, width);
+  layout_ = CellLayout(wrapped, box, width);
 
   coordinates_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) coordinates_[i][k] = directions_[k].coordinate(wrapped[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i) coordinates_[i] = layout_.coordinates(wrapped[i]);
   CellCoordinates low = coordinates_[0], high = coordinates_[0];
   for (const CellCoordinates& c : coordinates_) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -191,9 +122,9 @@ void CellGrid::build(Span<const Vec3> wrapped, const Box& box, double width) {
 }
 
 bool CellGrid::separates_images(int reach) const {
-  return std::all_of(directions_.begin(), directions_.end(), [&](const Direction& direction) {
-    return direction.cells == 0 || direction.cells >= 2 * reach + 1;
-  });
+  for (std::size_t k = 0; k < 3; ++k)
+    if (layout_[k].cells != 0 && layout_[k].cells < 2 * reach + 1) return false;
+  return true;
 }
 
 std::int32_t CellGrid::neighbor(std::int32_t cell, CellCoordinates offset, Vec3& shift) const {
@@ -201,7 +132,7 @@ std::int32_t CellGrid::neighbor(std::int32_t cell, CellCoordinates offset, Vec3&
   shift = {};
   for (std::size_t k = 0; k < 3; ++k) {
     c[k] += offset[k];
-    const Direction& direction = directions_[k];
+    const CellLayout::Direction& direction = layout_[k];
     if (direction.cells == 0) continue;
     for (; c[k] < 0; c[k] += direction.cells) shift = shift - direction.period;
     for (; c[k] >= direction.cells; c[k] -= direction.cells) shift = shift + direction.period;

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
 
-namespace dch::detail {
+#include "grid/cell_layout.hpp"
 
-/// Integer coordinates of a cell.
-using CellCoordinates = std::array<std::int32_t, 3>;
+namespace dch::detail {
 
 /// Numbers the occupied cells of a grid: by position in a dense block where that is small, else by a hash
 /// table, so that memory is O(points) however far apart they lie.
@@ -69,17 +67,7 @@ class CellGrid {
   std::size_t memory_bytes() const;
 
  private:
-  /// One direction of the grid: cell coordinate = floor(row . (p - origin)).
-  struct Direction {
-    std::int32_t coordinate(Vec3 p) const;
-
-    Vec3 row, origin;
-    std::int32_t cells = 0;  ///< around the torus; 0 if open
-    Vec3 period;             ///< reduced lattice vector
-  };
-  void lay_out(Span<const Vec3> points, const Box& box, double width);
-
-  std::array<Direction, 3> directions_;
+  CellLayout layout_;
   CellNumbering numbering_;
   std::vector<CellCoordinates> coordinates_;  ///< by point; scratch
   std::vector<std::int32_t> cell_of_;         ///< by point; scratch

@@ -77,6 +77,9 @@ struct ListKernels {
                  const std::int16_t* tags,  ///< the same, or null where there are none
                  const Candidates& to);
 
+  /// Adds to the coordinates of `count` candidates; up to kBlock entries beyond are overwritten.
+  void (*shift)(const Candidates& points, const std::int16_t* by, std::int32_t count);
+
   /// Copies, in order, those of `count` candidates whose bit is set in `valid` (all, if that is null) and
   /// that are near a box: sum of square(gap) < limit, with gap = max(|coordinate - center| - half_width, 0)
   /// along each axis. Returns how many. `from` is read and `to` overwritten up to kChunk entries beyond.

@@ -63,6 +63,15 @@ void gather(const std::int32_t* block, const std::int32_t* range_end, const Bloc
   }
 }
 
+template <class Simd>
+void shift(const Candidates& points, const std::int16_t* by, std::int32_t count) {
+  for (std::int32_t k = 0; k < count; k += kBlock) {
+    Simd::copy_shifted(points.x + k, by[0], points.x + k);
+    Simd::copy_shifted(points.y + k, by[1], points.y + k);
+    Simd::copy_shifted(points.z + k, by[2], points.z + k);
+  }
+}
+
 // --- limits of a row's pairs: `out(k)` and `in(k)` for the candidates from k on
 
 template <class Simd>
@@ -234,9 +243,10 @@ std::int32_t leave_out(std::int32_t* row, std::int32_t count, const std::int32_t
 // NOLINTEND(bugprone-easily-swappable-parameters)
 
 template <class Simd>
-constexpr ListKernels kernels_of{
-    collect<Simd>,        gather<Simd>,       filter<Simd>,       test<Simd>,     filter_by_size<Simd>,
-    filter_by_type<Simd>, test_by_size<Simd>, test_by_type<Simd>, compress<Simd>, leave_out<Simd>};
+constexpr ListKernels kernels_of{collect<Simd>,        gather<Simd>,       shift<Simd>,
+                                 filter<Simd>,         test<Simd>,         filter_by_size<Simd>,
+                                 filter_by_type<Simd>, test_by_size<Simd>, test_by_type<Simd>,
+                                 compress<Simd>,       leave_out<Simd>};
 
 }  // namespace
 }  // namespace dch::detail

@@ -43,7 +43,7 @@ struct X86Blocks {
             _mm_packus_epi16(_mm_srli_epi16(first, 8), _mm_srli_epi16(second, 8))};
   }
   static void copy_shifted(const std::int16_t* from, std::int16_t shift, std::int16_t* to) {
-    const __m128i points = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
+    const __m128i points = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_add_epi16(points, _mm_set1_epi16(shift)));
   }
   static void copy_ids(const std::int32_t* from, std::int32_t* to) {

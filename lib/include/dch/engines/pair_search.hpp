@@ -74,7 +74,7 @@ class PairSearch {
   virtual std::vector<LevelInfo> levels() { return {}; }
 
   virtual const SearchStats& stats() const = 0;
-  virtual std::string name() const = 0;  ///< "dch", "cell"
+  virtual std::string name() const = 0;  ///< "dch", "grid", "cell"
 };
 
 /// An engine on a hierarchy of its own; see PairSearch.
@@ -86,5 +86,15 @@ std::unique_ptr<PairSearch> make_dch_search(double radius);
 /// Cells are of the reduced box and at least `radius` / `divisions` wide.
 /// @throws InvalidParameter unless radius is finite and >= 1e-100 and divisions is in 1..4.
 std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions = 1);
+
+/// Points sorted into cells anew at every update, rows found with the vector units as those of the hierarchy
+/// are: the twin of the hierarchy, fastest where the density is even and points move far. It keeps nothing
+/// from update to update. The width of cells, and whether particles of different sizes have grids of their
+/// own, goes by counts of the points; so where list radii reach half the box, or points lie a million cells
+/// apart, it finds pairs as make_cell_search() does.
+/// @param executor threads to make lists with; null for that of the caller alone. Not owned; results do not
+///   depend on it.
+/// @throws InvalidParameter unless radius is in kMinListRadius..kMaxListRadius.
+std::unique_ptr<PairSearch> make_grid_search(double radius, Executor* executor = nullptr);
 
 }  // namespace dch

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <dch/base/executor.hpp>
+#include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
+
+#include "base/aligned_vector.hpp"
+#include "grid/cell_layout.hpp"
+#include "leaves/labelled_leaves.hpp"
+#include "simd/list_kernels.hpp"
+
+namespace dch::detail {
+
+/// How many points cells hold, of those that hold any.
+struct Occupancy {
+  double mean = 1;      ///< of a cell
+  double of_point = 1;  ///< in the cell of a point, itself counted: more than the mean where points crowd
+  /// How uneven it is: 1 if all cells hold as many.
+  double spread() const { return of_point / mean; }
+};
+
+/// Points sorted into cells of the reduced lattice, those of a row of cells behind each other, so that runs of
+/// cells are runs of points. Coordinates are 16-bit integers that wrap, since only differences of points near
+/// each other are taken.
+class CellLayer {
+ public:
+  /// Points of cells that lie side by side: places [begin, end).
+  struct Run {
+    std::int32_t begin = 0, end = 0;
+    std::int32_t size() const { return end - begin; }
+  };
+
+  /// Sorts the points `members` (all, if it is null) of those given, wrapped, into cells.
+  /// @return false, with no points in it, if they lie farther apart than cells can be told apart
+  bool sort(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
+            const CellLayout& layout, Executor* executor);
+  void clear();
+
+  /// Rounds the coordinates, relative to a point, to units [length], and the radii if cutoffs go by them.
+  void quantize(Span<const Vec3> positions, const Box& box, Vec3 origin, double unit, const ParticleLabels& labels,
+                Executor* executor);
+  /// Notes which cells hold none but ghosts.
+  void find_ghosts(std::int32_t first_ghost);
+
+  const CellLayout& layout() const { return layout_; }
+  std::int32_t size() const { return size_; }
+  /// Cells, in a dense block with the empty ones.
+  std::int32_t cells() const { return static_cast<std::int32_t>(first_.size()) - 1; }
+  /// The first cell of the k-th of `shares` parts with about as many points each.
+  std::int32_t first_cell_of_share(int share, int shares) const;
+  const Occupancy& occupancy() const { return occupancy_; }
+  Run points_of(std::int32_t cell) const { return {first_[cell], first_[cell + 1]}; }
+  CellCoordinates coordinates(std::int32_t cell) const;
+  /// Whether a point of the cell is not a ghost.
+  bool is_owned(std::int32_t cell) const { return owned_.empty() || owned_[cell] != 0; }
+
+  /// Calls f(run) for the points of cells first .. last of a row, which along open directions may lie beyond
+  /// all points; `only_owned`: those of cells with a point that is not a ghost, cell by cell.
+  template <class F>
+  void for_each_run(std::int32_t first, std::int32_t last, std::int32_t y, std::int32_t z, bool only_owned,
+                    const F& f) const;
+
+  /// The points from a place on; they can be read kChunk beyond the last one.
+  Candidates at(std::int32_t place) {
+    return {x_.data() + place, y_.data() + place, z_.data() + place, id_.data() + place,
+            tag_.empty() ? nullptr : tag_.data() + place};
+  }
+  std::size_t memory_bytes() const;
+
+ private:
+  template <class Metric>
+  void find_coordinates(const Metric& metric, Span<const Vec3> positions,
+                        const std::vector<std::int32_t>* members, Executor* executor);
+  void count_points();
+  void find_corners(CellCoordinates& low, CellCoordinates& high) const;
+  std::int64_t key_of(const CellCoordinates& c) const;
+  void number_cells();
+  void find_occupied();
+  std::size_t slot_of(std::int64_t key) const;
+  void find_rows();
+  Run cells_of_row(std::int64_t row) const {
+    if (!row_first_.empty()) return {row_first_[row], row_first_[row + 1]};
+    return table_[slot_of(row)].cells;
+  }
+  Run occupied_between(std::int64_t row, std::int32_t first, std::int32_t last) const;
+
+  CellLayout layout_;
+  CellCoordinates low_{}, count_{};     ///< of the block that holds all cells
+  bool dense_ = true;                   ///< whether each cell of the block has a number, its key
+  std::vector<CellCoordinates> coordinates_;  ///< by point; scratch
+  std::vector<std::size_t> slot_;       ///< by point, unless dense; scratch
+  std::vector<std::int32_t> cell_of_;   ///< by point; scratch
+  std::vector<std::int32_t> next_;      ///< by cell; scratch
+  std::vector<std::int32_t> first_{0};  ///< by cell: where its points begin
+  std::vector<std::int64_t> occupied_;  ///< keys of the cells, ascending, unless dense
+  struct Slot {
+    std::int64_t key;
+    Run cells;
+  };
+  /// Open addressing. Of cells, while they are numbered, then of rows of cells with the numbers of theirs,
+  /// unless row_first_ says them.
+  std::vector<Slot> table_;
+  std::vector<std::int32_t> row_first_;  ///< by row: its first occupied cell; empty if rows are too many
+  Occupancy occupancy_;
+  std::int32_t size_ = 0;
+  std::vector<std::uint8_t> owned_;  ///< by cell; empty if there are no ghosts
+  AlignedVector<std::int16_t> x_, y_, z_, tag_;
+  AlignedVector<std::int32_t> id_;  ///< by place: whose point it is
+};
+
+template <class F>
+void CellLayer::for_each_run(std::int32_t first, std::int32_t last, std::int32_t y, std::int32_t z,
+                             bool only_owned, const F& f) const {
+  const std::int32_t row_y = y - low_[1], row_z = z - low_[2];
+  if (row_y < 0 || row_y >= count_[1] || row_z < 0 || row_z >= count_[2]) return;
+  first = std::max(first - low_[0], 0);
+  last = std::min(last - low_[0], count_[0] - 1);
+  if (first > last) return;
+  const std::int64_t row = std::int64_t{row_z} * count_[1] + row_y;
+  const auto begin = static_cast<std::int32_t>(row * count_[0]);
+  const Run cells = dense_ ? Run{begin + first, begin + last + 1} : occupied_between(row, first, last);
+  if (!only_owned) {
+    if (cells.begin < cells.end) f(Run{first_[cells.begin], first_[cells.end]});
+    return;
+  }
+  for (std::int32_t cell = cells.begin; cell < cells.end; ++cell)
+    if (is_owned(cell)) f(points_of(cell));
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "grid/cell_width.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/stencil.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr double kSample = 3;  ///< points of the sample, in roots of the number of points: as many pairs of a cell
+                               ///< are met in a large scene as in a small one
+constexpr double kWidths = 2;  ///< width of a cell of the sample
+
+constexpr double kPoints = 33;                    ///< wanted in the cell of a point
+constexpr double kNarrowest = 0.3, kWidest = 2.4;  ///< widths of cells, in reaches
+/// Differences of coordinates are no longer than this, in reaches, so that the integers that hold them tell
+/// squares of distances to a thousandth of the reach's; else cells are made narrower by the factor below.
+constexpr double kLongest = 5, kNarrower = 0.9;
+
+/// Numbers that look like random ones, a different one for each k.
+std::uint64_t mixed(std::uint64_t k) {
+  k = (k + 0x9E3779B97F4A7C15u) * 0xBF58476D1CE4E5B9u;
+  k = (k ^ (k >> 27)) * 0x94D049BB133111EBu;
+  return k ^ (k >> 31);
+}
+
+}  // namespace
+
+double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
+                     double width) {
+  const std::size_t n = members != nullptr ? members->size() : positions.size();
+  if (n < 2) return 1;
+  const CellLayout layout(positions, box, kWidths * width);
+  const auto count = static_cast<std::size_t>(kSample * std::sqrt(static_cast<double>(n)));
+  std::vector<std::uint64_t> cells;
+  cells.reserve(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const std::size_t at = mixed(k) % n;
+    const CellCoordinates c =
+        layout.coordinates(box.wrap(positions[members != nullptr ? static_cast<std::size_t>((*members)[at]) : at]));
+    // One number for each cell, but for accidents.
+    std::uint64_t cell = mixed(static_cast<std::uint32_t>(c[0]));
+    cell = mixed(cell + static_cast<std::uint32_t>(c[1]));
+    cells.push_back(mixed(cell + static_cast<std::uint32_t>(c[2])));
+  }
+  std::sort(cells.begin(), cells.end());
+  double pairs = 0;
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    while (end < count && cells[end] == cells[begin]) ++end;
+    pairs += static_cast<double>(end - begin) * static_cast<double>(end - begin - 1);
+  }
+  const double share = pairs / (static_cast<double>(count) * static_cast<double>(count - 1));
+  return 1 + static_cast<double>(n - 1) * share * (width * width * width / layout.cell_volume());
+}
+
+/// Each cell takes some work, and each pair of points of cells near each other: with m points in a cell on
+/// average and k in that of a point, as much as a / m + b k for a point. So the best k is in proportion to
+/// the root of k / m, the spread.
+CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread) {
+  const double wanted = kPoints * std::sqrt(spread);
+  double width = reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, kWidest);
+  for (;; width *= kNarrower) {
+    const CellLayout layout(positions, box, width);
+    if (width <= kNarrowest * reach || widest_in(layout, half_stencil(layout, reach)) <= kLongest * reach) return layout;
+  }
+}
+
+}  // namespace dch::detail

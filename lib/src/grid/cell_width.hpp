@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <dch/base/span.hpp>
+#include <dch/geometry/box.hpp>
+
+#include "grid/cell_layout.hpp"
+
+namespace dch::detail {
+
+/// Mean number of points in a cube as wide as `width` around a point, itself counted: of a sample, in cells,
+/// so that dense places count as often as points are there.
+/// @param members of the points; all, if it is null
+double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
+                     double width);
+
+/// The cells in which rows of pairs within `reach` take about the least work.
+/// @param nearby as points_nearby() has it for the reach
+/// @param spread of the points, see Occupancy
+CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread);
+
+}  // namespace dch::detail

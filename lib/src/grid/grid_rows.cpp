@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "grid/grid_rows.hpp"
+
+#include <algorithm>
+
+#include "grid/stencil.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
+
+}  // namespace
+
+void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>& filters,
+                    const std::vector<NeighborList*>& out) {
+  for (NeighborList* list : out) start_rows(*list);
+  const ListParams& params = filters.front()->params();
+  const ParticleLabels labels{filters.front()->by(), params.radii, params.types, params.first_ghost};
+  const Vec3 origin = scene.positions.empty() ? Vec3{} : scene.box.wrap(scene.positions[0]);
+  for (std::size_t s = 0; s < scene.layers.size(); ++s) {
+    CellLayer& rows = *scene.layers[s];
+    if (rows.size() == 0) continue;
+    const double own_reach = scene.reach_of(s, s);
+    CellScene cells{rows, half_stencil(rows.layout(), own_reach), {}, scene.positions, scene.box, 0, false, {}};
+    double widest = widest_in(rows.layout(), cells.stencil), farthest = own_reach;
+    for (std::size_t a = 0; a < s; ++a) {
+      const double reach = scene.reach_of(s, a);
+      if (reach == 0) continue;
+      cells.finer.push_back({scene.layers[a], reach});
+      widest = std::max(widest, reach + longest(rows.layout().extent()) + longest(scene.layers[a]->layout().extent()));
+      farthest = std::max(farthest, reach);
+    }
+    cells.unit = widest * (1 + 1e-9) / kLargest;
+    cells.has_ghosts = params.first_ghost >= 0;
+    for (std::size_t a = 0; a <= s; ++a) {
+      scene.layers[a]->quantize(scene.positions, scene.box, origin, cells.unit, labels, scene.executor);
+      scene.layers[a]->find_ghosts(params.first_ghost);
+    }
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      cells.requests.push_back({filters[r], ListLimits(*filters[r], cells.unit, farthest, scene.error)});
+      if (filters[r]->params().superset)
+        out[r]->margin = std::max(out[r]->margin, cells.requests.back().limits.margin);
+    }
+    parts_.find(scene.executor, out,
+                [&](CellCandidates& near, RowFinder& finder, NeighborList* lists, int share, int shares) {
+                  const std::int32_t last =
+                      share + 1 == shares ? rows.cells() : rows.first_cell_of_share(share + 1, shares);
+                  for (std::int32_t cell = rows.first_cell_of_share(share, shares); cell < last; ++cell)
+                    near.for_each_part(
+                        cells, cell, [&](const OwnBlocks& own, const Candidates& around, std::int32_t count) {
+                          finder.append_rows(cells.requests, own, around, count, lists);
+                        });
+                });
+  }
+}
+
+}  // namespace dch::detail

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "grid/grid_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <dch/base/error.hpp>
+
+#include "base/describe.hpp"
+#include "base/seconds_since.hpp"
+#include "geometry/position_check.hpp"
+#include "geometry/tolerance.hpp"
+#include "grid/cell_width.hpp"
+#include "lists/list_assembly.hpp"
+#include "lists/list_check.hpp"
+#include "lists/reach.hpp"
+
+namespace dch {
+namespace detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// List radius of a class with itself or, if it has no pairs with itself, the largest with another one.
+double own_reach(const SizeClasses& classes, std::size_t g) {
+  double reach = classes.reach_of(g, g);
+  for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
+    reach = std::max(reach, classes.reach_of(g, b));
+  return reach;
+}
+
+bool have_sizes(Span<const ListParams> requests) {
+  return std::any_of(requests.begin(), requests.end(), [](const ListParams& request) {
+    return !request.radii.empty() || request.cutoffs.types() > 1;
+  });
+}
+
+/// All particles alike.
+SizeClasses one_class(Span<const ListParams> requests) {
+  SizeClasses one;
+  one.count = 1;
+  one.reach.assign(1, 0.0);
+  for (const ListParams& request : requests) one.reach[0] = std::max(one.reach[0], request.list_radius());
+  return one;
+}
+
+double cube(double v) { return v * v * v; }
+
+/// Pairs of points that are looked at, in cubes of the reach.
+double work_of(const SizeClasses& classes) {
+  std::vector<double> members(classes.count, 0.0);
+  for (const std::int32_t g : classes.of) ++members[g];
+  double work = 0;
+  for (std::size_t a = 0; a < classes.count; ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      work += members[a] * members[b] * cube(classes.reach_of(a, b)) * (a == b ? 1 : 2);
+    }
+  return work;
+}
+double work_of_one(const SizeClasses& one, std::size_t n) {
+  return static_cast<double>(n) * static_cast<double>(n) * cube(one.reach[0]);
+}
+
+}  // namespace
+
+void GridSearch::clear() {
+  positions_.clear();
+  groups_.clear();
+  plain_.clear();
+  has_plain_ = false;
+}
+
+void GridSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  const auto start = Clock::now();
+  try {
+    take(positions, box, keys);
+  } catch (...) {
+    clear();
+    throw;
+  }
+  ++stats_.updates;
+  stats_.maintain_seconds += seconds_since(start);
+}
+
+void GridSearch::take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  if (!keys.empty()) key_table_.fill(positions.size(), keys);  // throws if they repeat
+  check_radius(radius_, box);
+  const double reach = check_positions(positions, box);
+  wrap_error_ = WrapError(box).bound(reach);
+  positions_.assign(positions.begin(), positions.end());
+  box_ = box;
+  for (Group& group : groups_) group.reach = 0;
+  has_plain_ = false;
+}
+
+void GridSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
+  out.resize(requests.size());
+  std::vector<NeighborList*> each;
+  each.reserve(out.size());
+  for (NeighborList& list : out) each.push_back(&list);
+  make_lists(requests, each);
+}
+
+void GridSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
+  if (requests.empty()) return;
+  const auto start = Clock::now();
+  double reach = 0, host_error = 0;
+  for (const ListParams& request : requests) {
+    check_list_params(request, positions_.size(), radius_);
+    reach = std::max(reach, request.list_radius());
+    host_error = std::max(host_error, request.cutoff_error());
+  }
+  make_or_empty(out, [&] {
+    const double error = wrap_error_ + rounding_of_leaves(radius_) + host_error;
+    // Two images of a point may both be within the band of the cutoff only if it is half a period.
+    const bool has_near_images =
+        box_.any_periodic() && (reach + 3 * error) * kInflate >= box_.max_cutoff();
+    bool in_cells = false;
+    if (!has_near_images) {
+      classify(requests, error);
+      in_cells = sort_points(error);
+    }
+    stats_.maintain_seconds += seconds_since(start);
+    const auto listing = Clock::now();
+    list_finder_.find(
+        {positions_, box_, error}, requests,
+        [&](const auto& filters, const auto& lists) {
+          if (!in_cells) return find_plainly(error, filters, lists);
+          GridScene scene{positions_, box_, {}, classes_.reach, error, executor_};
+          for (Group& group : groups_) scene.layers.push_back(&group.layer);
+          rows_.find(scene, filters, lists);
+        },
+        out);
+    stats_.list_seconds += seconds_since(listing);
+  });
+}
+
+/// Several classes if those of the sizes that are asked for make for less work than one.
+void GridSearch::classify(Span<const ListParams> requests, double error) {
+  /// Several grids have this share of the work of one at most, for it is more than the pairs looked at.
+  constexpr double kWorthIt = 0.6;
+  const std::size_t n = positions_.size();
+  SizeClasses chosen = one_class(requests);
+  if (have_sizes(requests)) {
+    SizeClasses several(requests, n, true);
+    if (several.count > 1 && work_of(several) < kWorthIt * work_of_one(chosen, n)) chosen = std::move(several);
+  }
+  for (double& reach : chosen.reach)
+    if (reach > 0) reach = (reach + error) * kInflate;
+  if (groups_.size() != chosen.count || chosen.of != classes_.of) {
+    groups_.clear();  // if memory runs out below, nothing is known of them
+    std::vector<Group> groups(chosen.count);
+    for (std::size_t i = 0; i < n && chosen.count > 1; ++i)
+      groups[chosen.of[i]].particle.push_back(static_cast<std::int32_t>(i));
+    groups_.swap(groups);
+  }
+  classes_ = std::move(chosen);
+}
+
+/// Puts the points of each class into cells. Returns false if they lie too far apart for that.
+bool GridSearch::sort_points(double error) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Group& group = groups_[g];
+    const double own = own_reach(classes_, g), reach = own > 0 ? own : radius_ + error;
+    if (group.reach == reach) continue;
+    group.reach = 0;
+    const std::vector<std::int32_t>* const members = groups_.size() > 1 ? &group.particle : nullptr;
+    const Occupancy before = group.layer.size() > 0 ? group.layer.occupancy() : Occupancy();
+    const double nearby = group.layer.size() > 0
+                              ? before.of_point * reach * reach * reach / group.layer.layout().cell_volume()
+                              : points_nearby(positions_, members, box_, reach);
+    const CellLayout layout = cells_for(positions_, box_, reach, nearby, before.spread());
+    if (!group.layer.sort(positions_, members, box_, layout, executor_)) return false;
+    group.reach = reach;
+    ++stats_.builds;
+  }
+  return true;
+}
+
+/// Where lists reach half the box, or points lie too far apart for cells.
+void GridSearch::find_plainly(double error, const std::vector<const PairFilter*>& filters,
+                              const std::vector<NeighborList*>& out) {
+  if (!has_plain_) {
+    std::vector<Vec3> wrapped = positions_;
+    for (Vec3& p : wrapped) p = box_.wrap(p);
+    plain_.build(wrapped, box_, radius_ + error);
+    has_plain_ = true;
+    ++stats_.builds;
+  }
+  for (std::size_t r = 0; r < out.size(); ++r) {
+    NeighborList& list = *out[r];
+    start_rows(list);
+    list.j.clear();
+    plain_.find_rows(box_, *filters[r], [&](std::int32_t i, Span<const std::int32_t> others) {
+      list.particle.push_back(i);
+      list.j.insert(list.j.end(), others.begin(), others.end());
+      list.first.push_back(static_cast<std::int64_t>(list.j.size()));
+      if (filters[r]->params().shell > 0) list.near_end.push_back(list.first.back());
+    });
+  }
+}
+
+const SearchStats& GridSearch::stats() const {
+  const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) +
+                        plain_.memory_bytes() + rows_.memory_bytes() + list_finder_.memory_bytes();
+  for (const Group& group : groups_)
+    stats_.memory_bytes += group.layer.memory_bytes() + bytes_of(group.particle);
+  return stats_;
+}
+
+}  // namespace detail
+
+std::unique_ptr<PairSearch> make_grid_search(double radius, Executor* executor) {
+  if (!(std::isfinite(radius) && radius >= kMinListRadius && radius <= kMaxListRadius))
+    throw InvalidParameter("the search radius is " + detail::describe(radius) + "; it must be " +
+                           detail::describe(kMinListRadius) + " to " + detail::describe(kMaxListRadius));
+  return std::make_unique<detail::GridSearch>(radius, executor);
+}
+
+}  // namespace dch

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <dch/engines/pair_search.hpp>
+
+#include "base/key_table.hpp"
+#include "engines/size_classes.hpp"
+#include "grid/cell_layer.hpp"
+#include "grid/grid_rows.hpp"
+#include "grid/plain_cells.hpp"
+#include "lists/list_finder.hpp"
+
+namespace dch::detail {
+
+/// PairSearch on cells that are filled anew at every update: the twin of the hierarchy, which keeps nothing.
+///
+/// How wide cells should be, and whether particles of different sizes should have grids of their own, is known
+/// when a list is asked for. So update() only takes the positions, and list() sorts them; that time counts as
+/// maintenance.
+class GridSearch final : public PairSearch {
+ public:
+  GridSearch(double radius, Executor* executor) : radius_(radius), executor_(executor) {}
+
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
+  void list(const ListParams& params, NeighborList& out) override { make_lists({&params, 1}, {&out}); }
+  void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
+  using PairSearch::list;
+  using PairSearch::lists;
+  const SearchStats& stats() const override;
+  std::string name() const override { return "grid"; }
+
+ private:
+  /// The particles of one class of sizes.
+  struct Group {
+    std::vector<std::int32_t> particle;  ///< empty if there is one class, of all
+    CellLayer layer;
+    double reach = 0;  ///< that the cells were made for, 0 if they hold other positions [length]
+  };
+
+  void clear();
+  void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
+  void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  void classify(Span<const ListParams> requests, double error);
+  bool sort_points(double error);
+  void find_plainly(double error, const std::vector<const PairFilter*>& filters,
+                    const std::vector<NeighborList*>& out);
+
+  double radius_;
+  Executor* executor_;
+  std::vector<Vec3> positions_;
+  Box box_;
+  double wrap_error_ = 0;
+  KeyTable key_table_;  ///< finds keys that repeat
+  SizeClasses classes_;
+  std::vector<Group> groups_;
+  PlainCells plain_{1};
+  bool has_plain_ = false;  ///< whether plain_ holds the points
+  GridRows rows_;
+  ListFinder list_finder_;
+  mutable SearchStats stats_;
+};
+
+}  // namespace dch::detail
