@@ -93,8 +93,11 @@ CellListContender::CellListContender(const Scene& scene)
   CellListContender::reset();
 }
 
-LibraryGridContender::LibraryGridContender(const Scene& scene) : requests_(requests_of(scene, false)) {
-  LibraryGridContender::reset();
+EngineContender::EngineContender(std::string engine, const Scene& scene)
+    : engine_(std::move(engine)), requests_(requests_of(scene, false)) {
+  params_.radius = requests_.back().list_radius();
+  params_.size_classes = !scene.radii.empty();
+  EngineContender::reset();
 }
 
 GridContender::GridContender(std::string name, const Scene& scene, SimdGrid::Cells cells)
@@ -152,7 +155,8 @@ std::vector<std::unique_ptr<Contender>> make_contenders(const Scene& scene, Exec
   if (executor) add("dch, " + std::to_string(executor->threads()) + " threads", {.executor = executor});
   if (CellListContender::can_make(scene) && is_wanted("cell list"))
     all.push_back(std::make_unique<CellListContender>(scene));
-  if (is_wanted("grid")) all.push_back(std::make_unique<LibraryGridContender>(scene));
+  for (const char* const engine : {"grid", "auto"})
+    if (is_wanted(engine)) all.push_back(std::make_unique<EngineContender>(engine, scene));
   // Grids are tuned when they are made, which takes a while.
   const std::string by_size = "grids by size";
   if (SizeGridContender::can_make(scene) && is_wanted(by_size))

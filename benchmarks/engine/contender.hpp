@@ -98,18 +98,22 @@ class CellListContender : public Contender {
   std::unique_ptr<PairSearch> search_;
 };
 
-/// The library's grid of cells, built anew each time.
-class LibraryGridContender : public Contender {
+/// An engine of the library that decides for itself how lists are made: the grid, or the one that chooses.
+class EngineContender : public Contender {
  public:
-  explicit LibraryGridContender(const Scene& scene);
+  /// @param engine see make_search
+  EngineContender(std::string engine, const Scene& scene);
 
-  std::string name() const override { return "grid"; }
+  std::string name() const override { return engine_; }
   void update(const Scene& scene) override { search_->update(scene.positions, scene.box); }
   void list(const Scene&, std::vector<NeighborList>& lists) override { search_->lists(requests_, lists); }
-  void reset() override { search_ = make_grid_search(requests_.back().list_radius()); }
+  void reset() override { search_ = make_search(engine_, params_); }
   std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
+  std::string validate() override { return search_->validate(); }
 
  private:
+  std::string engine_;
+  HierarchyParams params_;
   std::vector<ListParams> requests_;
   std::unique_ptr<PairSearch> search_;
 };

@@ -68,12 +68,13 @@ class RandomScene {
     set_instruction_set(one_of(supported_sets()));
     const auto search = make_dch_search(hierarchy_);
     const auto grid = make_grid_search(hierarchy_.radius, threads_.get());
+    const auto chosen = make_auto_search(hierarchy_);
     for (int step = 0; step < 4; ++step) {
       const double motion = reach_ * std::pow(10, random_.uniform(-3, 0.5));
       for (Vec3& p : points_)
         if (step > 0) p = p + random_.in_cube(motion);
       const NeighborList expected = all_pairs(points_, box_.box, request_);
-      for (PairSearch* const engine : {search.get(), grid.get()}) {
+      for (PairSearch* const engine : {search.get(), grid.get(), chosen.get()}) {
         engine->update(points_, box_.box);
         const NeighborList list = engine->list(request_);
         ASSERT_EQ(first_difference(

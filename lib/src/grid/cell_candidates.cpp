@@ -61,7 +61,8 @@ OwnBlocks CellCandidates::take_blocks(const CellScene& scene, std::int32_t cell,
     tags_[b].fill(0);
     std::copy_n(from.tag + at, count, tags_[b].data());
   }
-  OwnBlocks own{points_.data(),   spans_.data(), particle_.data(), from.tag == nullptr ? nullptr : tags_.data(),
+  OwnBlocks own{points_.data(),   spans_.data(),
+                particle_.data(), from.tag == nullptr ? nullptr : tags_.data(),
                 in_block_.data(), blocks};
   own.are_candidates = !scene.has_ghosts || scene.rows.is_owned(cell);
   return own;

@@ -48,14 +48,13 @@ class CellCandidates {
   template <class F>
   void for_each_part(const CellScene& scene, std::int32_t cell, const F& f) {
     const CellLayer::Run own = scene.rows.points_of(cell);
-    for_each_group(0, rounded_up(own.size(), kBlock) / kBlock, kPart,
-                   [&](std::int32_t first, std::int32_t last) {
-                     const CellLayer::Run part{own.begin + first * kBlock,
-                                               std::min(own.end, own.begin + last * kBlock)};
-                     const OwnBlocks blocks = take_blocks(scene, cell, part);
-                     collect(scene, cell, blocks, part);
-                     f(blocks, around_.at(0), count_);
-                   });
+    for_each_group(
+        0, rounded_up(own.size(), kBlock) / kBlock, kPart, [&](std::int32_t first, std::int32_t last) {
+          const CellLayer::Run part{own.begin + first * kBlock, std::min(own.end, own.begin + last * kBlock)};
+          const OwnBlocks blocks = take_blocks(scene, cell, part);
+          collect(scene, cell, blocks, part);
+          f(blocks, around_.at(0), count_);
+        });
   }
 
   /// For all cells so far.

@@ -88,9 +88,10 @@ std::int64_t CellLayer::key_of(const CellCoordinates& c) const {
 void CellLayer::number_cells() {
   cell_of_.resize(coordinates_.size());
   if (!dense_) find_occupied();
-  const std::size_t cells = dense_ ? static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                                         static_cast<std::size_t>(count_[2])
-                                   : occupied_.size();
+  const std::size_t cells = dense_
+                                ? static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+                                      static_cast<std::size_t>(count_[2])
+                                : occupied_.size();
   first_.assign(cells + 1, 0);
   std::int32_t* const counts = first_.data() + 1;
   if (dense_) {
@@ -182,7 +183,7 @@ void CellLayer::count_points() {
     before += count;
     count = before;
   }
-  occupancy_ = {before / occupied, squares / before};
+  occupancy_ = {before / occupied, squares / before, dense_ ? 0.0 : 1.0};
 }
 
 CellCoordinates CellLayer::coordinates(std::int32_t cell) const {

@@ -21,13 +21,14 @@ namespace dch::detail {
 struct Occupancy {
   double mean = 1;      ///< of a cell
   double of_point = 1;  ///< in the cell of a point, itself counted: more than the mean where points crowd
+  double sparse = 0;    ///< share of the points whose cells are not in an array of all cells
   /// How uneven it is: 1 if all cells hold as many.
   double spread() const { return of_point / mean; }
 };
 
-/// Points sorted into cells of the reduced lattice, those of a row of cells behind each other, so that runs of
-/// cells are runs of points. Coordinates are 16-bit integers that wrap, since only differences of points near
-/// each other are taken.
+/// Points sorted into cells of the reduced lattice, those of a row of cells behind each other, so that runs
+/// of cells are runs of points. Coordinates are 16-bit integers that wrap, since only differences of points
+/// near each other are taken.
 class CellLayer {
  public:
   /// Points of cells that lie side by side: places [begin, end).
@@ -43,8 +44,8 @@ class CellLayer {
   void clear();
 
   /// Rounds the coordinates, relative to a point, to units [length], and the radii if cutoffs go by them.
-  void quantize(Span<const Vec3> positions, const Box& box, Vec3 origin, double unit, const ParticleLabels& labels,
-                Executor* executor);
+  void quantize(Span<const Vec3> positions, const Box& box, Vec3 origin, double unit,
+                const ParticleLabels& labels, Executor* executor);
   /// Notes which cells hold none but ghosts.
   void find_ghosts(std::int32_t first_ghost);
 
@@ -91,14 +92,14 @@ class CellLayer {
   Run occupied_between(std::int64_t row, std::int32_t first, std::int32_t last) const;
 
   CellLayout layout_;
-  CellCoordinates low_{}, count_{};     ///< of the block that holds all cells
-  bool dense_ = true;                   ///< whether each cell of the block has a number, its key
+  CellCoordinates low_{}, count_{};           ///< of the block that holds all cells
+  bool dense_ = true;                         ///< whether each cell of the block has a number, its key
   std::vector<CellCoordinates> coordinates_;  ///< by point; scratch
-  std::vector<std::size_t> slot_;       ///< by point, unless dense; scratch
-  std::vector<std::int32_t> cell_of_;   ///< by point; scratch
-  std::vector<std::int32_t> next_;      ///< by cell; scratch
-  std::vector<std::int32_t> first_{0};  ///< by cell: where its points begin
-  std::vector<std::int64_t> occupied_;  ///< keys of the cells, ascending, unless dense
+  std::vector<std::size_t> slot_;             ///< by point, unless dense; scratch
+  std::vector<std::int32_t> cell_of_;         ///< by point; scratch
+  std::vector<std::int32_t> next_;            ///< by cell; scratch
+  std::vector<std::int32_t> first_{0};        ///< by cell: where its points begin
+  std::vector<std::int64_t> occupied_;        ///< keys of the cells, ascending, unless dense
   struct Slot {
     std::int64_t key;
     Run cells;

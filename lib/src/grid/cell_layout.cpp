@@ -51,7 +51,8 @@ CellLayout::CellLayout(Span<const Vec3> points, const Box& box, double width) {
     const double height = 1 / std::sqrt(norm2(dual));
     const auto cells = static_cast<std::int32_t>(std::clamp(height / widened, 1.0, kFarthest));
     const Vec3 period = box.reduced()[k];
-    directions_[k] = {static_cast<double>(cells) * dual, (1.0 / cells) * period, cells, period, 0, cells - 0.5};
+    directions_[k] = {
+        static_cast<double>(cells) * dual, (1.0 / cells) * period, cells, period, 0, cells - 0.5};
   }
   origin_ = box.origin();
   const auto normals = orthogonal_complement(box.reduced(), rank);

@@ -42,7 +42,8 @@ class CellLayout {
   [[gnu::always_inline]] CellCoordinates coordinates(Vec3 p) const {
     const Vec3 at = p - origin_;
     if (!right_angles_)
-      return {cut(0, dot(directions_[0].row, at)), cut(1, dot(directions_[1].row, at)), cut(2, dot(directions_[2].row, at))};
+      return {cut(0, dot(directions_[0].row, at)), cut(1, dot(directions_[1].row, at)),
+              cut(2, dot(directions_[2].row, at))};
     return {cut(0, along_[0] * at[axis_[0]]), cut(1, along_[1] * at[axis_[1]]),
             cut(2, along_[2] * at[axis_[2]])};
   }
@@ -80,7 +81,7 @@ class CellLayout {
   static std::int32_t floored(double u) { return static_cast<std::int32_t>(std::floor(u)); }
 
   Vec3 origin_;
-  bool right_angles_ = false;    ///< whether each row has one component: its axis, and how long it is
+  bool right_angles_ = false;  ///< whether each row has one component: its axis, and how long it is
   std::array<int, 3> axis_{};
   std::array<double, 3> along_{};
   std::array<Direction, 3> directions_;
@@ -103,7 +104,9 @@ void CellLayout::for_each_row_near(Vec3 low, Vec3 high, double reach, const F& f
   const auto last_of = [&](int k, double left, Interval off) {
     return floored(high[k] + (left - off.low) / edges_[k][k] + kMargin);
   };
-  const auto rest_of = [](double left, double gap) { return std::sqrt(std::max(left * left - gap * gap, 0.0)); };
+  const auto rest_of = [](double left, double gap) {
+    return std::sqrt(std::max(left * left - gap * gap, 0.0));
+  };
   const std::int32_t last_z = last_of(2, reach, {0, 0});
   for (std::int32_t z = first_of(2, reach, {0, 0}); z <= last_z; ++z) {
     const Interval dz = between(2, z), y_by_z = scaled(edges_[1][2], dz), x_by_z = scaled(edges_[0][2], dz);

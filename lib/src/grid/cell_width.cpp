@@ -9,11 +9,11 @@
 namespace dch::detail {
 namespace {
 
-constexpr double kSample = 3;  ///< points of the sample, in roots of the number of points: as many pairs of a cell
-                               ///< are met in a large scene as in a small one
+constexpr double kSample = 3;  ///< points of the sample, in roots of the number of points: as many pairs of a
+                               ///< cell are met in a large scene as in a small one
 constexpr double kWidths = 2;  ///< width of a cell of the sample
 
-constexpr double kPoints = 33;                    ///< wanted in the cell of a point
+constexpr double kPoints = 33;                     ///< wanted in the cell of a point
 constexpr double kNarrowest = 0.3, kWidest = 2.4;  ///< widths of cells, in reaches
 /// Differences of coordinates are no longer than this, in reaches, so that the integers that hold them tell
 /// squares of distances to a thousandth of the reach's; else cells are made narrower by the factor below.
@@ -38,8 +38,8 @@ double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>
   cells.reserve(count);
   for (std::uint64_t k = 0; k < count; ++k) {
     const std::size_t at = mixed(k) % n;
-    const CellCoordinates c =
-        layout.coordinates(box.wrap(positions[members != nullptr ? static_cast<std::size_t>((*members)[at]) : at]));
+    const CellCoordinates c = layout.coordinates(
+        box.wrap(positions[members != nullptr ? static_cast<std::size_t>((*members)[at]) : at]));
     // One number for each cell, but for accidents.
     std::uint64_t cell = mixed(static_cast<std::uint32_t>(c[0]));
     cell = mixed(cell + static_cast<std::uint32_t>(c[1]));
@@ -63,7 +63,8 @@ CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, d
   double width = reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, kWidest);
   for (;; width *= kNarrower) {
     const CellLayout layout(positions, box, width);
-    if (width <= kNarrowest * reach || widest_in(layout, half_stencil(layout, reach)) <= kLongest * reach) return layout;
+    if (width <= kNarrowest * reach || widest_in(layout, half_stencil(layout, reach)) <= kLongest * reach)
+      return layout;
   }
 }
 

@@ -22,13 +22,15 @@ void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>
     CellLayer& rows = *scene.layers[s];
     if (rows.size() == 0) continue;
     const double own_reach = scene.reach_of(s, s);
-    CellScene cells{rows, half_stencil(rows.layout(), own_reach), {}, scene.positions, scene.box, 0, false, {}};
+    CellScene cells{rows, half_stencil(rows.layout(), own_reach), {}, scene.positions, scene.box, 0, false,
+                    {}};
     double widest = widest_in(rows.layout(), cells.stencil), farthest = own_reach;
     for (std::size_t a = 0; a < s; ++a) {
       const double reach = scene.reach_of(s, a);
       if (reach == 0) continue;
       cells.finer.push_back({scene.layers[a], reach});
-      widest = std::max(widest, reach + longest(rows.layout().extent()) + longest(scene.layers[a]->layout().extent()));
+      widest = std::max(
+          widest, reach + longest(rows.layout().extent()) + longest(scene.layers[a]->layout().extent()));
       farthest = std::max(farthest, reach);
     }
     cells.unit = widest * (1 + 1e-9) / kLargest;

@@ -102,38 +102,55 @@ void GridSearch::lists(Span<const ListParams> requests, std::vector<NeighborList
   make_lists(requests, each);
 }
 
-void GridSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
-  if (requests.empty()) return;
+/// Puts the points into the cells that the requests need.
+GridSearch::Reach GridSearch::prepare(Span<const ListParams> requests) {
   const auto start = Clock::now();
   double reach = 0, host_error = 0;
   for (const ListParams& request : requests) {
-    check_list_params(request, positions_.size(), radius_);
     reach = std::max(reach, request.list_radius());
     host_error = std::max(host_error, request.cutoff_error());
   }
+  const double error = wrap_error_ + rounding_of_leaves(radius_) + host_error;
+  // Two images of a point may both be within the band of the cutoff only if it is half a period.
+  bool in_cells = !box_.any_periodic() || (reach + 3 * error) * kInflate < box_.max_cutoff();
+  if (in_cells) {
+    classify(requests, error);
+    in_cells = sort_points(error);
+  }
+  stats_.maintain_seconds += seconds_since(start);
+  return {error, in_cells};
+}
+
+void GridSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
+  if (requests.empty()) return;
+  for (const ListParams& request : requests) check_list_params(request, positions_.size(), radius_);
   make_or_empty(out, [&] {
-    const double error = wrap_error_ + rounding_of_leaves(radius_) + host_error;
-    // Two images of a point may both be within the band of the cutoff only if it is half a period.
-    const bool has_near_images =
-        box_.any_periodic() && (reach + 3 * error) * kInflate >= box_.max_cutoff();
-    bool in_cells = false;
-    if (!has_near_images) {
-      classify(requests, error);
-      in_cells = sort_points(error);
-    }
-    stats_.maintain_seconds += seconds_since(start);
+    const auto [error, in_cells] = prepare(requests);
     const auto listing = Clock::now();
-    list_finder_.find(
-        {positions_, box_, error}, requests,
-        [&](const auto& filters, const auto& lists) {
-          if (!in_cells) return find_plainly(error, filters, lists);
-          GridScene scene{positions_, box_, {}, classes_.reach, error, executor_};
-          for (Group& group : groups_) scene.layers.push_back(&group.layer);
-          rows_.find(scene, filters, lists);
-        },
-        out);
+    const auto find_rows = [&, error = error, in_cells = in_cells](const auto& filters, const auto& lists) {
+      if (!in_cells) return find_plainly(error, filters, lists);
+      GridScene scene{positions_, box_, {}, classes_.reach, error, executor_};
+      for (Group& group : groups_) scene.layers.push_back(&group.layer);
+      rows_.find(scene, filters, lists);
+    };
+    list_finder_.find({positions_, box_, error}, requests, find_rows, out);
     stats_.list_seconds += seconds_since(listing);
   });
+}
+
+std::optional<Occupancy> GridSearch::occupancy_for(Span<const ListParams> requests) {
+  for (const ListParams& request : requests) check_list_params(request, positions_.size(), radius_);
+  if (!prepare(requests).in_cells) return std::nullopt;
+  double points = 0, cells = 0, squares = 0, sparse = 0;
+  for (const Group& group : groups_) {
+    if (group.layer.size() == 0) continue;
+    const Occupancy& own = group.layer.occupancy();
+    points += group.layer.size();
+    cells += group.layer.size() / own.mean;
+    squares += group.layer.size() * own.of_point;
+    sparse += group.layer.size() * own.sparse;
+  }
+  return points > 0 ? Occupancy{points / cells, squares / points, sparse / points} : Occupancy();
 }
 
 /// Several classes if those of the sizes that are asked for make for less work than one.
@@ -144,7 +161,8 @@ void GridSearch::classify(Span<const ListParams> requests, double error) {
   SizeClasses chosen = one_class(requests);
   if (have_sizes(requests)) {
     SizeClasses several(requests, n, true);
-    if (several.count > 1 && work_of(several) < kWorthIt * work_of_one(chosen, n)) chosen = std::move(several);
+    if (several.count > 1 && work_of(several) < kWorthIt * work_of_one(chosen, n))
+      chosen = std::move(several);
   }
   for (double& reach : chosen.reach)
     if (reach > 0) reach = (reach + error) * kInflate;
@@ -203,8 +221,8 @@ void GridSearch::find_plainly(double error, const std::vector<const PairFilter*>
 
 const SearchStats& GridSearch::stats() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) +
-                        plain_.memory_bytes() + rows_.memory_bytes() + list_finder_.memory_bytes();
+  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) + plain_.memory_bytes() +
+                        rows_.memory_bytes() + list_finder_.memory_bytes();
   for (const Group& group : groups_)
     stats_.memory_bytes += group.layer.memory_bytes() + bytes_of(group.particle);
   return stats_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,9 @@ namespace dch::detail {
 
 /// PairSearch on cells that are filled anew at every update: the twin of the hierarchy, which keeps nothing.
 ///
-/// How wide cells should be, and whether particles of different sizes should have grids of their own, is known
-/// when a list is asked for. So update() only takes the positions, and list() sorts them; that time counts as
-/// maintenance.
+/// How wide cells should be, and whether particles of different sizes should have grids of their own, is
+/// known when a list is asked for. So update() only takes the positions, and list() sorts them; that time
+/// counts as maintenance.
 class GridSearch final : public PairSearch {
  public:
   GridSearch(double radius, Executor* executor) : radius_(radius), executor_(executor) {}
@@ -33,6 +34,15 @@ class GridSearch final : public PairSearch {
   const SearchStats& stats() const override;
   std::string name() const override { return "grid"; }
 
+  /// Forgets all particles, and keeps no memory of them.
+  void clear();
+  /// Those of the last update.
+  Span<const Vec3> positions() const { return positions_; }
+  const Box& box() const { return box_; }
+  /// Of the cells that lists for the requests are made with; of all grids, where there are several. None if
+  /// no cells can be had for them, as for lists that reach half the box.
+  std::optional<Occupancy> occupancy_for(Span<const ListParams> requests);
+
  private:
   /// The particles of one class of sizes.
   struct Group {
@@ -41,8 +51,12 @@ class GridSearch final : public PairSearch {
     double reach = 0;  ///< that the cells were made for, 0 if they hold other positions [length]
   };
 
-  void clear();
   void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
+  struct Reach {
+    double error;   ///< how far distances may be from pair distances [length]
+    bool in_cells;  ///< whether pairs can be found in cells
+  };
+  Reach prepare(Span<const ListParams> requests);
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
   void classify(Span<const ListParams> requests, double error);
   bool sort_points(double error);

@@ -83,8 +83,8 @@ void PlainCells::find_by_nearest_images(const Box& box, const PairFilter& filter
 
 /// The first `own_count` candidates with each other and with all that follow.
 template <class Metric>
-void PlainCells::test_gathered(const Metric& metric, std::size_t own_count,
-                               const PairFilter& filter, const Row& row) {
+void PlainCells::test_gathered(const Metric& metric, std::size_t own_count, const PairFilter& filter,
+                               const Row& row) {
   for (std::size_t a = 0; a < own_count; ++a) {
     const std::int32_t i = candidates_.node(a);
     const std::size_t hits =
@@ -92,7 +92,8 @@ void PlainCells::test_gathered(const Metric& metric, std::size_t own_count,
     others_.clear();
     for (std::size_t h = 0; h < hits; ++h) {
       const std::size_t b = candidates_.hit(h);
-      if (filter.accept(i, candidates_.node(b), candidates_.distance2(b))) others_.push_back(candidates_.node(b));
+      if (filter.accept(i, candidates_.node(b), candidates_.distance2(b)))
+        others_.push_back(candidates_.node(b));
     }
     row(i, others_);
   }

@@ -15,7 +15,8 @@
 
 namespace dch::detail {
 
-/// Pairs from a grid of cells in the plainest way: in double, one after the other, in any box, however narrow.
+/// Pairs from a grid of cells in the plainest way: in double, one after the other, in any box, however
+/// narrow.
 class PlainCells {
  public:
   /// @param divisions cells to a radius

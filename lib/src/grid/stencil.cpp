@@ -25,7 +25,8 @@ double widest_in(const CellLayout& layout, const std::vector<StencilRow>& stenci
   double widest = longest(sides);
   for (const StencilRow& row : stencil)
     for (const std::int32_t x : {row.first, row.last}) {
-      const Vec3 between = static_cast<double>(x) * layout[0].edge + static_cast<double>(row.y) * layout[1].edge +
+      const Vec3 between = static_cast<double>(x) * layout[0].edge +
+                           static_cast<double>(row.y) * layout[1].edge +
                            static_cast<double>(row.z) * layout[2].edge;
       for (int axis = 0; axis < 3; ++axis) widest = std::max(widest, std::abs(between[axis]) + sides[axis]);
     }

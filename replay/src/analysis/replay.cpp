@@ -53,7 +53,7 @@ class Replay {
   void replay_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms);
   bool update_list(const trajectory::Frame& frame, std::int64_t index);
   void digest_list(const trajectory::Frame& frame, const FrameRecord& record);
-  void note_levels();
+  void note_engine();
 
   const ReplayOptions& options_;
   ProgressBar& progress_;
@@ -86,7 +86,7 @@ ReplayReport Replay::run() {
   scan();
   verifier_.emplace(options_.verify, params_, frames_expected_);
   replay_frames();
-  note_levels();
+  note_engine();
   if (list_file_) list_file_->commit();
   report_.degree_histogram = statistics_.degree_histogram();
   report_.list_hash = statistics_.hash();
@@ -247,7 +247,10 @@ void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& reco
   report_.verify_ms += watch.milliseconds();
 }
 
-void Replay::note_levels() { report_.levels = engine_.search->levels(); }
+void Replay::note_engine() {
+  report_.levels = engine_.search->levels();
+  report_.choice = engine_.search->choice();
+}
 
 }  // namespace
 

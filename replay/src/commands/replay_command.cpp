@@ -54,18 +54,23 @@ void declare_list_options(Command& command, ReplayWords& words) {
 }
 
 void declare_engine_options(Command& command, ReplayWords& words) {
-  command.add_option("--engine", words.engine, "Who finds the pairs: dch (default), cell or allpairs")
+  command
+      .add_option(
+          "--engine", words.engine,
+          "Who finds the pairs: dch (default), grid, auto (whichever of these two takes less work, as "
+          "counted), cell or allpairs")
       ->type_name("NAME");
   command.add_option("--c", words.c, "Has no effect any more")->hide();
   command
       .add_option("--policy", words.policy,
                   "Whether to repair the hierarchy or to build it anew: auto (default: whichever is less "
                   "work, as counted), "
-                  "repair or rebuild; engine dch only")
+                  "repair or rebuild; engines dch and auto")
       ->type_name("NAME");
   command
-      .add_option("--threads", words.threads,
-                  "Threads to keep the hierarchy and make the lists with. Default 1; engine dch only")
+      .add_option(
+          "--threads", words.threads,
+          "Threads to keep the hierarchy and make the lists with. Default 1; engines dch, grid and auto")
       ->type_name("N");
 }
 
@@ -98,18 +103,22 @@ void declare_options(Command& command, ReplayWords& words) {
 
 EngineOptions engine_options(const ReplayWords& words) {
   EngineOptions engine;
-  engine.kind = choose<EngineKind>(
-      "--engine", words.engine,
-      {{"dch", EngineKind::dch}, {"cell", EngineKind::cell}, {"allpairs", EngineKind::allpairs}});
-  const std::pair<const char*, const std::string&> of_hierarchy[] = {{"--policy", words.policy},
-                                                                     {"--threads", words.threads}};
-  for (const auto& [option, value] : of_hierarchy) {
-    if (engine.kind == EngineKind::dch || value.empty()) continue;
+  engine.kind = choose<EngineKind>("--engine", words.engine,
+                                   {{"dch", EngineKind::dch},
+                                    {"grid", EngineKind::grid},
+                                    {"auto", EngineKind::automatic},
+                                    {"cell", EngineKind::cell},
+                                    {"allpairs", EngineKind::allpairs}});
+  if (!words.policy.empty() && !may_keep_hierarchy(engine.kind))
     throw UsageError(
-        fmt::format("{} has no meaning for engine {}, which keeps no hierarchy; leave it out or use "
+        fmt::format("--policy has no meaning for engine {}, which keeps no hierarchy; leave it out or use "
                     "--engine dch",
-                    option, words.engine));
-  }
+                    words.engine));
+  if (!words.threads.empty() && !takes_threads(engine.kind))
+    throw UsageError(
+        fmt::format("--threads has no meaning for engine {}, which works on one; leave it out or use "
+                    "--engine dch",
+                    words.engine));
   if (!words.c.empty())
     print_message(
         "dchmd: --c has no effect any more and will be an error in the next version; leave it out\n");

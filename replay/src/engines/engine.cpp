@@ -57,6 +57,7 @@ class TimedSearch final : public PairSearch {
   std::vector<LevelInfo> levels() override { return inner_->levels(); }
   const SearchStats& stats() const override { return stats_; }
   std::string name() const override { return inner_->name(); }
+  std::string choice() const override { return inner_->choice(); }
 
  private:
   void refresh() {
@@ -84,6 +85,7 @@ class BorrowedSearch final : public PairSearch {
   void list(const ListParams& params, NeighborList& out) override { engine_.list(params, out); }
   const SearchStats& stats() const override { return engine_.stats(); }
   std::string name() const override { return engine_.name(); }
+  std::string choice() const override { return engine_.choice(); }
 
  private:
   PairSearch& engine_;
@@ -94,6 +96,10 @@ class BorrowedSearch final : public PairSearch {
 
 std::string to_string(EngineKind kind) {
   switch (kind) {
+    case EngineKind::grid:
+      return "grid";
+    case EngineKind::automatic:
+      return "auto";
     case EngineKind::cell:
       return "cell";
     case EngineKind::allpairs:
@@ -118,18 +124,16 @@ std::string to_string(MaintenancePolicy policy) {
 
 Engine make_engine(const EngineOptions& options, double radius, std::unique_ptr<Executor> threads) {
   Engine engine;
-  if (options.kind == EngineKind::cell) {
-    engine.search = make_cell_search(radius);
-  } else if (options.kind == EngineKind::allpairs) {
+  if (options.kind == EngineKind::allpairs) {
     engine.search = std::make_unique<AllPairsSearch>();
   } else {
-    engine.threads = std::move(threads);
+    if (takes_threads(options.kind)) engine.threads = std::move(threads);
     HierarchyParams params;
     params.radius = radius;
     params.policy = options.policy;
     params.executor = engine.threads.get();
-    engine.search = make_dch_search(params);
-    engine.keeps_hierarchy = true;
+    engine.search = make_search(to_string(options.kind), params);
+    engine.keeps_hierarchy = may_keep_hierarchy(options.kind);
   }
   engine.search = std::make_unique<TimedSearch>(std::move(engine.search));
   return engine;

@@ -50,7 +50,8 @@ struct ReplayReport : TrajectorySummary {
   double cutoff = 0, skin = 0;  ///< [length]
   ListKind list_kind = ListKind::half;
   EngineOptions engine;
-  int threads = 1;  ///< that the engine worked with
+  std::string choice;  ///< PairSearch::choice() after the last frame
+  int threads = 1;     ///< that the engine worked with
   ExclusionRecord exclusions;
   std::vector<FrameRecord> frames;
   std::vector<LevelInfo> levels;               ///< after the last frame; dch only

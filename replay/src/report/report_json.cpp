@@ -24,10 +24,9 @@ Json column(const ReplayReport& report, Value value) {
 Json input_json(const ReplayReport& report) {
   Json json = begin_report(report, report.frames.size());
   json["engine"] = to_string(report.engine.kind);
-  if (report.engine.kind == EngineKind::dch) {
-    json["policy"] = to_string(report.engine.policy);
-    json["threads"] = report.threads;
-  }
+  if (report.engine.kind == EngineKind::automatic) json["choice"] = report.choice;
+  if (may_keep_hierarchy(report.engine.kind)) json["policy"] = to_string(report.engine.policy);
+  if (takes_threads(report.engine.kind)) json["threads"] = report.threads;
   json["list"] = to_string(report.list_kind);
   json["cutoff"] = report.cutoff;
   json["skin"] = report.skin;

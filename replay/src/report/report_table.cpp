@@ -55,15 +55,19 @@ std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
 
 std::string engine_text(const ReplayReport& report) {
   const EngineOptions& engine = report.engine;
+  const std::string threads = report.threads > 1 ? fmt::format(", {} threads", report.threads) : "";
   switch (engine.kind) {
     case EngineKind::cell:
       return "cell list, built at every update";
     case EngineKind::allpairs:
       return "all pairs, no structure";
+    case EngineKind::grid:
+      return "grid, built at every update" + threads;
+    case EngineKind::automatic:
+      return fmt::format("auto ({}), policy {}{}", report.choice, to_string(engine.policy), threads);
     case EngineKind::dch:
       break;
   }
-  const std::string threads = report.threads > 1 ? fmt::format(", {} threads", report.threads) : "";
   return fmt::format("dch, policy {}{}", to_string(engine.policy), threads);
 }
 

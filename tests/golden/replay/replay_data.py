@@ -21,7 +21,7 @@ def check_clean(checks, what, result, report):
 
 def check_engines(checks, command, path, cutoff, other, facts):
     reports = []
-    for engine, verify in (("dch", "all"), (other, "none")):
+    for engine, verify in (("dch", "all"), ("grid", "none"), ("auto", "none"), (other, "none")):
         what = f"{path} --cutoff {cutoff!r} --engine {engine} --verify {verify}"
         result, report = replay(command, path, "--cutoff", repr(cutoff), "--engine", engine, "--verify", verify)
         if not check_clean(checks, what, result, report):
@@ -32,9 +32,10 @@ def check_engines(checks, command, path, cutoff, other, facts):
                     f"{what}: frames verified")
         reports.append(report)
         print(f"{what}: pairs {report['pairs']}, mismatches {report['mismatches']}", flush=True)
-    for key in ("pairs_per_frame", "list_hash", "degree_histogram"):
-        checks.that(reports[1][key] == reports[0][key],
-                    f"{path} --cutoff {cutoff!r}: {key} of {other} differs from that of dch")
+    for engine, report in zip(("grid", "auto", other), reports[1:]):
+        for key in ("pairs_per_frame", "list_hash", "degree_histogram"):
+            checks.that(report[key] == reports[0][key],
+                        f"{path} --cutoff {cutoff!r}: {key} of {engine} differs from that of dch")
 
 
 def check_skin_and_full(checks, command, path, cutoff):

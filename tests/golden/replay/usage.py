@@ -62,7 +62,7 @@ def wrong_commands(data):
         (replay("--skin", "0.36"), [water, "frame", "0.76", "0.75"]),
         (replay("--skin", "-0.1"), ["--skin -0.1", "at least 0"]),
         (replay("--skin", "nan"), ["--skin 'nan'"]),
-        (replay("--engine", "octree"), ["--engine 'octree'", "dch, cell, allpairs"]),
+        (replay("--engine", "octree"), ["--engine 'octree'", "dch, grid, auto, cell, allpairs"]),
         (replay("--engine", "cell", "--policy", "repair"), ["--policy", "engine cell"]),
         (replay("--policy", "never"), ["--policy 'never'", "auto, repair, rebuild"]),
         (replay("--verify", "some"), ["--verify 'some'", "none, sample, all"]),

@@ -21,13 +21,14 @@ class Engines : public testing::TestWithParam<EngineKind> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, Engines,
-                         testing::Values(EngineKind::dch, EngineKind::cell, EngineKind::allpairs),
+                         testing::Values(EngineKind::dch, EngineKind::grid, EngineKind::automatic,
+                                         EngineKind::cell, EngineKind::allpairs),
                          [](const auto& scene) { return to_string(scene.param); });
 
 TEST_P(Engines, FollowMotionAndGiveTheOraclesLists) {
   const Engine engine = this->engine(2.5);
   EXPECT_EQ(engine.search->name(), to_string(GetParam()));
-  EXPECT_EQ(engine.keeps_hierarchy, GetParam() == EngineKind::dch);
+  EXPECT_EQ(engine.keeps_hierarchy, may_keep_hierarchy(GetParam()));
   ListParams params;
   params.cutoffs = TypeCutoffs(2.5);
   trajectory::Frame frame = random_frame(300);
@@ -40,6 +41,7 @@ TEST_P(Engines, FollowMotionAndGiveTheOraclesLists) {
   }
   const SearchStats& stats = engine.search->stats();
   EXPECT_EQ(stats.builds + stats.repairs + stats.refreshes, 5);
+  EXPECT_EQ(engine.search->choice().empty(), GetParam() != EngineKind::automatic);
   EXPECT_GT(stats.list_seconds, 0);
   EXPECT_GT(stats.maintain_seconds, 0);
 }

@@ -74,7 +74,10 @@ class PairSearch {
   virtual std::vector<LevelInfo> levels() { return {}; }
 
   virtual const SearchStats& stats() const = 0;
-  virtual std::string name() const = 0;  ///< "dch", "grid", "cell"
+  virtual std::string name() const = 0;  ///< "dch", "grid", "cell", "auto"
+  /// Which engine is in use and why, in words, as "grid: 41 points a cell, spread 1.1"; empty where there is
+  /// no choice, or none has been made yet.
+  virtual std::string choice() const { return {}; }
 };
 
 /// An engine on a hierarchy of its own; see PairSearch.
@@ -96,5 +99,18 @@ std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions = 1);
 ///   depend on it.
 /// @throws InvalidParameter unless radius is in kMinListRadius..kMaxListRadius.
 std::unique_ptr<PairSearch> make_grid_search(double radius, Executor* executor = nullptr);
+
+/// The grid where density is even or the hierarchy has much to repair, the hierarchy elsewhere: by counts of
+/// occupied cells and of the distances that the hierarchy computed, never by a clock, so the same updates
+/// make the same choice. It looks anew at a list after 32 updates, or when the number of particles, the
+/// volume of the box or the list radius has changed by a quarter, and chooses anew if these or the counts
+/// have. Cluster pairs always come from the hierarchy, which serves lists too while they are asked for.
+/// @throws as Hierarchy's constructor.
+std::unique_ptr<PairSearch> make_auto_search(const HierarchyParams& params);
+
+/// The engine of that name: "dch", "grid", "cell" or "auto". Those that keep no hierarchy take what concerns
+/// them of the parameters.
+/// @throws InvalidParameter for another name, and as the function that makes the engine.
+std::unique_ptr<PairSearch> make_search(const std::string& name, const HierarchyParams& params);
 
 }  // namespace dch
