@@ -35,7 +35,7 @@ std::vector<NamedEngine> engines() {
        },
        true},
       {"grid", [] { return make_grid_search(kRadius); }, true},
-      {"auto", [] { return make_auto_search(params_for()); }, true},
+      {"auto", [] { return make_auto_search(params_for()); }},
   };
 }
 

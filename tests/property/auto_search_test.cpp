@@ -142,7 +142,8 @@ TEST(AutoSearch, HoldsNothingAfterAThrow) {
 TEST(MakeSearch, GivesTheEngineOfTheNameOrSaysWhichThereAre) {
   HierarchyParams params;
   params.radius = 1;
-  for (const char* const name : {"dch", "grid", "cell", "auto"}) EXPECT_EQ(make_search(name, params)->name(), name);
+  for (const char* const name : {"dch", "grid", "cell", "auto"})
+    EXPECT_EQ(make_search(name, params)->name(), name);
   try {
     make_search("tree", params);
     FAIL() << "made an engine of a name that there is not";

@@ -10,17 +10,17 @@ namespace dch {
 namespace detail {
 namespace {
 
-constexpr int kLookEvery = 32;    ///< updates
+constexpr int kLookEvery = 32;     ///< updates
 constexpr double kChanged = 1.25;  ///< a scene that changed by this factor is chosen for anew
 
-// Work beside that of the pairs, which is the same for both, in ns for a particle, measured once in the scenes
-// of benchmarks/engine. Only their ratios matter.
+// Work beside that of the pairs, which is the same for both, in ns for a particle, measured once in the
+// scenes of benchmarks/engine. Only their ratios matter.
 constexpr double kGridPoint = 20;    ///< of the grid: to sort a point
 constexpr double kNearby = 0.3;      ///< of the grid: for a point in the same cell
 constexpr double kDenseCell = 100;   ///< of the grid: for a cell, of an array of all cells
 constexpr double kSparseCell = 430;  ///< of the grid: for a cell, where occupied ones have to be looked up
-constexpr double kLeafPoint = 40;    ///< of the hierarchy: to measure a point and find the leaves near its own
-constexpr double kDistance = 1.5;    ///< of the hierarchy: for a distance in repairs and builds
+constexpr double kLeafPoint = 40;  ///< of the hierarchy: to measure a point and find the leaves near its own
+constexpr double kDistance = 1.5;  ///< of the hierarchy: for a distance in repairs and builds
 
 bool differs(double a, double b) { return a > kChanged * b || b > kChanged * a; }
 
@@ -38,8 +38,9 @@ AutoSearch::AutoSearch(const HierarchyParams& params)
     : params_(params), hierarchy_(make_dch_search(params)), grid_(params.radius, params.executor) {}
 
 void AutoSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
-  const bool changed = differs(static_cast<double>(positions.size()), static_cast<double>(chosen_by_.particles)) ||
-                       differs(volume_of(box), chosen_by_.volume);
+  const bool changed =
+      differs(static_cast<double>(positions.size()), static_cast<double>(chosen_by_.particles)) ||
+      differs(volume_of(box), chosen_by_.volume);
   looks_ = !has_chosen_ || looks_ || changed || ++updates_since_look_ >= kLookEvery;
   if (++updates_since_pairs_ <= kLookEvery) serve_pairs();
   grid_has_them_ = hierarchy_has_them_ = false;
@@ -104,20 +105,24 @@ double AutoSearch::distances_an_update() const {
 
 void AutoSearch::choose_by(const Scene& scene, bool has_cells) {
   const Scene& last = chosen_by_;
-  const bool is_the_same = has_chosen_ && !differs(static_cast<double>(scene.particles), static_cast<double>(last.particles)) &&
-                           !differs(scene.volume, last.volume) && !differs(scene.radius, last.radius) &&
-                           !differs(scene.cells, last.cells) && !differs(scene.spread, last.spread) &&
-                           !differs(1 + scene.distances, 1 + last.distances);
+  const bool is_the_same =
+      has_chosen_ && !differs(static_cast<double>(scene.particles), static_cast<double>(last.particles)) &&
+      !differs(scene.volume, last.volume) && !differs(scene.radius, last.radius) &&
+      !differs(scene.cells, last.cells) && !differs(scene.spread, last.spread) &&
+      !differs(1 + scene.distances, 1 + last.distances);
   if (is_the_same) return;
-  const double grid = kGridPoint + kNearby * scene.cells * scene.spread +
-                      (scene.sparse * kSparseCell + (1 - scene.sparse) * kDenseCell) / std::max(scene.cells, 1.0);
+  const double grid =
+      kGridPoint + kNearby * scene.cells * scene.spread +
+      (scene.sparse * kSparseCell + (1 - scene.sparse) * kDenseCell) / std::max(scene.cells, 1.0);
   const double hierarchy = kLeafPoint + kDistance * scene.distances;
   const bool by_grid = has_cells && grid <= hierarchy;
   if (!by_grid) bring_up_hierarchy();
-  const std::string counted = has_cells ? with_one_digit(scene.cells) + " points a cell, spread " + with_one_digit(scene.spread)
-                                        : "no cells for lists that reach half the box, or for points that far apart";
+  const std::string counted =
+      has_cells ? with_one_digit(scene.cells) + " points a cell, spread " + with_one_digit(scene.spread)
+                : "no cells for lists that reach half the box, or for points that far apart";
   choice_ = (by_grid ? "grid: " : "dch: ") + counted;
-  if (scene.distances > 0) choice_ += ", " + with_one_digit(scene.distances) + " distances of the hierarchy a particle";
+  if (scene.distances > 0)
+    choice_ += ", " + with_one_digit(scene.distances) + " distances of the hierarchy a particle";
   by_grid_ = by_grid;
   chosen_by_ = scene;
   has_chosen_ = true;
@@ -139,9 +144,7 @@ void AutoSearch::cluster_pairs(const ListParams& params, ClusterPairs& out) {
   updates_since_pairs_ = 0;
 }
 
-std::string AutoSearch::validate() {
-  return hierarchy_has_them_ ? hierarchy_->validate() : std::string();
-}
+std::string AutoSearch::validate() { return hierarchy_has_them_ ? hierarchy_->validate() : std::string(); }
 
 std::vector<LevelInfo> AutoSearch::levels() {
   return hierarchy_has_them_ ? hierarchy_->levels() : std::vector<LevelInfo>();

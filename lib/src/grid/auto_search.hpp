@@ -45,7 +45,7 @@ class AutoSearch final : public PairSearch {
     double radius = 0;  ///< largest list radius [length]
     double cells = 0;   ///< points in a cell on average
     double spread = 0;
-    double sparse = 0;  ///< share of the particles in grids that look occupied cells up
+    double sparse = 0;     ///< share of the particles in grids that look occupied cells up
     double distances = 0;  ///< that the hierarchy computed at an update, for each particle
   };
   PairSearch& engine() { return by_grid_ ? static_cast<PairSearch&>(grid_) : *hierarchy_; }
