@@ -10,7 +10,8 @@
 namespace dch::detail {
 namespace {
 
-constexpr double kMaxDifference = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
+constexpr double kMaxDifference =
+    32700;  ///< of a difference of coordinates in units; leaves room for rounding
 
 /// The finest units in which the rows of source `s` can be found.
 ListUnits units_for(const ListScene& scene, std::size_t s) {
