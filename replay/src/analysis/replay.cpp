@@ -71,8 +71,7 @@ class Replay {
   ListStatistics statistics_;
 };
 
-Replay::Replay(const ReplayOptions& options, ProgressBar& progress)
-    : options_(options), progress_(progress) {
+Replay::Replay(const ReplayOptions& options, ProgressBar& progress) : options_(options), progress_(progress) {
   params_.cutoffs = TypeCutoffs(options.cutoff);
   params_.skin = options.skin;
   params_.kind = options.kind;

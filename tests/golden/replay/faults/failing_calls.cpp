@@ -6,7 +6,7 @@
 //   DCH_CALLS_LOG      a file of kLogBytes zeros; a line for each call comes into it:
 //                      "PROCESS NUMBER FUNCTION NAME" and then " !" if it was made to fail. PROCESS is 0 for
 //                      the first one and counts the children that it starts, NUMBER counts the calls of a
-//                      process from 0
+//                      process from 0. A fork() names "child", or "child_beside_threads" where threads run
 //   DCH_CALLS_FAULT    "PROCESS NUMBER FAULT": the number of an error, or "short" (half the bytes are read or
 //                      written), or "kill" (half the bytes, then SIGKILL); none at all if it is not set
 //
@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <string_view>
@@ -109,6 +110,15 @@ const char* name_in_folder(const char* path) {
   if (folder.empty() || std::strncmp(path, folder.data(), folder.size()) != 0) return nullptr;
   const char* const slash = std::strrchr(path, '/');
   return slash[1] == '\0' ? "folder" : slash + 1;
+}
+
+bool threads_run() {
+  DIR* const tasks = ::opendir("/proc/self/task");
+  if (!tasks) std::abort();
+  int entries = 0;
+  while (::readdir(tasks)) ++entries;
+  ::closedir(tasks);
+  return entries > 3;  // the folder itself, the one above, and this thread
 }
 
 /// A call that does nothing but fail, or is done.
@@ -229,7 +239,8 @@ int memfd_create(const char* name, unsigned flags) noexcept {
 
 pid_t fork() noexcept {
   static const auto real = next<pid_t (*)()>("fork");
-  const pid_t id = do_or_fail("fork", "child", [&] { return real(); });
+  const char* const name = threads_run() ? "child_beside_threads" : "child";
+  const pid_t id = do_or_fail("fork", name, [&] { return real(); });
   if (id > 0) ++children;
   if (id != 0) return id;
   process = ++children;
