@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -53,7 +55,11 @@ struct PowerDiagram::Impl {
   std::vector<Blamed> faults() const;
   bool turned_over(Cell cell) const;
   bool irregular(Cell cell, int facet) const;
-  std::vector<std::int32_t> choose(const std::vector<Blamed>& faults) const;
+  std::vector<Blamed> faults_of_cells() const;
+  std::vector<Blamed> faults_of_facets() const;
+  std::vector<Blamed> faults_of_hull() const;
+  Blamed blame(Cell cell, Vertex other) const;
+  std::vector<std::int32_t> choose(std::vector<Blamed> faults) const;
   void insert(const std::vector<std::int32_t>& indices, Span<const Ball> at);
   void find_vertices();
 };
@@ -105,37 +111,93 @@ bool PowerDiagram::Impl::irregular(Cell cell, int facet) const {
   return triangulation.side_of_power_sphere(cell, other->point()) == CGAL::ON_BOUNDED_SIDE;
 }
 
-/// What keeps the triangulation, with its vertices where they are now, from being regular.
-std::vector<Blamed> PowerDiagram::Impl::faults() const {
+/// The finite vertices of a cell, and another one unless it is null or infinite; in the order of their balls.
+Blamed PowerDiagram::Impl::blame(Cell cell, Vertex other) const {
+  Blamed blamed;
+  for (int k = 0; k < 4; ++k) blamed.push_back(cell->vertex(k));
+  if (other != Vertex()) blamed.push_back(other);
+  blamed.erase(std::remove(blamed.begin(), blamed.end(), triangulation.infinite_vertex()), blamed.end());
+  std::sort(blamed.begin(), blamed.end(), [](Vertex a, Vertex b) { return a->info() < b->info(); });
+  return blamed;
+}
+
+std::vector<Blamed> PowerDiagram::Impl::faults_of_cells() const {
   std::vector<Blamed> result;
-  const auto blame = [&](Cell cell, Vertex other) {
-    Blamed blamed;
-    for (int k = 0; k < 4; ++k) blamed.push_back(cell->vertex(k));
-    if (other != Vertex()) blamed.push_back(other);
-    blamed.erase(std::remove(blamed.begin(), blamed.end(), triangulation.infinite_vertex()), blamed.end());
-    result.push_back(std::move(blamed));
-  };
   for (const Cell cell : triangulation.all_cell_handles()) {
-    if (turned_over(cell)) blame(cell, Vertex());
+    if (turned_over(cell)) result.push_back(blame(cell, Vertex()));
   }
-  // The tests of facets take all tetrahedra for well oriented.
-  if (!result.empty()) return result;
+  return result;
+}
+
+std::vector<Blamed> PowerDiagram::Impl::faults_of_facets() const {
+  std::vector<Blamed> result;
   for (const auto& [cell, facet] : triangulation.all_facets()) {
     const Cell next = cell->neighbor(facet);
     // From a finite cell, if there is one.
     const bool from_next = triangulation.is_infinite(cell) && !triangulation.is_infinite(next);
     const Cell from = from_next ? next : cell;
     const int side = from_next ? next->index(cell) : facet;
-    if (irregular(from, side)) blame(from, triangulation.tds().mirror_vertex(from, side));
+    if (irregular(from, side)) result.push_back(blame(from, triangulation.tds().mirror_vertex(from, side)));
   }
   return result;
 }
 
-/// Indices of few balls that are part of all faults: greedily those that most faults blame.
-std::vector<std::int32_t> PowerDiagram::Impl::choose(const std::vector<Blamed>& faults) const {
+/// A hull that is convex at each edge may still go around a vertex, or around itself, more than once, as a
+/// pentagram does, and the tetrahedra with it. Seen from a point that all facets turn the same side to, a
+/// closed surface covers each direction equally often; so the hull is that of a convex body if it covers one
+/// direction once (Mehlhorn et al., Checking geometric programs or verification of geometric structures,
+/// Comput. Geom. 12:85, 1999). Then no point inside is covered twice either.
+std::vector<Blamed> PowerDiagram::Impl::faults_of_hull() const {
+  const auto orientation = triangulation.geom_traits().orientation_3_object();
+  std::vector<Cell> outside;
+  triangulation.incident_cells(triangulation.infinite_vertex(), std::back_inserter(outside));
+  CGAL::Vector_3<Kernel> sum = CGAL::NULL_VECTOR;
+  for (const Vertex v : triangulation.finite_vertex_handles())
+    sum = sum + (v->point().point() - CGAL::ORIGIN);
+  const auto center = CGAL::ORIGIN + sum / static_cast<double>(triangulation.number_of_vertices());
+  std::vector<Blamed> turned_away, covering;
+  std::optional<Kernel::Point_3> target;  // of the ray from the center
+  for (const Cell cell : outside) {
+    const int infinite = cell->index(triangulation.infinite_vertex());
+    std::array<Kernel::Point_3, 3> corner;
+    for (int k = 0; k < 3; ++k) {
+      corner[static_cast<std::size_t>(k)] =
+          cell->vertex(Triangulation::vertex_triple_index(infinite, k))->point().point();
+    }
+    const auto& [p, q, r] = corner;
+    const CGAL::Sign inside =
+        orientation(p, q, r, triangulation.tds().mirror_vertex(cell, infinite)->point().point());
+    if (orientation(p, q, r, center) != inside) turned_away.push_back(blame(cell, Vertex()));
+    if (!target) target = CGAL::centroid(p, q, r);
+    const auto turns_away = [&](const Kernel::Point_3& a, const Kernel::Point_3& b) {
+      return orientation(a, b, *target, center) == -inside;
+    };
+    if (!turns_away(p, q) && !turns_away(q, r) && !turns_away(r, p))
+      covering.push_back(blame(cell, Vertex()));
+  }
+  if (!turned_away.empty()) return turned_away;
+  return covering.size() == 1 ? std::vector<Blamed>() : covering;
+}
+
+/// What keeps the triangulation, with its vertices where they are now, from being regular. The tests of
+/// facets take all tetrahedra for well oriented, and that of the hull takes all facets for regular.
+std::vector<Blamed> PowerDiagram::Impl::faults() const {
+  std::vector<Blamed> result = faults_of_cells();
+  if (result.empty()) result = faults_of_facets();
+  if (result.empty()) result = faults_of_hull();
+  return result;
+}
+
+/// Indices of few balls that are part of all faults: greedily those that most faults blame. The choice goes
+/// by the balls' indices, since the order of faults is that of addresses.
+std::vector<std::int32_t> PowerDiagram::Impl::choose(std::vector<Blamed> faults) const {
   std::vector<int> blame(vertex.size(), 0);
   std::vector<char> chosen(vertex.size(), 0);
   const auto slot = [](Vertex v) { return static_cast<std::size_t>(v->info()); };
+  std::sort(faults.begin(), faults.end(), [](const Blamed& a, const Blamed& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [](Vertex u, Vertex v) { return u->info() < v->info(); });
+  });
   for (const Blamed& fault : faults) {
     for (const Vertex v : fault) ++blame[slot(v)];
   }
@@ -160,9 +222,9 @@ bool PowerDiagram::Impl::repair(Span<const Ball> to) {
   std::size_t removed = 0;
   for (;;) {
     put_vertices(to);
-    const auto wrong = faults();
+    auto wrong = faults();
     if (wrong.empty()) break;
-    const auto chosen = choose(wrong);
+    const auto chosen = choose(std::move(wrong));
     removed += chosen.size();
     if (static_cast<double>(removed) > most) return false;
     put_vertices(balls);

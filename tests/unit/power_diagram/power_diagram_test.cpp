@@ -64,6 +64,26 @@ TEST(PowerDiagram, HoldsEveryPairAloneInItsBall) {
   }
 }
 
+// After such motion hulls that are convex at each edge go around themselves twice, with few balls left; that
+// of the seed 6238 turns all its facets towards its middle nevertheless.
+TEST(PowerDiagram, RepairedIsTheSameAsBuiltAfterAnyMotion) {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(dch::effort(300)); ++seed)
+    seeds.push_back(seed);
+  for (std::uint64_t seed = 6237; seed <= 6238; ++seed) seeds.push_back(seed);
+  PowerDiagram kept = repairing();
+  for (const std::uint64_t seed : seeds) {
+    Random random(seed);
+    std::vector<Ball> balls;
+    for (int k = 0; k < 40; ++k) balls.push_back({random.in_cube(1), 0.1});
+    kept.update(balls);
+    PowerDiagram built;
+    built.update(balls);
+    ASSERT_EQ(kept.edges(), built.edges()) << "seed " << seed;
+    ASSERT_TRUE(kept.is_valid()) << "seed " << seed;
+  }
+}
+
 TEST(PowerDiagram, RepairedIsTheSameAsBuilt) {
   for (const double ratio : {1.0, 20.0}) {
     for (const double step : {1e-6, 1e-3, 1e-2, 0.3}) {
