@@ -18,6 +18,7 @@ RUNS = [
     Subcommand("replay", ["replay", "in.h5", "--cutoff", "3", "--threads", "3", "--out", "out.h5"], ["out.h5"]),
     Subcommand("contacts", ["contacts", "in.h5", "--gap", "2.5", "--topology", "in.chains", "--threads", "3",
                             "--out", "out.h5"], ["out.h5"]),
+    Subcommand("query", ["query", "in.h5", "--threads", "3", "--out", "out.h5"], ["out.h5"]),
 ]
 CHILDREN = 3  # the reader of the first pass, that of the second, and the writer
 
