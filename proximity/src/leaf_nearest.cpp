@@ -51,12 +51,39 @@ double LeafNearest<Metric>::guess_reach(std::int32_t leaf) const {
 template <class Metric>
 void LeafNearest<Metric>::search_leaf(std::int32_t leaf, NearestRows& rows) {
   const double reach = guess_reach(leaf);
-  if (!near_.collect(metric_, leaf, reach, work_)) {
-    structure_.for_each_child(1, leaf,
-                              [&](std::int32_t slot) { search_point(structure_.points.id[slot], rows); });
-    return;
+  if (has_one_image(reach)) {
+    near_.collect(metric_, leaf, reach, work_);
+    if (has_one_image(std::sqrt(limit2(reach)) + error())) {
+      for (std::int32_t block = 0; block < near_.own_blocks(); ++block) search_block(block, reach, rows);
+      return;
+    }
   }
-  for (std::int32_t block = 0; block < near_.own_blocks(); ++block) search_block(block, reach, rows);
+  structure_.for_each_child(1, leaf,
+                            [&](std::int32_t slot) { search_point(structure_.points.id[slot], rows); });
+}
+
+/// Whether a point has at most one image within that distance of another one, and none of its own.
+template <class Metric>
+bool LeafNearest<Metric>::has_one_image(double distance) const {
+  return distance * kInflate < structure_.box.max_cutoff();
+}
+
+/// How far two distances in float may be off together.
+template <class Metric>
+double LeafNearest<Metric>::error() const {
+  return 2 * (near_.rounding() + slack_);
+}
+
+/// What their squares may differ by, beside kBlur: (d + e)^2 <= d^2 (1 + b) + e^2 (1 + 1/b).
+template <class Metric>
+double LeafNearest<Metric>::blur() const {
+  return error() * error() * (1 + 2 / double{kBlur});
+}
+
+/// Squared distances in float up to this are looked at.
+template <class Metric>
+double LeafNearest<Metric>::limit2(double reach) const {
+  return reach * reach * (1 + double{kBlur}) + blur();
 }
 
 template <class Metric>
@@ -98,9 +125,6 @@ void LeafNearest<Metric>::select(std::int32_t block, double reach) {
 template <class Metric>
 bool LeafNearest<Metric>::search_near(std::int32_t slot, double reach, NearestRows& rows) {
   const float* const at = near_.blocks().coordinates + slot / kBlock * 3 * kBlock + slot % kBlock;
-  // A distance off by e has (d + e)^2 <= d^2 (1 + b) + e^2 (1 + 1/b); two of them are compared.
-  const double off = 2 * (near_.rounding() + slack_);
-  const auto blur = static_cast<float>(off * off * (1 + 2 / double{kBlur}));
   const NearestTask task{{at[0], at[kBlock], at[2 * kBlock]},
                          slot,
                          block_.data(),
@@ -108,8 +132,8 @@ bool LeafNearest<Metric>::search_near(std::int32_t slot, double reach, NearestRo
                          static_cast<std::int32_t>(sorted_.size()),
                          k_,
                          static_cast<std::int32_t>(found_slot_.size()),
-                         static_cast<float>(reach * reach * (1 + double{kBlur})) + blur,
-                         blur};
+                         static_cast<float>(limit2(reach)),
+                         static_cast<float>(blur())};
   NearestFound found{found_distance2_.data(), found_slot_.data(), 0, false, 0, 0};
   kernels_.search(task, near_.blocks(), found);
   work_.blocks += found.blocks_seen;

@@ -29,6 +29,10 @@ class LeafNearest {
 
  private:
   double guess_reach(std::int32_t leaf) const;
+  bool has_one_image(double distance) const;
+  double error() const;
+  double blur() const;
+  double limit2(double reach) const;
   void search_block(std::int32_t block, double reach, NearestRows& rows);
   void select(std::int32_t block, double reach);
   bool search_near(std::int32_t slot, double reach, NearestRows& rows);

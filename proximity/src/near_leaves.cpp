@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/metric.hpp"
+#include "geometry/near_images.hpp"
 #include "geometry/tolerance.hpp"
 
 namespace dch::detail {
@@ -36,14 +37,16 @@ void NearLeaves::clear() {
 }
 
 template <class Metric>
-bool NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, NearestWork& work) {
+void NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, NearestWork& work) {
   clear();
   const Vec3 center = structure_.levels[1].position[leaf];
-  const double within = balls_.radius(1, leaf) + reach;
+  const double own_radius = balls_.radius(1, leaf), within = own_radius + reach;
   add_leaf(leaf, {}, within);
   own_ = count();
+  for_each_near_image(structure_.box, {}, (within + own_radius) * kInflate, false, [&](Vec3 at) {
+    if (at != Vec3{}) add_leaf(leaf, at, within);
+  });
   stack_.clear();
-  bool has_one_image = true;
   const auto look_at = [&](std::int32_t level, std::int32_t node) {
     ++work.nodes;
     if (level == 1 && node == leaf) return;
@@ -51,8 +54,8 @@ bool NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, 
     const double radius = balls_.radius(level, node);
     if (norm2(at) > (within + radius) * (within + radius) * kInflate) return;
     if (level > 1) return stack_.push_back({level, node});
-    has_one_image = has_one_image && (within + radius) * kInflate < structure_.box.max_cutoff();
-    add_leaf(node, at, within);
+    for_each_near_image(structure_.box, at, (within + radius) * kInflate, false,
+                        [&](Vec3 image) { add_leaf(node, image, within); });
   };
   const Level& top = structure_.levels.back();
   for (std::int32_t root = 0; root < top.size(); ++root)
@@ -62,15 +65,14 @@ bool NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, 
     stack_.pop_back();
     if (structure_.is_singleton(next.level, next.node)) {
       const std::int32_t id = structure_.levels[next.level].id[next.node];
-      has_one_image = has_one_image && within * kInflate < structure_.box.max_cutoff();
-      add_point(id, metric.displacement(center, metric.wrap(structure_.raw[id])));
+      for_each_near_image(structure_.box, metric.displacement(center, metric.wrap(structure_.raw[id])),
+                          within * kInflate, false, [&](Vec3 image) { add_point(id, image); });
     }
     structure_.for_each_child(next.level, next.node,
                               [&](std::int32_t child) { look_at(next.level - 1, child); });
   }
   make_readable();
   rounding_ = kRoundings * widest_;
-  return has_one_image && within * kInflate < structure_.box.max_cutoff();
 }
 
 /// The blocks of a leaf whose boxes are within a distance of the frame's origin.
@@ -121,8 +123,8 @@ NearBlocks NearLeaves::blocks() const {
           count_.data()};
 }
 
-template bool NearLeaves::collect(const OpenMetric&, std::int32_t, double, NearestWork&);
-template bool NearLeaves::collect(const OrthorhombicMetric&, std::int32_t, double, NearestWork&);
-template bool NearLeaves::collect(const LatticeMetric&, std::int32_t, double, NearestWork&);
+template void NearLeaves::collect(const OpenMetric&, std::int32_t, double, NearestWork&);
+template void NearLeaves::collect(const OrthorhombicMetric&, std::int32_t, double, NearestWork&);
+template void NearLeaves::collect(const LatticeMetric&, std::int32_t, double, NearestWork&);
 
 }  // namespace dch::detail

@@ -17,10 +17,9 @@ class NearLeaves {
  public:
   NearLeaves(const Structure& structure, const SubtreeBalls& balls) : structure_(structure), balls_(balls) {}
 
-  /// Collects all points within `reach` of the points of a leaf. Returns false, and nothing of use, where one
-  /// of them may be near in several images.
+  /// Collects all images of points within `reach` of the points of a leaf.
   template <class Metric>
-  bool collect(const Metric& metric, std::int32_t leaf, double reach, NearestWork& work);
+  void collect(const Metric& metric, std::int32_t leaf, double reach, NearestWork& work);
 
   NearBlocks blocks() const;
   std::int32_t count() const { return static_cast<std::int32_t>(count_.size()); }

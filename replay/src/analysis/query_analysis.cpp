@@ -182,7 +182,8 @@ void QueryAnalysis::find_clusters(const HierarchyView& view, QueryFrame& record)
       id = std::min(id, ids_[atom]);
     }
     ClusterLabels& label = labels_.emplace_back();
-    for (const std::int32_t point : clusters.label) label.push_back(smallest[static_cast<std::size_t>(point)]);
+    for (const std::int32_t point : clusters.label)
+      label.push_back(smallest[static_cast<std::size_t>(point)]);
   }
   record.clusters_ms = watch.milliseconds();
 }

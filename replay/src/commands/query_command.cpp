@@ -50,7 +50,8 @@ void declare_options(Command& command, QueryWords& words) {
       ->type_name("QUERY.h5");
   add_file_option(command, "--report", words.report, "Write what was found to this JSON file")
       ->type_name("REPORT.json");
-  add_file_option(command, "--plot,--html", words.plot, "Write distances, clusters and their sizes to this page")
+  add_file_option(command, "--plot,--html", words.plot,
+                  "Write distances, clusters and their sizes to this page")
       ->type_name("PAGE.html");
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }
@@ -59,17 +60,18 @@ std::vector<double> parse_cutoffs(const std::string& text) {
   std::vector<double> cutoffs;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    cutoffs.push_back(parse_number("--clusters", text.substr(begin, end - begin),
-                                   {0, kMaxCoordinate, false,
-                                    "the cutoffs of clusters, lengths in the file's unit, as in 1.2,1.5"}));
+    cutoffs.push_back(parse_number(
+        "--clusters", text.substr(begin, end - begin),
+        {0, kMaxCoordinate, false, "the cutoffs of clusters, lengths in the file's unit, as in 1.2,1.5"}));
     begin = end + 1;
   }
   std::sort(cutoffs.begin(), cutoffs.end());
   cutoffs.erase(std::unique(cutoffs.begin(), cutoffs.end()), cutoffs.end());
   if (cutoffs.size() > kMaxCutoffs) {
-    throw UsageError(fmt::format("--clusters gives {} cutoffs, and {} are the most; give fewer (the report "
-                                 "tells the number of clusters at every cutoff)",
-                                 cutoffs.size(), kMaxCutoffs));
+    throw UsageError(
+        fmt::format("--clusters gives {} cutoffs, and {} are the most; give fewer (the report "
+                    "tells the number of clusters at every cutoff)",
+                    cutoffs.size(), kMaxCutoffs));
   }
   return cutoffs;
 }
@@ -115,7 +117,8 @@ int run(const QueryWords& words) {
 
 void add_query_command(Command& app, int& exit_code) {
   auto* command = app.add_subcommand(
-      "query", "Ask every frame for the nearest atoms of each, the closest pair, and clusters at every cutoff");
+      "query",
+      "Ask every frame for the nearest atoms of each, the closest pair, and clusters at every cutoff");
   const auto words = std::make_shared<QueryWords>();
   declare_options(*command, *words);
   command->callback([words, &exit_code] { exit_code = run(*words); });

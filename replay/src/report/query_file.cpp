@@ -86,7 +86,8 @@ void QueryFile::append(const std::vector<std::int64_t>& ids, const SpanningTree&
   std::vector<std::int64_t> i, j;
   std::vector<double> distance;
   for (const TreeEdge& edge : tree.edges) {
-    const auto [a, b] = std::minmax(ids[static_cast<std::size_t>(edge.a)], ids[static_cast<std::size_t>(edge.b)]);
+    const auto [a, b] =
+        std::minmax(ids[static_cast<std::size_t>(edge.a)], ids[static_cast<std::size_t>(edge.b)]);
     i.push_back(a);
     j.push_back(b);
     distance.push_back(std::sqrt(edge.distance2));

@@ -31,7 +31,8 @@ std::string nearest_card(const QueryReport& report) {
     chart.series[2].y.push_back(spread.least());
   }
   if (chart.x.size() < 2) return "";
-  return html_card("Nearest atoms", "Distance of the nearest atom, of the second nearest, and so on, over all atoms.",
+  return html_card("Nearest atoms",
+                   "Distance of the nearest atom, of the second nearest, and so on, over all atoms.",
                    line_chart(chart));
 }
 
@@ -65,9 +66,10 @@ std::string curve_card(const QueryReport& report) {
                             fmt::format("{}: {}", readable(point.cutoff), readable(point.clusters))});
   }
   if (chart.points.empty()) return "";
-  return html_card("Clusters at every cutoff",
-                   "How many clusters a frame has, as a mean: atoms joined by steps no longer than the cutoff.",
-                   log_log_chart(chart));
+  return html_card(
+      "Clusters at every cutoff",
+      "How many clusters a frame has, as a mean: atoms joined by steps no longer than the cutoff.",
+      log_log_chart(chart));
 }
 
 std::string largest_card(const QueryReport& report) {

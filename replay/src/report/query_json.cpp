@@ -75,7 +75,8 @@ Json curve_json(const QueryReport& report) {
 
 template <class Value>
 Json closest_column(const QueryReport& report, Value value) {
-  return column(report, [&](const QueryFrame& f) { return f.closest ? Json(value(*f.closest)) : Json(nullptr); });
+  return column(report,
+                [&](const QueryFrame& f) { return f.closest ? Json(value(*f.closest)) : Json(nullptr); });
 }
 
 Json per_frame_json(const QueryReport& report) {
