@@ -19,6 +19,7 @@ BELOW = {
     "lib": [],
     "forces": ["lib"],
     "proximity": ["lib"],
+    "kinetic": ["lib"],
     "necklace_polymer": ["lib"],
     "power_diagram": ["lib", "necklace_polymer"],
     "trajectory": ["lib"],
