@@ -20,7 +20,8 @@ constexpr double kGrowth = 4;
 constexpr std::size_t kCrowd = 32;
 
 double largest_distance(const KineticParams& params) {
-  return params.radii.empty() ? params.cutoff : 2 * *std::max_element(params.radii.begin(), params.radii.end());
+  return params.radii.empty() ? params.cutoff
+                              : 2 * *std::max_element(params.radii.begin(), params.radii.end());
 }
 
 /// With two points in their balls and tracked, the image that is meant stays the nearest one.
@@ -203,9 +204,8 @@ std::vector<Edge> BallEdges::near_home(std::int32_t id) {
     if (other != id && are_near(edge)) near.push_back(edge);
   };
   const auto self = static_cast<std::size_t>(id);
-  const double widest = params_.radii.empty()
-                            ? params_.cutoff
-                            : params_.radii[self] + 0.5 * largest_distance(params_);
+  const double widest =
+      params_.radii.empty() ? params_.cutoff : params_.radii[self] + 0.5 * largest_distance(params_);
   search_.find_near(homes_[self].position, widest + rooms_[self] + room_, [&](std::int32_t other) {
     if (!is_stray_[static_cast<std::size_t>(other)]) look_at(other);
   });

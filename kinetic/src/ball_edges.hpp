@@ -14,9 +14,9 @@
 
 namespace dch::kinetic {
 
-/// The production engine. Each point has a home and stays in a ball around it until its exit. While two points
-/// are in their balls they can only be an edge if their homes are within their distance and the radii of both
-/// balls: the tracked pairs are all these.
+/// The production engine. Each point has a home and stays in a ball around it until its exit. While two
+/// points are in their balls they can only be an edge if their homes are within their distance and the radii
+/// of both balls: the tracked pairs are all these.
 class BallEdges : public KineticEdges {
  public:
   BallEdges(const KineticParams& params, Span<const FlightPlan> plans, double start);
@@ -56,15 +56,15 @@ class BallEdges : public KineticEdges {
   double room_;       ///< radius of the balls when all points get a home [length]
   double most_room_;  ///< and at most [length]
   HomeSearch search_;
-  std::vector<FlightPlan> homes_;            ///< at rest
-  std::vector<double> rooms_;  ///< by point: the radius of its ball [length]
-  std::vector<std::int32_t> strays_;         ///< who got a home since all did
-  std::vector<bool> is_stray_;               ///< by point
+  std::vector<FlightPlan> homes_;     ///< at rest
+  std::vector<double> rooms_;         ///< by point: the radius of its ball [length]
+  std::vector<std::int32_t> strays_;  ///< who got a home since all did
+  std::vector<bool> is_stray_;        ///< by point
   std::vector<Pair> pairs_;
   std::vector<std::int32_t> free_pairs_;
   std::vector<std::vector<std::int32_t>> pairs_of_;  ///< by point, of both points of a pair
-  std::vector<std::int32_t> found_;          ///< by point: its pair with the point at hand, -1 for none
-  PointQueue events_;                        ///< by the first point of a pair
+  std::vector<std::int32_t> found_;  ///< by point: its pair with the point at hand, -1 for none
+  PointQueue events_;                ///< by the first point of a pair
   PointQueue exits_;
 };
 

@@ -38,9 +38,8 @@ class Descent {
     if (metric_.distance2(at_, structure_.position(level, node)) > reach * reach) return;
     if (level == 0) return f_(structure_.points.id[node]);
     if (structure_.is_singleton(level, node)) f_(structure_.levels[level].id[node]);
-    structure_.for_each_child(level, node, [&](std::int32_t child) {
-      visit(level - 1, child, reach - radius(level - 1));
-    });
+    structure_.for_each_child(
+        level, node, [&](std::int32_t child) { visit(level - 1, child, reach - radius(level - 1)); });
   }
 
   const Metric& metric_;
@@ -72,7 +71,8 @@ const NeighborList& HomeSearch::find_all(Span<const Vec3> homes) {
 
 void HomeSearch::find_near(Vec3 position, double reach, const std::function<void(std::int32_t)>& f) {
   const Structure& structure = hierarchy_.view().structure();
-  detail::with_metric(params_.box, [&](const auto& metric) { Descent(metric, structure, position, reach, f); });
+  detail::with_metric(params_.box,
+                      [&](const auto& metric) { Descent(metric, structure, position, reach, f); });
 }
 
 }  // namespace dch::kinetic

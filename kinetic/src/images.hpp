@@ -15,9 +15,7 @@ class Images {
 
   const Box& box() const { return box_; }
   /// What makes the nearest image of a displacement when added to it.
-  Vec3 to_nearest(Vec3 d) const {
-    return box_.any_periodic() ? to_image(d, box_.nearest_image(d)) : Vec3{};
-  }
+  Vec3 to_nearest(Vec3 d) const { return box_.any_periodic() ? to_image(d, box_.nearest_image(d)) : Vec3{}; }
   /// The same for another image, which may be off by rounding.
   Vec3 to_image(Vec3 d, Vec3 image) const { return lattice_.vector(lattice_.integers(image - d)); }
 

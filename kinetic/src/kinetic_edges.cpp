@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <string>
+
 #include <dch/base/error.hpp>
 #include <dch/hierarchy/hierarchy_params.hpp>
 #include <dch/kinetic/kinetic_edges.hpp>
-#include <string>
 
 #include "base/describe.hpp"
 #include "geometry/position_check.hpp"
@@ -92,7 +93,8 @@ double KineticEdges::distance(Edge edge) const {
 void KineticEdges::set_motion(std::int32_t id, Vec3 velocity, Vec3 acceleration) {
   if (id < 0 || static_cast<std::size_t>(id) >= size())
     throw InvalidParameter("point " + std::to_string(id) + " is not within 0.." +
-                           std::to_string(static_cast<std::int64_t>(size()) - 1) + "; ids are places in the "
+                           std::to_string(static_cast<std::int64_t>(size()) - 1) +
+                           "; ids are places in the "
                            "plans given at the start");
   check_motion(static_cast<std::size_t>(id), velocity, acceleration);
   plans_[static_cast<std::size_t>(id)] = {now_, box().wrap(position(id)), velocity, acceleration};

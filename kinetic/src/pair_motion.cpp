@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <dch/kinetic/pair_motion.hpp>
 #include <limits>
+
+#include <dch/kinetic/pair_motion.hpp>
 
 #include "bracketed_root.hpp"
 

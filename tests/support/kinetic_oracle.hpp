@@ -136,8 +136,8 @@ class KineticOracle {
     }
     return found;
   }
-  void halve(Edge edge, const FlightPlan& p, const FlightPlan& q, double from, double to, long double gap_from,
-             long double gap_to, std::vector<EdgeEvent>& found) const {
+  void halve(Edge edge, const FlightPlan& p, const FlightPlan& q, double from, double to,
+             long double gap_from, long double gap_to, std::vector<EdgeEvent>& found) const {
     const double fastest = std::sqrt(std::max(norm2(velocity_at(q, from) - velocity_at(p, from)),
                                               norm2(velocity_at(q, to) - velocity_at(p, to))));
     if (std::abs(gap_from) + std::abs(gap_to) > fastest * (to - from) * (1 + 1e-9) + 1e-12) return;

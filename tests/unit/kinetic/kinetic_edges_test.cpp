@@ -90,7 +90,8 @@ TEST(KineticEdges, NoPointsOnePointAndPointsOnOneSpot) {
 /// A lattice that shrinks towards the origin: all pairs of neighbors come within the distance at one time.
 TEST(KineticEdges, ManyAtOneTimeComeInTheOrderOfTheirIds) {
   std::vector<FlightPlan> plans;
-  for (const Vec3 p : scenes::fcc(Box::none(), 2 * std::sqrt(2.0), 200)) plans.push_back({0, p, -0.25 * p, {}});
+  for (const Vec3 p : scenes::fcc(Box::none(), 2 * std::sqrt(2.0), 200))
+    plans.push_back({0, p, -0.25 * p, {}});
   auto engine = make_kinetic_edges(with_cutoff(std::sqrt(2.0)), plans, 0);
   std::vector<EdgeEvent> events;
   engine->advance_to(3, [&](const EdgeEvent& event) { events.push_back(event); });

@@ -139,8 +139,8 @@ TEST(PairMotion, AtItsDistanceAPairCountsByWhereItIsGoing) {
   };
   EXPECT_TRUE(with({-1, 0, 0}, {}).is_within_after(0));
   EXPECT_FALSE(with({1, 0, 0}, {}).is_within_after(0));
-  EXPECT_FALSE(with({0, 1, 0}, {}).is_within_after(0));          // along the sphere, so off it
-  EXPECT_TRUE(with({0, 1, 0}, {-2, 0, 0}).is_within_after(0));   // pulled in more than that
+  EXPECT_FALSE(with({0, 1, 0}, {}).is_within_after(0));         // along the sphere, so off it
+  EXPECT_TRUE(with({0, 1, 0}, {-2, 0, 0}).is_within_after(0));  // pulled in more than that
   EXPECT_FALSE(with({0, 0, 0}, {1, 0, 0}).is_within_after(0));
   EXPECT_TRUE(PairMotion({}, {0, {1, 0, 0}, {}, {}}, {}, 1).is_within_after(0));  // for good
   // It leaves at once if it was within, and does not come back.
@@ -169,7 +169,8 @@ TEST(PairMotion, FarAwayAndFast) {
   const PairMotion far({}, {0, {1e12, 0, 0}, {-1e6, 0, 0}, {}}, {}, 1);
   EXPECT_NEAR(far.next_crossing(0, false), 1e6 - 1e-6, 1e-9);
   EXPECT_NEAR(far.next_crossing(1e6, true), 1e6 + 1e-6, 1e-9);
-  const PairMotion largest({}, {0, {kMaxMagnitude, 0, 0}, {-kMaxMagnitude, 0, 0}, {kMaxMagnitude, 0, 0}}, {}, 1);
+  const PairMotion largest({}, {0, {kMaxMagnitude, 0, 0}, {-kMaxMagnitude, 0, 0}, {kMaxMagnitude, 0, 0}}, {},
+                           1);
   EXPECT_EQ(largest.next_crossing(0, false), kNever);
   const PairMotion slow({}, {0, {2, 0, 0}, {}, {-1e-40, 0, 0}}, {}, 1);
   EXPECT_NEAR(slow.next_crossing(0, false) / std::sqrt(2e40), 1, 1e-14);
