@@ -10,7 +10,7 @@ namespace dch::kinetic {
 namespace {
 
 /// Room over the mean distance of a pair: more room, fewer searches, but longer lists.
-constexpr double kRoom = 0.15;
+constexpr double kRoom = 0.2;
 /// Exits are taken this share of the room early, which is far more than roots and distances round.
 constexpr double kEarly = 1e-6;
 /// How many points may have homes of their own, beyond a share of all.

@@ -57,10 +57,12 @@ std::string CertifiedHierarchy::check_node(int level, std::int32_t id) const {
 std::string CertifiedHierarchy::check_pair(int level, Edge edge) const {
   const double apart = std::sqrt(distance2(edge.a, edge.b)), limit = threshold(level, edge);
   const bool is_edge = are_joined(level, edge.a, edge.b), is_potential = are_potential(level, edge);
-  if (level > 0 && apart < covering_radius(level - 1) * (1 - kBand)) return text(level, edge, "not separated");
+  if (level > 0 && apart < covering_radius(level - 1) * (1 - kBand))
+    return text(level, edge, "not separated");
   // Those of level 0 that have just been found to be otherwise have their event ahead, at the present time.
   const bool is_due = level == 0 && next_event() <= now_;
-  if (is_edge && apart > limit * (1 + kBand) && !is_due) return text(level, edge, "joined, but too far apart");
+  if (is_edge && apart > limit * (1 + kBand) && !is_due)
+    return text(level, edge, "joined, but too far apart");
   if (!is_edge && apart < limit * (1 - kBand) && !is_due) return text(level, edge, "near, but not joined");
   if (is_edge && !is_potential) return text(level, edge, "joined, but their parents are not");
   if (has({level, edge, Kind::edge}) != is_edge) return text(level, edge, "edge certificate");

@@ -13,14 +13,16 @@ namespace {
 constexpr double kStretch = 1.25;
 
 double largest_distance(const KineticParams& params) {
-  return params.radii.empty() ? params.cutoff : 2 * *std::max_element(params.radii.begin(), params.radii.end());
+  return params.radii.empty() ? params.cutoff
+                              : 2 * *std::max_element(params.radii.begin(), params.radii.end());
 }
 
 Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 }  // namespace
 
-CertifiedHierarchy::CertifiedHierarchy(const KineticParams& params, Span<const FlightPlan> plans, double start)
+CertifiedHierarchy::CertifiedHierarchy(const KineticParams& params, Span<const FlightPlan> plans,
+                                       double start)
     : KineticHierarchy(params, plans, start),
       images_(params.box),
       base_radius_(largest_distance(params) / (2 * kStretch)),
@@ -163,7 +165,8 @@ void CertifiedHierarchy::renew_pair(int level, std::int32_t a, std::int32_t b, b
 void CertifiedHierarchy::renew_children(int level, Edge edge) {
   if (level == 0) return;
   for (const std::int32_t x : std::set<std::int32_t>(node(level, edge.a).children))
-    for (const std::int32_t y : std::set<std::int32_t>(node(level, edge.b).children)) renew_pair(level - 1, x, y);
+    for (const std::int32_t y : std::set<std::int32_t>(node(level, edge.b).children))
+      renew_pair(level - 1, x, y);
 }
 
 void CertifiedHierarchy::want(const Key& key, bool is_wanted, bool has_crossed) {

@@ -108,7 +108,7 @@ class CertifiedHierarchy : public KineticHierarchy {
   std::string check_pair(int level, Edge edge) const;
 
   Images images_;
-  double base_radius_;          ///< R_0 [length]
+  double base_radius_;  ///< R_0 [length]
   std::vector<Level> levels_;
   std::map<Key, End> ends_;
   std::set<End> queue_;

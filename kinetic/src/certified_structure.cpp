@@ -79,7 +79,8 @@ void CertifiedHierarchy::set_parent(int level, std::int32_t id, std::int32_t par
   node(level + 1, parent).children.insert(id);
   if (parent != id) make({level, {std::min(id, parent), std::max(id, parent)}, Kind::parent_child});
   std::set<std::int32_t> others;
-  for (const Key& key : node(level, id).certificates) others.insert(key.edge.a == id ? key.edge.b : key.edge.a);
+  for (const Key& key : node(level, id).certificates)
+    others.insert(key.edge.a == id ? key.edge.b : key.edge.a);
   for (const std::int32_t near : node(level + 1, parent).neighbors) {
     const auto& cousins = node(level + 1, near).children;
     others.insert(cousins.begin(), cousins.end());

@@ -18,16 +18,25 @@ using detail::describe;
 bool is_in_range(double x) { return std::abs(x) <= kMaxMagnitude; }  // false for NaN
 bool is_in_range(Vec3 v) { return is_in_range(v.x) && is_in_range(v.y) && is_in_range(v.z); }
 
-void check(bool is_right, const std::string& what, const char* remedy) {
-  if (is_right) return;
-  throw InvalidParameter(what + " is not finite or beyond " + describe(kMaxMagnitude) + "; " + remedy);
+/// @param what names the value, whose text is made for an error alone: the check is made at every event
+template <class Value, class What>
+void check(const Value& value, const What& what, const char* remedy) {
+  if (is_in_range(value)) return;
+  throw InvalidParameter(what() + " = " + describe(value) + " is not finite or beyond " +
+                         describe(kMaxMagnitude) + "; " + remedy);
 }
 
 void check_motion(std::size_t id, Vec3 velocity, Vec3 acceleration) {
-  const std::string of = " of point " + std::to_string(id) + " = ";
-  check(is_in_range(velocity), "velocity" + of + describe(velocity), "check what it was computed from");
-  check(is_in_range(acceleration), "acceleration" + of + describe(acceleration),
-        "check what it was computed from");
+  const auto of_point = [&](const char* what) {
+    return [what, id] { return what + std::string(" of point ") + std::to_string(id); };
+  };
+  check(velocity, of_point("velocity"), "check what it was computed from");
+  check(acceleration, of_point("acceleration"), "check what it was computed from");
+}
+
+void check_time(double time, const char* name) {
+  check(
+      time, [&] { return std::string(name); }, "choose another origin or unit of time");
 }
 
 void check_length(double length, const std::string& what) {
@@ -59,16 +68,17 @@ double check_distances(const KineticParams& params, std::size_t points) {
 }
 
 void check_plans(Span<const FlightPlan> plans, double start, const Box& box) {
-  check(is_in_range(start), "start = " + describe(start), "choose another origin of time");
+  check_time(start, "start");
   std::vector<Vec3> positions;
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    const std::string of = " of the plan of point " + std::to_string(i) + " = ";
-    check(is_in_range(plans[i].time), "time" + of + describe(plans[i].time), "choose another origin of time");
-    check(is_in_range(plans[i].position), "position" + of + describe(plans[i].position),
-          "check the coordinates");
+    const auto of_plan = [&](const char* what) {
+      return [what, i] { return what + std::string(" of the plan of point ") + std::to_string(i); };
+    };
+    check(plans[i].time, of_plan("time"), "choose another origin or unit of time");
+    check(plans[i].position, of_plan("position"), "check the coordinates");
     check_motion(i, plans[i].velocity, plans[i].acceleration);
     if (plans[i].time > start)
-      throw InvalidParameter("time" + of + describe(plans[i].time) + " is after the start, " +
+      throw InvalidParameter(of_plan("time")() + " = " + describe(plans[i].time) + " is after the start, " +
                              describe(start) + "; give the plan that holds then");
     positions.push_back(position_at(plans[i], start));
   }
@@ -102,7 +112,7 @@ void KineticEdges::set_motion(std::int32_t id, Vec3 velocity, Vec3 acceleration)
 }
 
 std::optional<EdgeEvent> KineticEdges::step(double limit) {
-  check(is_in_range(limit), "time = " + describe(limit), "step to a time that is");
+  check_time(limit, "time");
   if (limit < now_)
     throw InvalidParameter("time = " + describe(limit) + " is before now, " + describe(now_) +
                            "; time does not run back: start anew from plans of then");

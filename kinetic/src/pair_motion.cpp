@@ -14,8 +14,8 @@ namespace {
 /// A bound on the roundings of each of the quantities below, in units of what is rounded.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
-double norm(Vec3 v) { return std::sqrt(norm2(v)); }
-double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+/// At least the length of a vector.
+double sum(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// Polynomial of degree 3, lowest coefficient first.
 struct Cubic {
@@ -57,19 +57,20 @@ PairMotion::PairMotion(const FlightPlan& first, const FlightPlan& second, Vec3 s
   apart_ = (q - p) + shift;
   velocity_ = v - u;
   acceleration_ = second.acceleration - first.acceleration;
-  magnitude_ = largest(p) + largest(q) + largest(shift);
-  speed_ = largest(u) + largest(v);
+  magnitude_ = sum(p) + sum(q) + sum(shift);
+  speed_ = sum(u) + sum(v);
 }
 
 bool PairMotion::is_within_after(double time) const {
   const double passed = time - start_;
   const Vec3 d = apart(passed), v = rate(passed);
-  const double f = norm2(d) - distance_ * distance_, slope = dot(d, v), length = norm(d);
+  const double f = norm2(d) - distance_ * distance_;
   // Positions are off by the rounding of coordinates, and of the time that they are taken at.
-  const double off =
-      kRounding * (magnitude_ + length + distance_ + (norm(v) + speed_) * (std::abs(time) + passed));
-  if (std::abs(f) > off * (length + distance_)) return f < 0;
-  if (std::abs(slope) > off * norm(v) + kRounding * speed_ * length) return slope < 0;
+  const double far = sum(d) + distance_, fast = sum(v) + speed_;
+  const double off = kRounding * (magnitude_ + far + fast * (std::abs(time) + passed));
+  if (std::abs(f) > off * far) return f < 0;
+  const double slope = dot(d, v);
+  if (std::abs(slope) > off * fast + kRounding * speed_ * far) return slope < 0;
   const double curvature = norm2(v) + dot(d, acceleration_);
   return curvature == 0 ? f <= 0 : curvature < 0;
 }
@@ -82,7 +83,9 @@ double PairMotion::next_crossing(double after, bool is_within) const {
 
 /// |d + v t|^2 = D^2 has the discriminant v^2 D^2 - |d x v|^2, which cancels nothing far away.
 double PairMotion::next_linear(bool is_within) const {
-  const double a = norm2(velocity_), b = dot(apart_, velocity_), c = excess(0);
+  const double b = dot(apart_, velocity_);
+  if (!is_within && b >= 0) return kNever;
+  const double a = norm2(velocity_), c = excess(0);
   const double discriminant = a * distance_ * distance_ - norm2(cross(apart_, velocity_));
   if (!(discriminant > 0) || a == 0) return kNever;
   const double root = std::sqrt(discriminant);

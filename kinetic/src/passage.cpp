@@ -47,7 +47,8 @@ double when_none_is_within(const std::vector<PairMotion>& motions, double now, d
 
 }  // namespace
 
-bool is_any_within(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance, double now) {
+bool is_any_within(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance,
+                   double now) {
   const Vec3 apart = position_at(q, now) - position_at(p, now);
   const double nearest = std::sqrt(norm2(images.box().nearest_image(apart)));
   if (!images.box().any_periodic() || distance < images.box().max_cutoff())
@@ -58,8 +59,8 @@ bool is_any_within(const Images& images, const FlightPlan& p, const FlightPlan& 
                      [&](const PairMotion& motion) { return motion.is_within_after(now); });
 }
 
-Passage next_passage(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance, double now,
-                     bool is_within) {
+Passage next_passage(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance,
+                     double now, bool is_within) {
   const Box& box = images.box();
   const Vec3 apart = position_at(q, now) - position_at(p, now);
   if (!box.any_periodic() || (is_within && distance < box.max_cutoff()))

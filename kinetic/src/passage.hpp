@@ -18,10 +18,11 @@ struct Passage {
 };
 
 /// Whether some image is within the distance just after `now`.
-bool is_any_within(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance, double now);
+bool is_any_within(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance,
+                   double now);
 
 /// The first time from `now` on at which that changes.
-Passage next_passage(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance, double now,
-                     bool is_within);
+Passage next_passage(const Images& images, const FlightPlan& p, const FlightPlan& q, double distance,
+                     double now, bool is_within);
 
 }  // namespace dch::kinetic

@@ -21,8 +21,7 @@ void step_both(KineticHierarchy& reference, KineticEdges& engine, double until, 
   for (;;) {
     const auto expected = reference.step(until), found = engine.step(until);
     ASSERT_EQ(reference.validate(), "") << "at " << reference.now();
-    ASSERT_EQ(found.has_value(), expected.has_value())
-        << "at " << reference.now() << " and " << engine.now();
+    ASSERT_EQ(found.has_value(), expected.has_value()) << "at " << reference.now() << " and " << engine.now();
     if (!expected) return;
     ASSERT_EQ(found->time, expected->time);
     ASSERT_EQ(found->edge, expected->edge) << "at " << expected->time;

@@ -29,9 +29,9 @@ struct MovingScene {
     if (random.below(2) == 0)
       for (std::size_t i = 0; i < plans.size(); ++i)
         params.radii.push_back(0.5 * widest * std::pow(20, -random.uniform()));
-    what = "seed " + std::to_string(seed) + ": " + std::to_string(plans.size()) + " points, " + set.name + ", " +
-           box.name + (is_curved ? ", curved" : ", straight") + (params.radii.empty() ? "" : ", radii") +
-           ", speed " + std::to_string(speed);
+    what = "seed " + std::to_string(seed) + ": " + std::to_string(plans.size()) + " points, " + set.name +
+           ", " + box.name + (is_curved ? ", curved" : ", straight") +
+           (params.radii.empty() ? "" : ", radii") + ", speed " + std::to_string(speed);
   }
 
   Vec3 velocity() { return speed * random.in_cube(random.below(10) == 0 ? 5 : 1); }

@@ -23,7 +23,7 @@ struct KineticCounters {
   std::int64_t certificates = 0;       ///< now
   std::int64_t most_certificates = 0;  ///< at any time since the start
   // Responsiveness
-  std::int64_t made = 0;             ///< certificates made or predicted anew by all events and changes of plan
+  std::int64_t made = 0;  ///< certificates made or predicted anew by all events and changes of plan
   std::int64_t most_made_by_one = 0;  ///< by one event or one change of plan
 
   std::int64_t events() const { return external + upper_edges + lost_parents + demotions; }
