@@ -103,6 +103,7 @@ class CertifiedHierarchy : public KineticHierarchy {
   void begin_change() { made_before_ = counters_.made; }
   void end_change();
 
+  double rounding(Edge edge, double distance) const;
   std::string check_level(int level) const;
   std::string check_node(int level, std::int32_t id) const;
   std::string check_pair(int level, Edge edge) const;

@@ -2,6 +2,7 @@
 //
 // The kinetic DCH with the four certificates of the thesis: valid after every event, and with the same edges
 // at the same times as the engine for production.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
@@ -19,8 +20,11 @@ namespace {
 void step_both(KineticHierarchy& reference, KineticEdges& engine, double until, MovingScene& scene,
                bool changes_plans) {
   for (;;) {
-    const auto expected = reference.step(until), found = engine.step(until);
+    const double next = std::min(until, reference.next_event());
+    const auto expected = reference.step(next);
     ASSERT_EQ(reference.validate(), "") << "at " << reference.now();
+    if (!expected && next < until) continue;
+    const auto found = engine.step(until);
     ASSERT_EQ(found.has_value(), expected.has_value()) << "at " << reference.now() << " and " << engine.now();
     if (!expected) return;
     ASSERT_EQ(found->time, expected->time);

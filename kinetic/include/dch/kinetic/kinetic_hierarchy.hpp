@@ -49,8 +49,8 @@ class KineticHierarchy : public KineticEdges {
   /// The point's parent in the level above `level`: itself if it stands there; -1 for the root.
   virtual std::int32_t parent(std::int32_t id, int level) const = 0;
   /// Checks all invariants of Lemma 5.3.1, and that all certificates are there, against all pairs of each
-  /// level now; pairs that are at a threshold to within 1e-9 may stand on either side. Empty if all hold,
-  /// else the first that does not.
+  /// level now; pairs that are at a threshold to within 1e-9, or rounding, may stand on either side. Empty if
+  /// all hold, else the first that does not.
   virtual std::string validate() const = 0;
 
  protected:
