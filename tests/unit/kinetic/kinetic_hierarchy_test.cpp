@@ -102,7 +102,8 @@ TEST(KineticHierarchy, ALatticeThatShrinksStaysValid) {
   auto hierarchy = make_kinetic_hierarchy(with_cutoff(std::sqrt(0.5)), plans, 0);
   auto engine = make_kinetic_edges(with_cutoff(std::sqrt(0.5)), plans, 0);
   const std::vector<EdgeEvent> events = run_valid(*hierarchy, 7.5);
-  EXPECT_EQ(events.size(), plans.size() * (plans.size() - 1) / 2) << "each pair comes within the cutoff, and none leaves it";
+  EXPECT_EQ(events.size(), plans.size() * (plans.size() - 1) / 2)
+      << "each pair comes within the cutoff, and none leaves it";
   for (const EdgeEvent& event : events) {
     const auto found = engine->step(7.5);
     ASSERT_TRUE(found);
