@@ -100,6 +100,14 @@ double KineticEdges::distance(Edge edge) const {
                                      params_.radii[static_cast<std::size_t>(edge.b)];
 }
 
+/// What follows ends with is_whole_ = true, unless it throws.
+void KineticEdges::begin_change() {
+  if (!is_whole_)
+    throw InvalidParameter("an earlier step or change of plan was broken off, at " + describe(now_) +
+                           "; start anew from plans of then");
+  is_whole_ = false;
+}
+
 void KineticEdges::set_motion(std::int32_t id, Vec3 velocity, Vec3 acceleration) {
   if (id < 0 || static_cast<std::size_t>(id) >= size())
     throw InvalidParameter("point " + std::to_string(id) + " is not within 0.." +
@@ -107,8 +115,10 @@ void KineticEdges::set_motion(std::int32_t id, Vec3 velocity, Vec3 acceleration)
                            "; ids are places in the "
                            "plans given at the start");
   check_motion(static_cast<std::size_t>(id), velocity, acceleration);
+  begin_change();
   plans_[static_cast<std::size_t>(id)] = {now_, box().wrap(position(id)), velocity, acceleration};
   follow(id);
+  is_whole_ = true;
 }
 
 std::optional<EdgeEvent> KineticEdges::step(double limit) {
@@ -116,7 +126,10 @@ std::optional<EdgeEvent> KineticEdges::step(double limit) {
   if (limit < now_)
     throw InvalidParameter("time = " + describe(limit) + " is before now, " + describe(now_) +
                            "; time does not run back: start anew from plans of then");
-  return next_until(limit);
+  begin_change();
+  const auto event = next_until(limit);
+  is_whole_ = true;
+  return event;
 }
 
 void KineticEdges::advance_to(double time, const EdgeCallback& callback) {

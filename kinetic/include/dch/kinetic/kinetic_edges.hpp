@@ -60,6 +60,9 @@ inline constexpr double kLargestShareOfBox = 0.9;
 /// by where it is going (PairMotion). Events at the same time come in the order of their ids. Times are those
 /// of the roots of the pair's own polynomial: the same whatever the history of the structure, so that all
 /// implementations give the same events. Not thread-safe.
+///
+/// What is thrown for arguments that do not fit changes nothing. If anything else is thrown by step(),
+/// advance_to() or set_motion(), as std::bad_alloc is, these throw InvalidParameter from then on.
 class KineticEdges {
  public:
   virtual ~KineticEdges() = default;
@@ -108,6 +111,11 @@ class KineticEdges {
   KineticParams params_;
   std::vector<FlightPlan> plans_;
   double now_;
+
+ private:
+  void begin_change();
+
+  bool is_whole_ = true;  ///< whether no change has been broken off
 };
 
 /// For production: each point has a ball around its home, and a list of the pairs that can meet while both

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// Memory runs out while edges of moving points are made or followed: then they are followed no further, and
+// say so, or go on as if nothing had been.
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <dch/kinetic/kinetic_hierarchy.hpp>
+
+#include "random.hpp"
+#include "sweep.hpp"
+
+namespace dch::faults {
+namespace {
+
+using kinetic::FlightPlan;
+using kinetic::KineticEdges;
+
+struct NamedEngine {
+  std::string name;
+  std::function<std::unique_ptr<KineticEdges>(const kinetic::KineticParams&, const std::vector<FlightPlan>&)>
+      make;
+};
+
+std::vector<NamedEngine> engines() {
+  return {{"engine", [](const auto& params, const auto& plans) { return make_kinetic_edges(params, plans, 0); }},
+          {"reference",
+           [](const auto& params, const auto& plans) { return make_kinetic_hierarchy(params, plans, 0); }}};
+}
+
+class KineticFaults : public ::testing::TestWithParam<NamedEngine> {
+ protected:
+  KineticFaults() {
+    scenes::Random random(71);
+    params_.box = Box::orthorhombic({5, 5, 5});
+    params_.cutoff = 1;
+    for (int k = 0; k < 8; ++k) plans_.push_back({0, random.in_cube(2), random.in_cube(2), {}});
+  }
+  std::unique_ptr<KineticEdges> make() const { return GetParam().make(params_, plans_); }
+  static void move(KineticEdges& edges) {
+    edges.advance_to(0.2);
+    edges.set_motion(3, {1, 2, 3});
+    edges.advance_to(0.3);
+  }
+
+  kinetic::KineticParams params_;
+  std::vector<FlightPlan> plans_;
+};
+
+TEST_P(KineticFaults, ThereIsNothingOrAllAtTheStart) {
+  const auto expected = make()->edges();
+  const SweepResult result = sweep([] { return std::unique_ptr<KineticEdges>(); },
+                                   [&](auto& edges) { edges = make(); },
+                                   [&](auto& edges, Ending) {
+                                     return edges == nullptr || edges->edges() == expected ? "" : "other edges";
+                                   });
+  EXPECT_GT(result.failures, 10);
+  EXPECT_TRUE(result.faults.empty()) << result.faults[0];
+}
+
+TEST_P(KineticFaults, AStepThatIsBrokenOffIsTheLast) {
+  const auto moved = make();
+  move(*moved);
+  const SweepResult result = sweep([&] { return make(); }, [](auto& edges) { move(*edges); },
+                                   [&](auto& edges, Ending ending) -> std::string {
+                                     if (ending == Ending::returned)
+                                       return edges->edges() == moved->edges() ? "" : "other edges";
+                                     try {
+                                       edges->step(1);
+                                     } catch (const InvalidParameter&) {
+                                       return "";
+                                     }
+                                     return "it goes on";
+                                   });
+  EXPECT_GT(result.failures, 5);
+  EXPECT_TRUE(result.faults.empty()) << result.faults[0];
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, KineticFaults, ::testing::ValuesIn(engines()),
+                         [](const auto& engine) { return engine.param.name; });
+
+}  // namespace
+}  // namespace dch::faults
