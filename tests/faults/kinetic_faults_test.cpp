@@ -26,9 +26,10 @@ struct NamedEngine {
 };
 
 std::vector<NamedEngine> engines() {
-  return {{"engine", [](const auto& params, const auto& plans) { return make_kinetic_edges(params, plans, 0); }},
-          {"reference",
-           [](const auto& params, const auto& plans) { return make_kinetic_hierarchy(params, plans, 0); }}};
+  return {
+      {"engine", [](const auto& params, const auto& plans) { return make_kinetic_edges(params, plans, 0); }},
+      {"reference",
+       [](const auto& params, const auto& plans) { return make_kinetic_hierarchy(params, plans, 0); }}};
 }
 
 class KineticFaults : public ::testing::TestWithParam<NamedEngine> {
@@ -52,11 +53,11 @@ class KineticFaults : public ::testing::TestWithParam<NamedEngine> {
 
 TEST_P(KineticFaults, ThereIsNothingOrAllAtTheStart) {
   const auto expected = make()->edges();
-  const SweepResult result = sweep([] { return std::unique_ptr<KineticEdges>(); },
-                                   [&](auto& edges) { edges = make(); },
-                                   [&](auto& edges, Ending) {
-                                     return edges == nullptr || edges->edges() == expected ? "" : "other edges";
-                                   });
+  const SweepResult result =
+      sweep([] { return std::unique_ptr<KineticEdges>(); }, [&](auto& edges) { edges = make(); },
+            [&](auto& edges, Ending) {
+              return edges == nullptr || edges->edges() == expected ? "" : "other edges";
+            });
   EXPECT_GT(result.failures, 10);
   EXPECT_TRUE(result.faults.empty()) << result.faults[0];
 }

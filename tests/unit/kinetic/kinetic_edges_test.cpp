@@ -116,6 +116,22 @@ TEST(KineticEdges, OnePointFarAwayAndFast) {
   EXPECT_NEAR(events[1].time - events[0].time, 0.2, 1e-9);
 }
 
+/// A drop sets the scale of the hierarchy, in which points of the gas around it stand on their own.
+TEST(KineticEdges, APointThatFliesThroughThinGasMeetsAllOnItsWay) {
+  std::vector<FlightPlan> plans{{0, {10, 0.5, 0}, {2, 0, 0}, {}}};
+  for (const Vec3 p : scenes::uniform(600, {4, 4, 4}, 61))
+    plans.push_back({0, p - Vec3{100, 100, 100}, {}, {}});
+  for (int k = 1; k <= 40; ++k) plans.push_back({0, {50.0 * k, 0, 0}, {}, {}});
+  auto engine = make_kinetic_edges(with_cutoff(1), plans, 0);
+  std::vector<EdgeEvent> events;
+  engine->advance_to(1100, [&](const EdgeEvent& event) { events.push_back(event); });
+  ASSERT_EQ(events.size(), 80U);
+  for (int k = 0; k < 40; ++k) {
+    EXPECT_EQ(events[2 * k].edge, (Edge{0, 601 + k}));
+    EXPECT_NEAR(events[2 * k].time, 25 * (k + 1) - 5 - 0.5 * std::sqrt(0.75), 1e-9);
+  }
+}
+
 TEST(KineticEdges, RefuseParametersOutOfRange) {
   const auto refused = [](const KineticParams& params, const std::vector<FlightPlan>& plans, double start) {
     return message_of<Error>([&] { make_kinetic_edges(params, plans, start); });

@@ -60,6 +60,24 @@ TEST(KineticHierarchy, EachBumpThatPassesAnotherIsAnEventOfTheLevels) {
   }
 }
 
+/// Fig. 5.5: an upper row moves along a lower one, so that one pair after the other is matched. After the
+/// start there are m (m + 1) / 2 - 1 of them (erratum E21).
+TEST(KineticHierarchy, RowsThatAreShiftedMatchOnePairAfterTheOther) {
+  constexpr double kGap = 4;
+  for (const int m : {2, 3, 5}) {
+    std::vector<FlightPlan> plans;
+    for (int j = 0; j < m; ++j) {
+      plans.push_back({0, {kGap * j * m, 0, 0}, {}, {}});
+      plans.push_back({0, {kGap * j * (m - 1), 1, 0}, {1, 0, 0}, {}});
+    }
+    auto hierarchy = make_kinetic_hierarchy(with_cutoff(1.25), plans, 0);
+    EXPECT_EQ(hierarchy->edges().size(), 1U);
+    std::size_t matched = 0;
+    for (const EdgeEvent& event : run_valid(*hierarchy, kGap * m * m)) matched += event.appears;
+    EXPECT_EQ(matched, static_cast<std::size_t>(m * (m + 1) / 2 - 1));
+  }
+}
+
 /// Theorem 5.5.1: a pair crosses each of the distances R_i and rho_i at most twice under linear motion.
 TEST(KineticHierarchy, EventsAreBoundedByThePairsTimesTheLevels) {
   scenes::Random random(51);
