@@ -66,11 +66,14 @@ Passage next_passage(const Images& images, const FlightPlan& p, const FlightPlan
   if (!box.any_periodic() || (is_within && distance < box.max_cutoff()))
     return {PairMotion(p, q, images.to_nearest(apart), distance).next_crossing(now, is_within), false};
   const double way = 0.5 * box.min_height(), nearest = std::sqrt(norm2(box.nearest_image(apart)));
+  if (is_within && distance > box.max_distance()) return {};
   const double slack = std::abs(nearest - distance);
   if (slack > way) return {now + time_for(slack / kMargin, p, q, now), true};
-  // What is nearest at some time before the horizon is at most twice the way farther than what is now.
+  // What is nearest at some time before the horizon is at most twice the way farther than what is now. No
+  // image comes within the distance that is not within it and the way.
   const double horizon = now + time_for(way, p, q, now);
-  const auto motions = near_images(images, p, q, distance, apart, nearest + 2 * way);
+  const auto motions =
+      near_images(images, p, q, distance, apart, std::min(nearest + 2 * way, distance + way));
   double time = kNever;
   if (is_within) {
     time = when_none_is_within(motions, now, horizon);
