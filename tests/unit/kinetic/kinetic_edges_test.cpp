@@ -116,6 +116,17 @@ TEST(KineticEdges, OnePointFarAwayAndFast) {
   EXPECT_NEAR(events[1].time - events[0].time, 0.2, 1e-9);
 }
 
+/// So that coordinates do not lose digits, however far points have come.
+TEST(KineticEdges, PlansStartInTheCell) {
+  const std::vector<FlightPlan> plans{{0, {-3, 5, 12}, {7, 0, 0}, {}}};
+  auto engine = make_kinetic_edges(with_cutoff(1, Box::orthorhombic({10, 10, 10})), plans, 0);
+  EXPECT_EQ(engine->plan(0).position, (Vec3{7, 5, 2}));
+  engine->advance_to(2);
+  EXPECT_EQ(engine->position(0), (Vec3{21, 5, 2}));
+  engine->set_motion(0, {1, 0, 0});
+  EXPECT_EQ(engine->plan(0).position, (Vec3{1, 5, 2}));
+}
+
 /// A drop sets the scale of the hierarchy, in which points of the gas around it stand on their own.
 TEST(KineticEdges, APointThatFliesThroughThinGasMeetsAllOnItsWay) {
   std::vector<FlightPlan> plans{{0, {10, 0.5, 0}, {2, 0, 0}, {}}};
