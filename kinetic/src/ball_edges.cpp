@@ -60,7 +60,8 @@ BallEdges::BallEdges(const KineticParams& params, Span<const FlightPlan> plans, 
 }
 
 double BallEdges::next_event() const {
-  return events_.empty() ? kNever : std::min(events_.top().time, exits_.top().time);
+  if (events_.empty()) return kNever;
+  return std::min(events_.top().time, exits_.top().time);
 }
 
 std::vector<Edge> BallEdges::edges() const {
@@ -255,7 +256,7 @@ void BallEdges::set_next(std::int32_t id) {
 }
 
 std::int32_t BallEdges::track(Edge edge) {
-  std::int32_t k = static_cast<std::int32_t>(pairs_.size());
+  auto k = static_cast<std::int32_t>(pairs_.size());
   if (free_pairs_.empty()) {
     pairs_.push_back({});
   } else {

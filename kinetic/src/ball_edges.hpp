@@ -47,7 +47,7 @@ class BallEdges : public KineticEdges {
   void predict(Pair& pair);
   void set_next(std::int32_t id);
   std::int32_t track(Edge edge);
-  void drop(std::int32_t pair);
+  void drop(std::int32_t k);
   Pair& pair(std::int32_t k) { return pairs_[static_cast<std::size_t>(k)]; }
   std::vector<std::int32_t>& pairs_of(std::int32_t id) { return pairs_of_[static_cast<std::size_t>(id)]; }
   std::int32_t partner(std::int32_t k, std::int32_t id) const;

@@ -24,7 +24,7 @@ std::string CertifiedHierarchy::validate() const {
   if (at(0).size() != size()) return "level 0 does not hold all points";
   if (size() > 0 && at(top()).size() != 1) return "the top level holds more than the root";
   for (int level = 0; level < levels(); ++level)
-    if (const std::string fault = check_level(level); !fault.empty()) return fault;
+    if (std::string fault = check_level(level); !fault.empty()) return fault;
   if (ends_.size() != queue_.size() || static_cast<std::int64_t>(ends_.size()) != counters_.certificates)
     return "certificates are counted wrongly";
   return queue_.empty() || next_event() >= now_ ? "" : "a certificate has failed unseen";
@@ -32,10 +32,10 @@ std::string CertifiedHierarchy::validate() const {
 
 std::string CertifiedHierarchy::check_level(int level) const {
   for (const auto& [id, node] : at(level))
-    if (const std::string fault = check_node(level, id); !fault.empty()) return fault;
+    if (std::string fault = check_node(level, id); !fault.empty()) return fault;
   for (auto a = at(level).begin(); a != at(level).end(); ++a)
     for (auto b = std::next(a); b != at(level).end(); ++b)
-      if (const std::string fault = check_pair(level, {a->first, b->first}); !fault.empty()) return fault;
+      if (std::string fault = check_pair(level, {a->first, b->first}); !fault.empty()) return fault;
   return {};
 }
 
@@ -46,7 +46,7 @@ std::string CertifiedHierarchy::check_node(int level, std::int32_t id) const {
   if (level > 0 && !stands(level - 1, id)) return text(level, {id, id}, "does not stand in the level below");
   if (level == top()) return parent < 0 ? "" : text(level, edge, "the root has a parent");
   if (!stands(level + 1, parent)) return text(level, edge, "the parent does not stand in the level above");
-  if (at(level + 1).at(parent).children.count(id) == 0) return text(level, edge, "no child of its parent");
+  if (!at(level + 1).at(parent).children.contains(id)) return text(level, edge, "no child of its parent");
   if (stands(level + 1, id) != (parent == id)) return text(level, edge, "not its own parent");
   if (parent == id) return {};
   if (std::sqrt(distance2(id, parent)) > covering_radius(level) + rounding(edge, covering_radius(level)))

@@ -33,6 +33,11 @@ CertifiedHierarchy::CertifiedHierarchy(const KineticParams& params, Span<const F
   counters_.most_certificates = counters_.certificates;
 }
 
+double CertifiedHierarchy::next_event() const {
+  if (queue_.empty()) return kNever;
+  return queue_.begin()->time;
+}
+
 std::vector<Edge> CertifiedHierarchy::edges() const {
   std::vector<Edge> edges;
   for (const auto& [id, node] : at(0))

@@ -22,7 +22,7 @@ class CertifiedHierarchy : public KineticHierarchy {
  public:
   CertifiedHierarchy(const KineticParams& params, Span<const FlightPlan> plans, double start);
 
-  double next_event() const override { return queue_.empty() ? kNever : queue_.begin()->time; }
+  double next_event() const override;
   std::vector<Edge> edges() const override;
   const KineticCounters& counters() const override { return counters_; }
   std::int64_t certificates_of(std::int32_t id) const override;
@@ -65,7 +65,7 @@ class CertifiedHierarchy : public KineticHierarchy {
   Level& at(int level) { return levels_[static_cast<std::size_t>(level)]; }
   const Level& at(int level) const { return levels_[static_cast<std::size_t>(level)]; }
   Node& node(int level, std::int32_t id) { return at(level).at(id); }
-  bool stands(int level, std::int32_t id) const { return level < levels() && at(level).count(id) > 0; }
+  bool stands(int level, std::int32_t id) const { return level < levels() && at(level).contains(id); }
   int top() const { return levels() - 1; }
 
   double covering_radius(int level) const;
@@ -92,7 +92,7 @@ class CertifiedHierarchy : public KineticHierarchy {
   void renew_pair(int level, std::int32_t a, std::int32_t b, bool has_changed = false);
   void renew_children(int level, Edge edge);
   static bool holds_within(Kind kind) { return kind == Kind::parent_child || kind == Kind::edge; }
-  bool has(const Key& key) const { return ends_.count(key) > 0; }
+  bool has(const Key& key) const { return ends_.contains(key); }
   void want(const Key& key, bool is_wanted, bool has_crossed = false);
   void make(const Key& key, bool has_crossed = false);
   void drop(const Key& key);

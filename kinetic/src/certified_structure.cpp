@@ -115,7 +115,7 @@ void CertifiedHierarchy::remove_edge(int level, Edge edge) {
 }
 
 bool CertifiedHierarchy::are_joined(int level, std::int32_t a, std::int32_t b) const {
-  return at(level).at(a).neighbors.count(b) > 0;
+  return at(level).at(a).neighbors.contains(b);
 }
 
 /// Whether the parents of two nodes are one, or joined.

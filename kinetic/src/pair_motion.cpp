@@ -78,7 +78,8 @@ bool PairMotion::is_within_after(double time) const {
 double PairMotion::next_crossing(double after, bool is_within) const {
   if (acceleration_ != Vec3{}) return next_quadratic(after, is_within);
   const double time = next_linear(is_within);
-  return time >= after ? time : kNever;
+  if (time < after) return kNever;
+  return time;
 }
 
 /// |d + v t|^2 = D^2 has the discriminant v^2 D^2 - |d x v|^2, which cancels nothing far away.
