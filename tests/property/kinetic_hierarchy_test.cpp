@@ -2,64 +2,18 @@
 //
 // The kinetic DCH with the four certificates of the thesis: valid after every event, and with the same edges
 // at the same times as the engine for production.
-#include <algorithm>
-#include <cmath>
 #include <gtest/gtest.h>
-#include <string>
-#include <vector>
-
-#include <dch/kinetic/kinetic_hierarchy.hpp>
 
 #include "effort.hpp"
-#include "moving_scene.hpp"
+#include "kinetic_both.hpp"
 
 namespace dch::kinetic {
 namespace {
 
-/// Steps both up to a time, event by event.
-void step_both(KineticHierarchy& reference, KineticEdges& engine, double until, MovingScene& scene,
-               bool changes_plans) {
-  for (;;) {
-    const double next = std::min(until, reference.next_event());
-    const auto expected = reference.step(next);
-    ASSERT_EQ(reference.validate(), "") << "at " << reference.now();
-    if (!expected && next < until) continue;
-    const auto found = engine.step(until);
-    ASSERT_EQ(found.has_value(), expected.has_value()) << "at " << reference.now() << " and " << engine.now();
-    if (!expected) return;
-    ASSERT_EQ(found->time, expected->time);
-    ASSERT_EQ(found->edge, expected->edge) << "at " << expected->time;
-    ASSERT_EQ(found->appears, expected->appears);
-    if (!changes_plans || scene.random.below(4) > 0) continue;
-    const Vec3 velocity = scene.velocity(), acceleration = scene.acceleration();
-    for (KineticEdges* both : {static_cast<KineticEdges*>(&reference), &engine})
-      both->set_motion(expected->edge.b, velocity, acceleration);
-  }
-}
-
-std::int64_t check(MovingScene scene, double duration) {
-  SCOPED_TRACE(scene.what);
-  auto reference = make_kinetic_hierarchy(scene.params, scene.plans, 0);
-  auto engine = make_kinetic_edges(scene.params, scene.plans, 0);
-  EXPECT_EQ(reference->validate(), "");
-  EXPECT_EQ(reference->edges(), engine->edges());
-  const double end = duration / scene.speed;
-  for (int k = 1; k <= 10 && !testing::Test::HasFailure(); ++k) {
-    step_both(*reference, *engine, end * k / 10, scene, true);
-    EXPECT_EQ(reference->edges(), engine->edges());
-    if (scene.plans.empty()) continue;
-    const std::int32_t id = scene.any_point();
-    const Vec3 velocity = scene.velocity(), acceleration = scene.acceleration();
-    reference->set_motion(id, velocity, acceleration);
-    engine->set_motion(id, velocity, acceleration);
-  }
-  return reference->counters().events();
-}
-
 TEST(KineticHierarchy, IsValidAndAgreesWithTheEngineInRandomScenes) {
   std::int64_t events = 0;
   for (int k = 0; k < effort(150); ++k) {
-    events += check({4200000 + static_cast<std::uint64_t>(k), static_cast<std::size_t>(k % 30)}, 2);
+    events += check_both({4200000 + static_cast<std::uint64_t>(k), static_cast<std::size_t>(k % 30)}, 2);
     ASSERT_FALSE(testing::Test::HasFailure());
   }
   EXPECT_GT(events, effort(10000));
