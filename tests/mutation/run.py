@@ -61,6 +61,7 @@ FILES = {
     "hierarchy/motion/repair.cpp": HIERARCHY,
     "hierarchy/points/insert_remove.cpp": HIERARCHY,
     "hierarchy/points/links.cpp": HIERARCHY,
+    "hierarchy/points/removal.cpp": HIERARCHY,
     "hierarchy/points/singletons.cpp": HIERARCHY,
     "lists/stale_test.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,

@@ -53,6 +53,12 @@ struct Hierarchy::Impl : detail::Structure {
   void set_wrap_slack();
   void set_lengths(int i);
 
+  /// Nodes whose distances were computed to find places for others.
+  void note_tested(std::int64_t nodes) {
+    stats.distances += nodes;
+    stats.visited += nodes;
+  }
+
   // Places for nodes
   struct Cover {
     int level;  ///< lowest level >= target with a node within R_{level-1}; top() + 1 if there is none
@@ -162,8 +168,25 @@ struct Hierarchy::Impl : detail::Structure {
   void grow_top(const Metric& metric);
   template <class Metric>
   void insert(const Metric& metric, std::int32_t point, Vec3 at, Hint hint);
+
+  // points/removal.cpp
+  /// What a point that goes leaves behind.
+  struct Left {
+    std::vector<std::vector<std::int32_t>> nodes;  ///< by level from 1 on: those without a parent
+    std::vector<Hint> hint;               ///< by level: a node there or above that stays and is not far
+    std::int32_t blocks = detail::kNone;  ///< chain of points without a leaf
+    std::vector<std::int32_t> leaves;     ///< that may cover these
+  };
   template <class Metric>
   void remove(const Metric& metric, std::int32_t point);
+  template <class Metric>
+  Left take_out(const Metric& metric, std::int32_t point);
+  template <class Metric>
+  void leave_children(const Metric& metric, int level, std::int32_t node, Left& left);
+  template <class Metric>
+  void adopt_block(const Metric& metric, std::int32_t block, Left& left);
+  template <class Metric>
+  Cover leaf_among(const Metric& metric, Vec3 at, Left& left);
   void trim_top();
 
   // motion/refresh.cpp

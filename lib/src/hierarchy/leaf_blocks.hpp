@@ -25,12 +25,14 @@ inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMaxBlo
 
 /// Level S_0: the points, in blocks of kBlock slots. The points of one leaf (a node of level 1, their
 /// parent) fill a chain of blocks of their own, each from its first slot on, so that lists can be made of
-/// whole blocks; reorder() puts points that are close together into one block.
+/// whole blocks; reorder() puts points that are close together into one block. However long a chain is, a
+/// block enters or leaves it in a few steps.
 struct LeafBlocks {
   std::vector<Vec3> position;       ///< by slot; wrapped into the cell
   std::vector<std::int32_t> id;     ///< by slot; the caller's name of the point, kNone in an empty slot
   std::vector<std::int32_t> leaf;   ///< by block: the parent of its points, kNone for a block not in use
   std::vector<std::int32_t> next;   ///< by block: the next one of its leaf, or kNone
+  std::vector<std::int32_t> prev;   ///< by block: the one before it; of the first block of a chain the last
   std::vector<std::int32_t> count;  ///< by block: points in it
   std::vector<std::int32_t> free;   ///< blocks not in use
   std::int32_t alive = 0;           ///< number of points
@@ -42,19 +44,20 @@ struct LeafBlocks {
   /// Makes room for that many blocks in all.
   void reserve(std::int32_t blocks) {
     const auto room = static_cast<std::size_t>(blocks);
-    for (auto* array : {&leaf, &next, &count}) array->reserve(room);
+    for (auto* array : {&leaf, &next, &prev, &count}) array->reserve(room);
     position.reserve(room * kBlock);
     id.reserve(room * kBlock);
   }
 
-  /// A block with no points yet, for a leaf whose chain has continued with `rest`.
+  /// A block with no points yet: a chain of its own.
   /// @throws InvalidParameter for more blocks than `most`.
-  std::int32_t add_block(std::int32_t owner, std::int32_t rest) {
+  std::int32_t add_block(std::int32_t owner) {
     std::int32_t block;
     if (free.empty()) {
       block = block_count(static_cast<std::int64_t>(leaf.size()) + 1, most) - 1;
       leaf.push_back(kNone);
       next.push_back(kNone);
+      prev.push_back(kNone);
       count.push_back(0);
       position.resize(position.size() + kBlock);
       id.resize(id.size() + kBlock, kNone);
@@ -63,9 +66,40 @@ struct LeafBlocks {
       free.pop_back();
     }
     leaf[block] = owner;
-    next[block] = rest;
-    count[block] = 0;
+    next[block] = kNone;
+    prev[block] = block;
     return block;
+  }
+  /// Puts the chain that begins with `more` at the end of another one.
+  void append(std::int32_t& first, std::int32_t more) {
+    if (more == kNone) return;
+    if (first == kNone) {
+      first = more;
+      return;
+    }
+    const std::int32_t last = prev[first];
+    next[last] = more;
+    prev[first] = prev[more];
+    prev[more] = last;
+  }
+  /// Takes a block out of its chain, to be one of its own.
+  void unlink(std::int32_t& first, std::int32_t block) {
+    const std::int32_t after = next[block], before = prev[block];
+    if (after != kNone || block != first) prev[after == kNone ? first : after] = before;
+    (block == first ? first : next[before]) = after;
+    next[block] = kNone;
+    prev[block] = block;
+  }
+  /// Makes the second block of a chain the first one, and the first one the last.
+  void turn(std::int32_t& first) {
+    const std::int32_t last = prev[first], block = first;
+    if (last == block) return;
+    first = next[block];
+    next[last] = block;
+    next[block] = kNone;
+  }
+  void give_to(std::int32_t owner, std::int32_t first) {
+    for (std::int32_t block = first; block != kNone; block = next[block]) leaf[block] = owner;
   }
   /// Gives up a block that has been taken out of its chain.
   void free_block(std::int32_t block) {
@@ -93,13 +127,13 @@ struct LeafBlocks {
   /// Keeps the memory, for the next build.
   void clear() {
     position.clear();
-    for (auto* array : {&id, &leaf, &next, &count, &free}) array->clear();
+    for (auto* array : {&id, &leaf, &next, &prev, &count, &free}) array->clear();
     alive = 0;
   }
   std::size_t memory_bytes() const {
-    return position.capacity() * sizeof(Vec3) +
-           (id.capacity() + leaf.capacity() + next.capacity() + count.capacity() + free.capacity()) *
-               sizeof(std::int32_t);
+    return position.capacity() * sizeof(Vec3) + (id.capacity() + leaf.capacity() + next.capacity() +
+                                                 prev.capacity() + count.capacity() + free.capacity()) *
+                                                    sizeof(std::int32_t);
   }
 };
 

@@ -11,6 +11,7 @@ SearchStats& SearchStats::operator+=(const SearchStats& other) {
   demotions += other.demotions;
   reparented += other.reparented;
   distances += other.distances;
+  visited += other.visited;
   inserted += other.inserted;
   removed += other.removed;
   return *this;

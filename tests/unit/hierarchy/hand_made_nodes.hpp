@@ -23,8 +23,11 @@ class HandMadeNodes {
     const std::int32_t node = nodes.add(0, center);
     for (const Vec3 p : around) {
       std::int32_t& block = nodes.first_child[static_cast<std::size_t>(node)];
-      if (block == kNone || points.count[static_cast<std::size_t>(block)] == kBlock)
-        block = points.add_block(node, block);
+      if (block == kNone || points.count[static_cast<std::size_t>(block)] == kBlock) {
+        std::int32_t added = points.add_block(node);
+        points.append(added, block);
+        block = added;
+      }
       points.push(block, static_cast<std::int32_t>(positions.size()), center + p);
       positions.push_back(center + p);
     }

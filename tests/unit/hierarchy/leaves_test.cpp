@@ -25,7 +25,11 @@ struct Scene {
       const std::int32_t k = centers.add(0, center);
       if (size == 0) centers.retire(k);
       for (std::int32_t n = 0; n < size; ++n) {
-        if (n % kBlock == 0) centers.first_child[k] = blocks.add_block(k, centers.first_child[k]);
+        if (n % kBlock == 0) {
+          std::int32_t added = blocks.add_block(k);
+          blocks.append(added, centers.first_child[k]);
+          centers.first_child[k] = added;
+        }
         const auto id = static_cast<std::int32_t>(positions.size());
         positions.push_back(center + (n == 1 ? Vec3{0, 3, -4} : random.in_ball(7)));
         blocks.push(centers.first_child[k], id, box.wrap(positions.back()));

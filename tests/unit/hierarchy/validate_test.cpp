@@ -110,6 +110,13 @@ TEST_F(ValidateTest, ReportsABlockInNoChain) {
   expect_report("in blocks");
 }
 
+TEST_F(ValidateTest, ReportsABlockThatIsNotLinkedBack) {
+  auto& points = inside().points;
+  const std::int32_t first = inside().levels[1].first_child[0];
+  points.prev[first] = first == 0 ? 1 : 0;
+  expect_report("is not linked back to");
+}
+
 TEST_F(ValidateTest, ReportsAGapInABlock) {
   auto& points = inside().points;
   const std::int32_t block = inside().levels[1].first_child[0];

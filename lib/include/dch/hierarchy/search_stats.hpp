@@ -20,6 +20,9 @@ struct SearchStats {
   /// for edges, and whether parents still cover (DCH). The same on any number of threads and any instruction
   /// set. Left out is what depends on no position: the sampling of the density, and how far each point moved.
   std::int64_t distances = 0;
+  /// Nodes and blocks of points that insertions and removals looked at, dead ones and those of which no
+  /// distance was computed among them (DCH). The same everywhere, as `distances`.
+  std::int64_t visited = 0;
   std::int64_t inserted = 0;     ///< particles added to a standing structure
   std::int64_t removed = 0;      ///< particles removed from a standing structure
   int levels = 0;                ///< height of the hierarchy now (DCH)

@@ -82,11 +82,12 @@ void Hierarchy::Impl::fill_leaf(detail::LeafBlocks& blocks, std::int32_t leaf,
   const auto count = static_cast<std::int32_t>(local.size());
   const std::int32_t parts = detail::blocks_for(count);
   detail::order_by_halving(local.data(), count);
-  std::int32_t last = detail::kNone, k = 0;
+  std::int32_t& chain = levels[1].first_child[leaf];
+  std::int32_t k = 0;
+  chain = detail::kNone;
   for (std::int32_t part = 0; part < parts; ++part) {
-    const std::int32_t block = blocks.add_block(leaf, detail::kNone);
-    (last == detail::kNone ? levels[1].first_child[leaf] : blocks.next[last]) = block;
-    last = block;
+    const std::int32_t block = blocks.add_block(leaf);
+    blocks.append(chain, block);
     for (; k < detail::share_of_blocks(count, parts, part + 1); ++k) {
       const std::int32_t id = id_of(local[k].index);
       slot_of_id[id] = blocks.push(block, id, position_of(local[k].index));

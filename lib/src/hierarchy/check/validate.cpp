@@ -62,6 +62,12 @@ void check_blocks(const Structure& h, Verdict& verdict) {
     }
   }
   verdict.require(alive == points.alive, 0, points.alive, " points, but ", alive, " in blocks");
+  for (std::size_t block = 0; block < seen.size(); ++block) {
+    if (!seen[block]) continue;
+    const std::int32_t first = h.levels[1].first_child[points.leaf[block]], next = points.next[block];
+    verdict.require(points.prev[next == kNone ? first : next] == static_cast<std::int32_t>(block), 0,
+                    "block ", block, " is not linked back to");
+  }
   for (std::size_t block = 0; block < seen.size(); ++block)
     verdict.require(seen[block] || points.leaf[block] == kNone, 0, "block ", block, " is in no chain");
 }

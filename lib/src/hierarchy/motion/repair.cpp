@@ -189,13 +189,11 @@ void Hierarchy::Impl::demote(int i, std::int32_t node, std::int32_t successor) {
       attach(i - 1, child, successor);
     }
   } else {
-    std::int32_t last = kNone;
-    for (std::int32_t block = level.first_child[node]; block != kNone; block = points.next[block]) {
-      points.leaf[block] = successor;
-      last = block;
-    }
-    points.next[last] = level.first_child[successor];
-    level.first_child[successor] = level.first_child[node];
+    std::int32_t& blocks = level.first_child[successor];
+    std::int32_t given = level.first_child[node];
+    points.give_to(successor, given);
+    points.append(given, blocks);
+    blocks = given;
     auto& known = leaves.leaves;
     if (static_cast<std::size_t>(successor) >= known.size())
       known.resize(static_cast<std::size_t>(successor) + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Insertion, removal and promotion of single points (thesis 5.4, errata E4, E8, E10).
+// Places for single points: descents, promotion, insertion (thesis 5.4, errata E4, E8, E10).
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +48,7 @@ Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric& metric, Vec3 at, 
       }
     }
   }
-  stats.distances += tested;
+  note_tested(tested);
   return start;
 }
 
@@ -66,12 +66,13 @@ void Hierarchy::Impl::search_around(const Metric& metric, Vec3 at, Hint middle, 
   if (middle.level == top()) {
     for (std::int32_t root = 0; root < level.size(); ++root)
       if (level.is_alive(root)) keep(root);
-    stats.distances += level.alive();
+    note_tested(level.alive());
+    stats.visited += level.size() - level.alive();
     return;
   }
   keep(middle.node);
   for (const std::int32_t neighbor : level.edges.row(middle.node)) keep(neighbor);
-  stats.distances += 1 + static_cast<std::int64_t>(level.edges.row(middle.node).size());
+  note_tested(1 + static_cast<std::int64_t>(level.edges.row(middle.node).size()));
 }
 
 // A parent of level t has to be within R_{t-1} = R_t / 2; its ancestor of level l then is within R_l -
@@ -101,32 +102,34 @@ void Hierarchy::Impl::connect(const Metric& metric, int level, std::int32_t node
   at.longest = std::max(at.longest, at.reach);
   const Vec3 position = at.position[node];
   std::int64_t tested = 0;
+  row.clear();
   const auto join = [&](std::int32_t other) {
     if (other == node) return;
     ++tested;
     if (metric.distance2(position, at.position[other]) > at.reach * at.reach) return;
-    at.edges.push(node, other);
+    row.push_back(other);
     at.edges.push(other, node);
     if (is_singleton(level, other)) expand(level, other);
   };
   if (level == top()) {
     for (std::int32_t root = 0; root < at.size(); ++root)
       if (at.is_alive(root)) join(root);
-    stats.distances += tested;
-    return;
+    stats.visited += at.size() - at.alive();
+  } else {
+    const Level& above = levels[level + 1];
+    const double reach = (at.reach + at.radius) * kInflate;
+    const auto join_children = [&](std::int32_t parent) {
+      ++tested;
+      if (metric.distance2(position, above.position[parent]) > reach * reach) return;
+      for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
+        join(child);
+    };
+    const std::int32_t parent = at.parent[node];
+    join_children(parent);
+    for (const std::int32_t neighbor : above.edges.row(parent)) join_children(neighbor);
   }
-  const Level& above = levels[level + 1];
-  const double reach = (at.reach + at.radius) * kInflate;
-  const auto join_children = [&](std::int32_t parent) {
-    ++tested;
-    if (metric.distance2(position, above.position[parent]) > reach * reach) return;
-    for (std::int32_t child = above.first_child[parent]; child != kNone; child = at.next_sibling[child])
-      join(child);
-  };
-  const std::int32_t parent = at.parent[node];
-  join_children(parent);
-  for (const std::int32_t neighbor : above.edges.row(parent)) join_children(neighbor);
-  stats.distances += tested;
+  at.edges.assign(node, row.data(), static_cast<std::int32_t>(row.size()));
+  note_tested(tested);
 }
 
 template <class Metric>
@@ -192,66 +195,6 @@ void Hierarchy::Impl::insert(const Metric& metric, std::int32_t point, Vec3 at, 
   grow_top(metric);
 }
 
-template <class Metric>
-void Hierarchy::Impl::remove(const Metric& metric, std::int32_t point) {
-  // Take the point out of every level first; the children it leaves behind find new parents from the top
-  // down.
-  std::vector<std::vector<std::int32_t>> left(levels.size());  // nodes, in level 0 ids
-  std::vector<Hint> hint(levels.size());  // by level: a node there or above that stays and is not far
-  const Hint lowest = lowest_node(point);
-  std::int32_t node = lowest.node;
-  if (is_singleton_point(point)) {
-    forget_singleton(lowest.level, node);
-  } else if (up(0, slot_of_id[point]) == kNone) {
-    remove_from_block(slot_of_id[point]);  // the levels above know nothing of it
-    return;
-  }
-  for (int level = lowest.level; node != kNone; ++level) {
-    Level& at = levels[level];
-    for_each_child(level, node, [&](std::int32_t child) {
-      const std::int32_t name = id(level - 1, child);
-      if (name != point) left[level - 1].push_back(level == 1 ? name : child);
-    });
-    if (level > 1)
-      while (at.first_child[node] != kNone) detach(level - 1, at.first_child[node]);
-    if (!at.edges.row(node).empty()) hint[level] = {level, at.edges.row(node)[0]};
-    detach(level, node);
-    disconnect(level, node);
-    if (level == 1) {
-      std::int32_t next = kNone;
-      for (std::int32_t block = at.first_child[node]; block != kNone; block = next) {
-        next = points.next[block];
-        points.free_block(block);
-      }
-    }
-    at.retire(node);
-    node = at.up[node];
-  }
-  slot_of_id[point] = kNone;
-  while (top() > 1 && levels.back().alive() == 0) pop_level();
-  for (int level = top() - 1; level > 0; --level)
-    if (hint[level].node == kNone) hint[level] = hint[level + 1];
-  for (int level = top(); level > 0; --level)  // there are some in the top level if it was not that before
-    for (const std::int32_t orphan : left[level])
-      attach_under(metric, level, orphan,
-                   locate(metric, levels[level].position[orphan], level + 1, hint[level + 1]));
-  for (const std::int32_t orphan : left[0]) {
-    const Vec3 at = box.wrap(raw[orphan]);
-    attach_point_under(metric, orphan, at, locate(metric, at, 1, hint[1]));
-  }
-  grow_top(metric);
-  trim_top();
-}
-
-void Hierarchy::Impl::trim_top() {
-  while (top() > 1 && levels[top() - 1].alive() <= params.max_roots &&
-         levels[top() - 1].alive() + singletons_above(top() - 1) <= params.max_roots) {
-    for (std::int32_t root = 0; root < levels.back().size(); ++root)
-      if (is_singleton(top(), root)) expand(top(), root);
-    pop_level();
-  }
-}
-
 #define DCH_INSTANTIATE(Metric)                                                                      \
   template Hierarchy::Impl::Hint Hierarchy::Impl::find_near(const Metric&, Vec3, int, double, Hint); \
   template std::int32_t Hierarchy::Impl::promote(const Metric&, int, std::int32_t, Vec3, Cover);     \
@@ -260,8 +203,7 @@ void Hierarchy::Impl::trim_top() {
   template void Hierarchy::Impl::attach_point_under(const Metric&, std::int32_t, Vec3, Cover);       \
   template void Hierarchy::Impl::connect(const Metric&, int, std::int32_t);                          \
   template void Hierarchy::Impl::grow_top(const Metric&);                                            \
-  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);                    \
-  template void Hierarchy::Impl::remove(const Metric&, std::int32_t);
+  template void Hierarchy::Impl::insert(const Metric&, std::int32_t, Vec3, Hint);
 DCH_INSTANTIATE(OpenMetric)
 DCH_INSTANTIATE(OrthorhombicMetric)
 DCH_INSTANTIATE(LatticeMetric)

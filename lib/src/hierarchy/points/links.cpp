@@ -6,6 +6,10 @@ namespace dch {
 using detail::kBlock;
 using detail::kNone;
 
+namespace {
+constexpr int kMaxFullBlocks = 8;  ///< of a chain, looked at to find room for a point
+}
+
 void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) {
   if (is_singleton(level + 1, parent)) expand(level + 1, parent);
   Level& below = levels[level];
@@ -31,12 +35,19 @@ void Hierarchy::Impl::detach(int level, std::int32_t node) {
   below.parent[node] = below.prev_sibling[node] = below.next_sibling[node] = kNone;
 }
 
+// The chain turns like the hand of a clock past blocks that are full. A block is added only where a few in
+// turn are full, so the others are filled again, and a chain of any length costs the same.
 std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t leaf) {
   std::int32_t& first = levels[1].first_child[leaf];
-  std::int32_t block = first;
-  while (block != kNone && points.count[block] == kBlock) block = points.next[block];
-  if (block == kNone) block = first = points.add_block(leaf, first);
-  return slot_of_id[point] = points.push(block, point, at);
+  int full = 0;
+  for (; first != kNone && full < kMaxFullBlocks && points.count[first] == kBlock; ++full) points.turn(first);
+  stats.visited += full + 1;
+  if (first == kNone || full == kMaxFullBlocks) {
+    std::int32_t added = points.add_block(leaf);
+    points.append(added, first);
+    first = added;
+  }
+  return slot_of_id[point] = points.push(first, point, at);
 }
 
 // Blocks stay filled from the front: the last point of the block moves into the gap.
@@ -53,9 +64,7 @@ void Hierarchy::Impl::remove_from_block(std::int32_t slot) {
   points.id[last] = kNone;
   --points.alive;
   if (points.count[block] > 0) return;
-  std::int32_t* link = &levels[1].first_child[points.leaf[block]];
-  while (*link != block) link = &points.next[*link];
-  *link = points.next[block];
+  points.unlink(levels[1].first_child[points.leaf[block]], block);
   points.free_block(block);
 }
 
