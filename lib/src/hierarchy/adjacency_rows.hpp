@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <dch/base/index_count.hpp>
@@ -10,88 +13,131 @@
 
 namespace dch::detail {
 
-/// Rows of node indices in one flat array. A row that outgrows its place moves to the end of the array with
-/// room to spare; the holes are closed once they outweigh the live entries.
+/// Rows of node indices. They lie in chunks of memory that never move, so a row that grows costs its own
+/// length, however many rows there are. Places that rows have left are given to others about as long.
 class AdjacencyRows {
  public:
+  /// Keeps the chunks for the rows to come.
   void clear() {
-    data_.clear();
-    offset_.clear();
-    count_.clear();
-    capacity_.clear();
+    rows_.clear();
+    free_.clear();
     live_ = 0;
+    chunk_ = used_ = 0;
   }
   /// Makes rows [0, n) exist.
-  void resize(std::size_t n) {
-    offset_.resize(n, 0);
-    count_.resize(n, 0);
-    capacity_.resize(n, 0);
-  }
+  void resize(std::size_t n) { rows_.resize(n); }
   Span<const std::int32_t> row(std::int32_t k) const {
-    return {data_.data() + offset_[k], static_cast<std::size_t>(count_[k])};
+    const Row& row = rows_[static_cast<std::size_t>(k)];
+    return {row.data, static_cast<std::size_t>(row.count)};
   }
-  /// Makes room for that many entries in all.
-  void reserve(std::int64_t entries) { data_.reserve(static_cast<std::size_t>(entries)); }
+  /// Makes room for that many entries in all, in rows to be assigned.
+  void reserve(std::int64_t entries) {
+    if (chunks_.empty() && entries > 0) add_chunk(static_cast<std::size_t>(entries));
+  }
   /// Replaces an empty row.
   void assign(std::int32_t k, const std::int32_t* values, std::int32_t count) {
-    // Whole levels of rows are most of the memory of a sparse scene: little is kept in reserve.
-    if (data_.size() + static_cast<std::size_t>(count) > data_.capacity())
-      data_.reserve(data_.size() + data_.size() / 8 + static_cast<std::size_t>(count));
-    offset_[k] = static_cast<std::int64_t>(data_.size());
-    count_[k] = capacity_[k] = count;
-    data_.insert(data_.end(), values, values + count);
+    Row& row = rows_[static_cast<std::size_t>(k)];
+    // Whole levels of rows are most of the memory of a sparse scene: rows that are all assigned in turn have
+    // nothing in reserve.
+    if (row.capacity < count) move_to(row, take(free_.empty() ? count : rounded(count)));
+    std::copy_n(values, count, row.data);
+    row.count = count;
     live_ += count;
   }
   void push(std::int32_t k, std::int32_t value) {
-    if (count_[k] == capacity_[k]) relocate(k);
-    data_[static_cast<std::size_t>(offset_[k] + count_[k]++)] = value;
+    Row& row = rows_[static_cast<std::size_t>(k)];
+    if (row.count == row.capacity)
+      move_to(row, take(rounded(std::int64_t{row.capacity} + row.capacity / 2 + 4)));
+    row.data[row.count++] = value;
     ++live_;
   }
   void erase(std::int32_t k, std::int32_t value) {
-    std::int32_t* begin = data_.data() + offset_[k];
-    std::int32_t* end = begin + count_[k];
-    std::int32_t* at = std::find(begin, end, value);
+    Row& row = rows_[static_cast<std::size_t>(k)];
+    std::int32_t* const end = row.data + row.count;
+    std::int32_t* const at = std::find(row.data, end, value);
     if (at == end) return;
     *at = *(end - 1);
-    --count_[k];
+    --row.count;
     --live_;
   }
   void clear_row(std::int32_t k) {
-    live_ -= count_[k];
-    count_[k] = capacity_[k] = 0;
+    Row& row = rows_[static_cast<std::size_t>(k)];
+    live_ -= row.count;
+    row.count = 0;
+    move_to(row, Place());
   }
   std::int64_t entries() const { return live_; }
   std::size_t memory_bytes() const {
-    return data_.capacity() * sizeof(std::int32_t) + offset_.capacity() * sizeof(std::int64_t) +
-           (count_.capacity() + capacity_.capacity()) * sizeof(std::int32_t);
+    std::size_t bytes = rows_.capacity() * sizeof(Row) + total_ * sizeof(std::int32_t);
+    for (const auto& places : free_) bytes += places.capacity() * sizeof(Place);
+    return bytes;
   }
 
  private:
-  void relocate(std::int32_t k) {
-    if (data_.size() > 1024 && static_cast<std::int64_t>(data_.size()) > 3 * live_) compact();
-    const auto grown = static_cast<std::int32_t>(
-        std::min(std::int64_t{capacity_[k]} + capacity_[k] / 2 + 4, kMaxIndexCount));
-    const std::size_t at = data_.size();
-    data_.resize(at + static_cast<std::size_t>(grown));
-    std::copy_n(data_.begin() + offset_[k], count_[k], data_.begin() + static_cast<std::int64_t>(at));
-    offset_[k] = static_cast<std::int64_t>(at);
-    capacity_[k] = grown;
+  struct Place {
+    std::int32_t* data = nullptr;
+    std::int32_t capacity = 0;
+  };
+  struct Row : Place {
+    std::int32_t count = 0;
+  };
+  struct Chunk {
+    std::unique_ptr<std::int32_t[]> data;
+    std::size_t size;
+  };
+  static constexpr std::size_t kLeastChunk = 64, kMostChunk = std::size_t{1} << 20;
+
+  /// Places of one class hold as many entries as the shortest of them, or up to a quarter more.
+  static std::size_t class_of(std::int64_t capacity) {
+    std::size_t octave = 0;
+    for (std::int64_t rest = capacity; rest >= 8; rest /= 2) ++octave;
+    return 4 * octave + static_cast<std::size_t>(capacity >> octave);
   }
-  void compact() {
-    std::vector<std::int32_t> packed;
-    packed.reserve(static_cast<std::size_t>(live_ + live_ / 4));
-    for (std::size_t k = 0; k < offset_.size(); ++k) {
-      const auto begin = data_.begin() + offset_[k];
-      offset_[k] = static_cast<std::int64_t>(packed.size());
-      packed.insert(packed.end(), begin, begin + count_[k]);
-      capacity_[k] = count_[k];
+  /// The shortest place of a class that holds so many entries.
+  static std::int32_t rounded(std::int64_t count) {
+    std::int64_t step = 1;
+    for (std::int64_t rest = count; rest >= 8; rest /= 2) step *= 2;
+    return static_cast<std::int32_t>(std::min((count + step - 1) / step * step, kMaxIndexCount));
+  }
+  /// The entries move along; the place that they leave is free.
+  void move_to(Row& row, Place place) {
+    if (row.capacity > 0) {
+      std::copy_n(row.data, row.count, place.data);
+      const std::size_t kind = class_of(row.capacity);
+      if (free_.size() <= kind) free_.resize(kind + 1);
+      free_[kind].push_back({row.data, row.capacity});
     }
-    data_.swap(packed);
+    row.data = place.data;
+    row.capacity = place.capacity;
+  }
+  Place take(std::int32_t count) {
+    const std::size_t kind = class_of(count);
+    if (kind < free_.size() && !free_[kind].empty() && free_[kind].back().capacity >= count) {
+      const Place place = free_[kind].back();
+      free_[kind].pop_back();
+      return place;
+    }
+    const auto wanted = static_cast<std::size_t>(count);
+    while (chunk_ < chunks_.size() && chunks_[chunk_].size - used_ < wanted) {
+      ++chunk_;
+      used_ = 0;
+    }
+    if (chunk_ == chunks_.size())
+      add_chunk(std::max(wanted, std::clamp(total_ / 8, kLeastChunk, kMostChunk)));
+    const Place place{chunks_[chunk_].data.get() + used_, count};
+    used_ += wanted;
+    return place;
+  }
+  void add_chunk(std::size_t size) {
+    chunks_.push_back({std::make_unique_for_overwrite<std::int32_t[]>(size), size});
+    total_ += size;
   }
 
-  std::vector<std::int32_t> data_;
-  std::vector<std::int64_t> offset_;
-  std::vector<std::int32_t> count_, capacity_;
+  std::vector<Row> rows_;
+  std::vector<Chunk> chunks_;
+  std::size_t chunk_ = 0, used_ = 0;      ///< the chunk that is being filled, and how far it is
+  std::size_t total_ = 0;                 ///< entries of all chunks
+  std::vector<std::vector<Place>> free_;  ///< by class
   std::int64_t live_ = 0;
 };
 
