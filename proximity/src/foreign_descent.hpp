@@ -8,7 +8,7 @@
 
 #include "components.hpp"
 #include "hierarchy/structure.hpp"
-#include "subtree_balls.hpp"
+#include "hierarchy/subtree_balls.hpp"
 
 namespace dch::detail {
 

@@ -50,8 +50,9 @@ double LeafNearest<Metric>::guess_reach(std::int32_t leaf) const {
 
 template <class Metric>
 void LeafNearest<Metric>::search_leaf(std::int32_t leaf, NearestRows& rows) {
-  const double reach = guess_reach(leaf);
-  if (has_one_image(reach)) {
+  // Of a view that is kept up the points are not measured.
+  const double reach = structure_.measured ? guess_reach(leaf) : 0;
+  if (structure_.measured && has_one_image(reach)) {
     near_.collect(metric_, leaf, reach, work_);
     if (has_one_image(std::sqrt(limit2(reach)) + error())) {
       for (std::int32_t block = 0; block < near_.own_blocks(); ++block) search_block(block, reach, rows);

@@ -7,8 +7,8 @@
 #include <dch/proximity/nearest.hpp>
 
 #include "hierarchy/structure.hpp"
+#include "hierarchy/subtree_balls.hpp"
 #include "simd/nearest_kernels.hpp"
-#include "subtree_balls.hpp"
 
 namespace dch::detail {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -12,17 +13,21 @@
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/space_filling_order.hpp"
+#include "hierarchy/subtree_balls.hpp"
 #include "leaf_nearest.hpp"
 #include "nearest_descent.hpp"
-#include "subtree_balls.hpp"
 
 namespace dch {
 
 struct Nearest::Impl {
-  explicit Impl(const detail::Structure& s) : structure(s), balls(s) {}
+  explicit Impl(const detail::Structure& s) : structure(s) {
+    if (!s.balls) measured.emplace(s);
+  }
+  /// Those that the hierarchy keeps, if it does.
+  const detail::SubtreeBalls& balls() const { return measured ? *measured : *structure.balls; }
 
   const detail::Structure& structure;
-  detail::SubtreeBalls balls;
+  std::optional<detail::SubtreeBalls> measured;
 };
 
 namespace {
@@ -109,7 +114,7 @@ void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
     using Tool = detail::LeafNearest<std::decay_t<decltype(metric)>>;
     rows.work = share_queries<Tool>(
         params.executor, leaves + static_cast<std::int32_t>(alone.size()),
-        [&] { return Tool(metric, structure, impl_->balls, params.k); },
+        [&] { return Tool(metric, structure, impl_->balls(), params.k); },
         [&](Tool& tool, std::int32_t q) {
           if (q >= leaves) return tool.search_point(alone[static_cast<std::size_t>(q - leaves)], rows);
           if (structure.levels[1].is_alive(q)) tool.search_leaf(q, rows);
@@ -129,7 +134,7 @@ void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& para
     using Tool = PositionNearest<std::decay_t<decltype(metric)>>;
     rows.work = share_queries<Tool>(
         params.executor, static_cast<std::int32_t>(positions.size()),
-        [&] { return Tool(metric, structure, impl_->balls, params); },
+        [&] { return Tool(metric, structure, impl_->balls(), params); },
         [&](Tool& tool, std::int32_t q) {
           const auto row = static_cast<std::size_t>(order[static_cast<std::size_t>(q)]);
           tool.search(positions[row], row, rows);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 /// Offsets and corners of blocks are rounded to float: by less than this share of the extent of their leaf.
 constexpr double kFloatError = 0x1p-23;
+
+constexpr std::ptrdiff_t kDivers = 3;  ///< subtrees of a level
 
 /// Squared distance of a point from a block's box, both relative to the center of a leaf.
 double gap2_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
@@ -28,65 +31,116 @@ template <class Metric>
 void NearestDescent<Metric>::search(Vec3 position, std::int32_t self, double epsilon,
                                     NearestCandidates& best) {
   const double reach = std::max(structure_.largest_reach, wrap_error_.reach(position));
-  Query query{position, metric_.wrap(position),
-              self,     wrap_error_.bound(reach),
-              &best,    std::numeric_limits<double>::infinity()};
+  Query query{position,
+              metric_.wrap(position),
+              self,
+              wrap_error_.bound(reach),
+              &best,
+              std::numeric_limits<double>::infinity(),
+              1 / (1 + epsilon)};
+  dive(query);
+  while (!waiting_.empty()) {
+    const Subtree next = waiting_.back();
+    waiting_.pop_back();
+    if (!is_too_far(query, next)) open(query, next);
+  }
+}
+
+/// Down to the leaves with a few nodes of each level, so that the first leaf to be looked at is a near one.
+template <class Metric>
+void NearestDescent<Metric>::dive(Query& query) {
   waiting_.clear();
   const Level& top = structure_.levels.back();
   for (std::int32_t root = 0; root < top.size(); ++root)
     if (top.is_alive(root)) push(query, structure_.top(), root);
-  while (!waiting_.empty()) {
-    std::pop_heap(waiting_.begin(), waiting_.end());
-    const Subtree nearest = waiting_.back();
-    waiting_.pop_back();
-    if (nearest.distance * (1 + epsilon) > query.limit) return;
-    open(query, nearest);
+  std::size_t first = 0;  // of this level
+  for (int level = structure_.top(); level > 1; --level) {
+    const auto begin = waiting_.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + std::min(kDivers, waiting_.end() - begin);
+    std::partial_sort(begin, end, waiting_.end(), is_nearer);
+    divers_.assign(begin, end);
+    waiting_.erase(begin, end);
+    first = waiting_.size();
+    for (const Subtree& next : divers_) open(query, next);
   }
+  put_nearest_last(first);
+}
+
+template <class Metric>
+bool NearestDescent<Metric>::is_too_far(const Query& query, const Subtree& subtree) const {
+  const double within = (query.limit * query.shrink + subtree.radius) * kInflate;
+  return subtree.distance2 > within * within;
 }
 
 template <class Metric>
 void NearestDescent<Metric>::push(const Query& query, int level, std::int32_t node) {
   ++work.nodes;
-  const double apart = std::sqrt(metric_.distance2(query.wrapped, structure_.position(level, node)));
-  const double distance = apart - balls_.radius(level, node) * kInflate;
-  if (distance > query.limit) return;
-  waiting_.push_back({std::max(0.0, distance), level, node});
-  std::push_heap(waiting_.begin(), waiting_.end());
+  const Subtree subtree{metric_.distance2(query.wrapped, structure_.position(level, node)),
+                        balls_.radius(level, node), level, node};
+  if (!is_too_far(query, subtree)) waiting_.push_back(subtree);
+}
+
+template <class Metric>
+void NearestDescent<Metric>::put_nearest_last(std::size_t first) {
+  if (first == waiting_.size()) return;
+  const auto begin = waiting_.begin() + static_cast<std::ptrdiff_t>(first);
+  std::iter_swap(std::min_element(begin, waiting_.end(), is_nearer), waiting_.end() - 1);
 }
 
 template <class Metric>
 void NearestDescent<Metric>::open(Query& query, const Subtree& subtree) {
   if (subtree.level == 1) return look_at_leaf(query, subtree.node);
-  if (structure_.is_singleton(subtree.level, subtree.node))
-    look_at_point(query, structure_.levels[subtree.level].id[subtree.node]);
+  if (structure_.is_singleton(subtree.level, subtree.node)) {
+    const std::int32_t id = structure_.levels[subtree.level].id[subtree.node];
+    look_at_point(query, id, structure_.raw[id]);
+  }
+  const std::size_t first = waiting_.size();
   structure_.for_each_child(subtree.level, subtree.node,
                             [&](std::int32_t child) { push(query, subtree.level - 1, child); });
+  put_nearest_last(first);
 }
 
-/// The box of a block says how near its points are where no other image of it can be as near.
+/// The nearest block comes first: after it hardly another one is near enough.
 template <class Metric>
 void NearestDescent<Metric>::look_at_leaf(Query& query, std::int32_t node) {
-  const MeasuredLeaves::Leaf& leaf = structure_.leaves.leaves[node];
   const Vec3 at = metric_.displacement(structure_.levels[1].position[node], query.wrapped);
-  const double rounding = kFloatError * leaf.extent;
-  for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
-    ++work.blocks;
-    const double within = query.limit + rounding;
-    const bool has_one_image = (within + leaf.extent) * kInflate < structure_.box.max_cutoff();
-    if (has_one_image && gap2_between(at, structure_.leaves.corners[b]) > within * within) continue;
-    const std::int32_t first = structure_.leaves.source[b] * kBlock;
-    for (std::int32_t slot = first; slot < first + structure_.leaves.count[b]; ++slot) {
-      ++work.points;
-      if (metric_.distance2(query.wrapped, structure_.points.position[slot]) <= query.limit * query.limit)
-        look_at_point(query, structure_.points.id[slot]);
-    }
+  near_blocks_.clear();
+  std::size_t nearest = 0;
+  for (std::int32_t block = structure_.levels[1].first_child[node]; block != kNone;
+       block = structure_.points.next[block]) {
+    near_blocks_.push_back({gap2_between(at, balls_.corners(block)), block});
+    if (near_blocks_.back().gap2 < near_blocks_[nearest].gap2) nearest = near_blocks_.size() - 1;
+  }
+  work.blocks += static_cast<std::int64_t>(near_blocks_.size());
+  if (near_blocks_.empty()) return;
+  std::swap(near_blocks_[0], near_blocks_[nearest]);
+  const double extent = balls_.radius(1, node);
+  for (const NearBlock& block : near_blocks_) {
+    // The box says how near the points are where no other image of it can be as near.
+    const double within = query.limit + kFloatError * extent;
+    const bool has_one_image = (within + extent) * kInflate < structure_.box.max_cutoff();
+    if (!has_one_image || block.gap2 <= within * within) look_at_block(query, block.block);
   }
 }
 
 template <class Metric>
-void NearestDescent<Metric>::look_at_point(Query& query, std::int32_t id) {
+void NearestDescent<Metric>::look_at_block(Query& query, std::int32_t block) {
+  const LeafBlocks& points = structure_.points;
+  const std::int32_t first = block * kBlock, last = first + points.count[block];
+  work.points += points.count[block];
+  for (std::int32_t slot = first; slot < last; ++slot) {
+    if (metric_.distance2(query.wrapped, points.position[slot]) > query.limit * query.limit) continue;
+    // In an open box the point is in its slot as it was given.
+    constexpr bool kIsGiven = std::is_same_v<Metric, OpenMetric>;
+    const std::int32_t id = points.id[slot];
+    look_at_point(query, id, kIsGiven ? points.position[slot] : structure_.raw[id]);
+  }
+}
+
+template <class Metric>
+void NearestDescent<Metric>::look_at_point(Query& query, std::int32_t id, Vec3 given) {
   if (id == query.self) return;
-  query.best->add(structure_.box.distance2(query.given, structure_.raw[id]), id);
+  query.best->add(structure_.box.distance2(query.given, given), id);
   query.limit = (std::sqrt(query.best->limit2()) + query.slack) * kInflate;
 }
 

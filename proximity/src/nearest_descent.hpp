@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,12 +10,13 @@
 
 #include "geometry/position_check.hpp"
 #include "hierarchy/structure.hpp"
+#include "hierarchy/subtree_balls.hpp"
 #include "nearest_candidates.hpp"
-#include "subtree_balls.hpp"
 
 namespace dch::detail {
 
-/// One query at a time: subtrees in the order of their distance, until none is nearer than the k-th point.
+/// One query at a time: depth first, of siblings the nearest first, without subtrees farther than the k-th
+/// point. The first leaf is near enough for the rest to be dismissed by their squared distances.
 template <class Metric>
 class NearestDescent {
  public:
@@ -29,27 +31,39 @@ class NearestDescent {
 
  private:
   struct Subtree {
-    double distance;  ///< of its ball at least
+    double distance2;  ///< of its node
+    double radius;     ///< of its ball
     std::int32_t level, node;
-    bool operator<(const Subtree& other) const { return distance > other.distance; }
+  };
+  struct NearBlock {
+    double gap2;  ///< squared distance from its box
+    std::int32_t block;
   };
   struct Query {
     Vec3 given, wrapped;
     std::int32_t self;
     double slack;  ///< by which distances of wrapped points may be off
     NearestCandidates* best;
-    double limit;  ///< how far off a point may be at most to be taken, by its wrapped image
+    double limit;   ///< how far off a point may be at most to be taken, by its wrapped image
+    double shrink;  ///< of that: how far off a subtree may be to be opened
   };
+  static bool is_nearer(const Subtree& a, const Subtree& b) { return a.distance2 < b.distance2; }
+  void dive(Query& query);
+  bool is_too_far(const Query& query, const Subtree& subtree) const;
   void push(const Query& query, int level, std::int32_t node);
+  void put_nearest_last(std::size_t first);
   void open(Query& query, const Subtree& subtree);
   void look_at_leaf(Query& query, std::int32_t node);
-  void look_at_point(Query& query, std::int32_t id);
+  void look_at_block(Query& query, std::int32_t block);
+  void look_at_point(Query& query, std::int32_t id, Vec3 given);
 
   const Metric& metric_;
   const Structure& structure_;
   const SubtreeBalls& balls_;
   WrapError wrap_error_;
-  std::vector<Subtree> waiting_;  ///< a heap
+  std::vector<Subtree> waiting_;  ///< a stack
+  std::vector<Subtree> divers_;
+  std::vector<NearBlock> near_blocks_;
 };
 
 }  // namespace dch::detail

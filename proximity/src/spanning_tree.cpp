@@ -12,7 +12,7 @@
 #include "components.hpp"
 #include "foreign_descent.hpp"
 #include "geometry/metric.hpp"
-#include "subtree_balls.hpp"
+#include "hierarchy/subtree_balls.hpp"
 
 namespace dch {
 namespace {

@@ -150,9 +150,10 @@ TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
                20);
 }
 
-/// Some points come or go, in a hierarchy of `all` but these.
+/// Some points come or go, in a hierarchy of `all` but these, which may keep up what queries need.
 template <class Change>
-void sweep_exchange(const Change& change, const std::vector<Vec3>& expected, long least_failures) {
+void sweep_exchange(bool keeps_up, const Change& change, const std::vector<Vec3>& expected,
+                    long least_failures) {
   StructureParams params = params_for();
   params.base_radius = 0.6;
   const Changes changes(params);
@@ -160,7 +161,12 @@ void sweep_exchange(const Change& change, const std::vector<Vec3>& expected, lon
   other.points = expected;
   Asked asked;
   asked.answer(other);
-  expect_sound(sweep([&] { return changes.built(); }, change,
+  const auto built = [&] {
+    ListedHierarchy hierarchy = changes.built();
+    if (keeps_up) hierarchy.kept_view();
+    return hierarchy;
+  };
+  expect_sound(sweep(built, change,
                      [&](ListedHierarchy& hierarchy, Ending ending) {
                        if (ending == Ending::threw) {
                          const std::string fault = fault_of_empty(hierarchy);
@@ -179,21 +185,25 @@ TEST(HierarchyFaults, InsertLeavesItEmpty) {
   const Scene scene(kPoints), more(30, 5);
   std::vector<Vec3> expected = scene.points;
   expected.insert(expected.end(), more.points.begin(), more.points.end());
-  sweep_exchange(
-      [&](ListedHierarchy& hierarchy) {
-        for (const Vec3 p : more.points) hierarchy.insert(p);
-      },
-      expected, 30);
+  for (const bool keeps_up : {false, true})
+    sweep_exchange(
+        keeps_up,
+        [&](ListedHierarchy& hierarchy) {
+          for (const Vec3 p : more.points) hierarchy.insert(p);
+        },
+        expected, 30);
 }
 
 TEST(HierarchyFaults, RemoveLeavesItEmpty) {
   const Scene scene(kPoints);
   constexpr std::size_t kLeft = 10;
-  sweep_exchange(
-      [&](ListedHierarchy& hierarchy) {
-        for (std::size_t id = kLeft; id < kPoints; ++id) hierarchy.remove(static_cast<std::int32_t>(id));
-      },
-      {scene.points.begin(), scene.points.begin() + kLeft}, 50);
+  for (const bool keeps_up : {false, true})
+    sweep_exchange(
+        keeps_up,
+        [&](ListedHierarchy& hierarchy) {
+          for (std::size_t id = kLeft; id < kPoints; ++id) hierarchy.remove(static_cast<std::int32_t>(id));
+        },
+        {scene.points.begin(), scene.points.begin() + kLeft}, 50);
 }
 
 TEST(HierarchyFaults, RenumberLeavesItAsItWas) {

@@ -19,6 +19,7 @@
 
 #include "effort.hpp"
 #include "error_message.hpp"
+#include "hierarchy/structure.hpp"
 #include "instruction_sets.hpp"
 #include "scenes.hpp"
 
@@ -73,6 +74,26 @@ class NearestScene {
         exchange(hierarchy);
       }
     }
+  }
+
+  /// The same while the hierarchy keeps up what queries need, with nothing but insertions and removals
+  /// between.
+  void check_kept() {
+    Hierarchy hierarchy(params_);
+    hierarchy.build(points_, box_.box);
+    hierarchy.kept_view();
+    for (int step = 0; step < 12; ++step) {
+      exchange(hierarchy);
+      if (step == 6) hierarchy.view();  // measures anew
+      ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
+      if (step % 4 == 1) {
+        ASSERT_NO_FATAL_FAILURE(check_points(hierarchy.kept_view()));
+      }
+    }
+    move(hierarchy);
+    ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
+    exchange(hierarchy);
+    ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
   }
 
  private:
@@ -161,6 +182,11 @@ TEST(Nearest, EqualsAllPairsInRandomScenes) {
     ASSERT_NO_FATAL_FAILURE(NearestScene(2000000 + static_cast<std::uint64_t>(k)).check());
 }
 
+TEST(Nearest, EqualsAllPairsWhereAHierarchyKeepsUp) {
+  for (int k = 0; k < effort(300); ++k)
+    ASSERT_NO_FATAL_FAILURE(NearestScene(3000000 + static_cast<std::uint64_t>(k)).check_kept());
+}
+
 Hierarchy hierarchy_of(const std::vector<Vec3>& points, double radius) {
   HierarchyParams params;
   params.radius = radius;
@@ -169,14 +195,17 @@ Hierarchy hierarchy_of(const std::vector<Vec3>& points, double radius) {
   return hierarchy;
 }
 
-/// What a query for the nearest point looks at, on average, among n points of density 1.
-NearestWork work_a_query(std::size_t n) {
-  const double side = std::cbrt(static_cast<double>(n));
-  Hierarchy hierarchy = hierarchy_of(scenes::uniform(n, {side, side, side}, 1), 1.5);
+/// What a query for the nearest point looks at, on average, in a cube of this side.
+NearestWork work_a_query(const HierarchyView& view, double side) {
   const std::vector<Vec3> queries = scenes::uniform(500, {side, side, side}, 2);
-  NearestWork work = Nearest(hierarchy.view()).of_positions(queries, {}).work;
+  NearestWork work = Nearest(view).of_positions(queries, {}).work;
   for (std::int64_t* count : {&work.nodes, &work.blocks, &work.points}) *count /= 500;
   return work;
+}
+/// The same among n points of density 1.
+NearestWork work_a_query(std::size_t n) {
+  const double side = std::cbrt(static_cast<double>(n));
+  return work_a_query(hierarchy_of(scenes::uniform(n, {side, side, side}, 1), 1.5).view(), side);
 }
 
 // While a repair is put off, points on their own are not where their nodes are.
@@ -201,16 +230,35 @@ TEST(Nearest, FindsPointsOnTheirOwnThatHaveMoved) {
 }
 
 // Each level has eight times the nodes of the next and adds as many to a descent, whatever the number of
-// points.
+// points: ten times as many points add a constant.
 TEST(Nearest, WorkOfAQueryGrowsAsTheLogarithmOfTheNumberOfPoints) {
-  const NearestWork few = work_a_query(8000), more = work_a_query(64000), most = work_a_query(512000);
-  EXPECT_LE(few.nodes, 60);
-  EXPECT_LE(more.nodes - few.nodes, 80);
-  EXPECT_LE(most.nodes - more.nodes, 80);
-  for (const NearestWork& work : {few, more, most}) {
-    EXPECT_LE(work.blocks, 90);
-    EXPECT_LE(work.points, 90);
+  NearestWork before = work_a_query(1000);
+  EXPECT_LE(before.nodes, 12);
+  for (const std::size_t n : {10'000u, 100'000u, 1'000'000u}) {
+    const NearestWork work = work_a_query(n);
+    EXPECT_LE(work.nodes, before.nodes + 100) << n;
+    EXPECT_LE(work.blocks, 120) << n;
+    EXPECT_LE(work.points, 60) << n;
+    before = work;
   }
+}
+
+// Every point goes and others come; what is kept up stays nearly as small as what is measured anew, and that
+// is not done.
+TEST(Nearest, WorkOfAQueryStaysWherePointsComeAndGo) {
+  const std::size_t n = 50'000;
+  const double side = std::cbrt(static_cast<double>(n));
+  Hierarchy hierarchy = hierarchy_of(scenes::uniform(n, {side, side, side}, 1), 1.5);
+  const NearestWork first = work_a_query(hierarchy.kept_view(), side);
+  for (const Vec3 p : scenes::uniform(n, {side, side, side}, 3)) {
+    hierarchy.remove(static_cast<std::int32_t>(hierarchy.stats().removed));
+    hierarchy.insert(p);
+  }
+  EXPECT_FALSE(hierarchy.kept_view().structure().measured);
+  const NearestWork last = work_a_query(hierarchy.kept_view(), side);
+  EXPECT_LE(last.nodes, first.nodes + first.nodes / 5);
+  EXPECT_LE(last.blocks, 2 * first.blocks);
+  EXPECT_LE(last.points, 9 * first.points);
 }
 
 TEST(Nearest, PointsAskedForTogetherLookAtAFewDozenOthers) {

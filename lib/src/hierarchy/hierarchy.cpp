@@ -145,6 +145,13 @@ HierarchyView Hierarchy::view() {
   return HierarchyView(*impl_);
 }
 
+HierarchyView Hierarchy::kept_view() {
+  if (impl_->balls) return HierarchyView(*impl_);
+  const HierarchyView measured = view();
+  impl_->balls.emplace(*impl_);
+  return measured;
+}
+
 const SearchStats& Hierarchy::stats() const {
   SearchStats& s = impl_->stats;
   s.levels = static_cast<int>(impl_->levels.size());

@@ -134,6 +134,7 @@ struct Hierarchy::Impl : detail::Structure {
   /// Makes a singleton of every node that can be one.
   void collapse();
   // points/links.cpp: parents and children
+  std::int32_t add_node(int level, std::int32_t point, Vec3 at);
   void attach(int level, std::int32_t node, std::int32_t parent);
   void detach(int level, std::int32_t node);
   std::int32_t place_point(std::int32_t point, Vec3 at, std::int32_t leaf);

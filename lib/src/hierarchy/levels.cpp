@@ -100,7 +100,7 @@ std::size_t Hierarchy::Impl::memory_bytes() const {
       raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   bytes += singletons.capacity() * sizeof(Singleton);
   for (const Level& level : levels) bytes += level.memory_bytes();
-  return bytes + points.memory_bytes() + leaves.memory_bytes();
+  return bytes + points.memory_bytes() + leaves.memory_bytes() + (balls ? balls->memory_bytes() : 0);
 }
 
 void Hierarchy::Impl::reset(const Box& b) {
@@ -111,6 +111,7 @@ void Hierarchy::Impl::reset(const Box& b) {
   misplaced = 0;
   pending = false;
   note_new_places();
+  balls.reset();
   levels.clear();
   points.clear();
   singletons.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <dch/geometry/box.hpp>
@@ -12,6 +13,7 @@
 #include "hierarchy/level.hpp"
 #include "hierarchy/measured_leaves.hpp"
 #include "hierarchy/structure_params.hpp"
+#include "hierarchy/subtree_balls.hpp"
 
 namespace dch::detail {
 
@@ -48,7 +50,8 @@ struct Structure {
   std::vector<Vec3> anchors;  ///< while pending: where the nodes of level 1 were when it was in order
   double motion = 0;  ///< while pending: how far nodes of level 1 are from their anchors at most [length]
   MeasuredLeaves leaves;
-  bool measured = false;       ///< whether `leaves` holds the points as they are now
+  bool measured = false;              ///< whether `leaves` holds the points as they are now
+  std::optional<SubtreeBalls> balls;  ///< kept up while there are any
   std::int64_t misplaced = 0;  ///< nodes that changed their parent since the nodes were last put in order
 
   std::size_t count() const { return slot_of_id.size() - free_ids.size(); }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "hierarchy/adjacency_rows.hpp"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "hierarchy/adjacency_rows.hpp"
 #include "random.hpp"
 
 namespace dch::detail {

@@ -33,7 +33,8 @@ namespace dch {
 /// check positions when the old ones are given up. If anything else is thrown (std::bad_alloc, what an
 /// Executor throws, InvalidParameter where points that come apart need more blocks than 32-bit
 /// numbers name), build(), update(), repair(), insert() and remove() leave the hierarchy
-/// empty, without points until the next build(); renumber() and view() leave it as it was.
+/// empty, without points until the next build(); renumber(), view() and
+/// kept_view() leave it as it was.
 class Hierarchy {
  public:
   /// @throws InvalidParameter for a radius out of range.
@@ -93,6 +94,11 @@ class Hierarchy {
   /// What lists, cluster pairs, queries and validate() take. Points that have come, gone or changed their
   /// places since the last view are measured: O(n), on the threads of the executor.
   HierarchyView view();
+
+  /// What Nearest takes where points come and go between queries. The first one measures, O(n); from then on
+  /// insert() and remove() keep up what they change, so that the next ones cost nothing until update(),
+  /// repair() or build(). For no other algorithm.
+  HierarchyView kept_view();
 
   /// Whether to insert and remove so many points in all is less work than to build anew, as counted.
   bool exchange_pays(std::size_t points) const;

@@ -29,6 +29,7 @@ void add_orphans(double orphans, std::size_t neighbors_of_parent, detail::Mainte
 
 void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   ++stats.updates;
+  balls.reset();
   const auto start = Clock::now();
   try {
     largest_reach = check_positions_of_points(positions, b);
@@ -152,7 +153,9 @@ detail::MaintenanceWork Hierarchy::Impl::standing_work() const {
 
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
-  if (!measured) leaves.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  if (measured) return;
+  leaves.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  if (balls) balls.emplace(*this);  // as they are
   measured = true;
 }
 

@@ -23,6 +23,7 @@ using detail::Level;
 template <class Metric>
 void Hierarchy::Impl::repair(const Metric& metric) {
   const std::int64_t reparented_before = stats.reparented;
+  balls.reset();
   for (int i = top(); i > 0; --i) {
     if (i < top()) cover_level(metric, i);
     if (edges_are_complete(i)) {

@@ -138,7 +138,7 @@ std::int32_t Hierarchy::Impl::promote(const Metric& metric, int level, std::int3
   std::int32_t above = cover.parent;
   // From the top down, since a node's edges are found among the children of its parent's neighbors.
   for (int i = cover.level - 1; i > level; --i) {
-    const std::int32_t promoted = levels[i].add(point, at);
+    const std::int32_t promoted = add_node(i, point, at);
     if (above != kNone) attach(i, promoted, above);
     if (i < cover.level - 1) {
       levels[i].up[promoted] = above;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <limits>
+
 #include "hierarchy/hierarchy_impl.hpp"
 
 namespace dch {
@@ -7,7 +9,13 @@ using detail::kBlock;
 using detail::kNone;
 
 namespace {
-constexpr int kMaxFullBlocks = 8;  ///< of a chain, looked at to find room for a point
+constexpr int kMostBlocks = 16;  ///< of a chain, looked at to find room for a point
+}
+
+std::int32_t Hierarchy::Impl::add_node(int level, std::int32_t point, Vec3 at) {
+  const std::int32_t node = levels[level].add(point, at);
+  if (balls) balls->add_node(level, node);
+  return node;
 }
 
 void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) {
@@ -19,6 +27,7 @@ void Hierarchy::Impl::attach(int level, std::int32_t node, std::int32_t parent) 
   below.next_sibling[node] = first;  // one before it has neither a new node nor one that was detached
   if (first != kNone) below.prev_sibling[first] = node;
   above.first_child[parent] = node;
+  if (balls) balls->add_subtree(*this, level, node);
 }
 
 void Hierarchy::Impl::detach(int level, std::int32_t node) {
@@ -35,19 +44,34 @@ void Hierarchy::Impl::detach(int level, std::int32_t node) {
   below.parent[node] = below.prev_sibling[node] = below.next_sibling[node] = kNone;
 }
 
-// The chain turns like the hand of a clock past blocks that are full. A block is added only where a few in
-// turn are full, so the others are filled again, and a chain of any length costs the same.
+// The chain turns like the hand of a clock past blocks that are full, and of the next few that have room the
+// point takes the nearest. A block is added only where a few in turn are full, so the others are filled
+// again, and a chain of any length costs the same.
 std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t leaf) {
   std::int32_t& first = levels[1].first_child[leaf];
-  int full = 0;
-  for (; first != kNone && full < kMaxFullBlocks && points.count[first] == kBlock; ++full) points.turn(first);
-  stats.visited += full + 1;
-  if (first == kNone || full == kMaxFullBlocks) {
-    std::int32_t added = points.add_block(leaf);
-    points.append(added, first);
-    first = added;
+  int looked = 0;
+  for (; first != kNone && looked < kMostBlocks && points.count[first] == kBlock; ++looked)
+    points.turn(first);
+  std::int32_t nearest = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t block = first; block != kNone && looked < kMostBlocks; block = points.next[block]) {
+    ++looked;
+    if (points.count[block] == kBlock) continue;
+    const double d2 = norm2(points.position[static_cast<std::size_t>(block) * kBlock] - at);
+    if (d2 >= least) continue;
+    least = d2;
+    nearest = block;
   }
-  return slot_of_id[point] = points.push(first, point, at);
+  stats.visited += looked;
+  if (nearest == kNone) {
+    nearest = points.add_block(leaf);
+    std::int32_t chain = nearest;
+    points.append(chain, first);
+    first = chain;
+  }
+  const std::int32_t slot = slot_of_id[point] = points.push(nearest, point, at);
+  if (balls) balls->add_point(*this, slot);
+  return slot;
 }
 
 // Blocks stay filled from the front: the last point of the block moves into the gap.

@@ -122,6 +122,7 @@ void Hierarchy::Impl::adopt_block(const Metric& metric, std::int32_t block, Left
   if (together) {
     points.give_to(orphans[0].leaf, block);
     points.append(levels[1].first_child[orphans[0].leaf], block);
+    if (balls) balls->add_block(*this, block);
   } else {
     points.free_block(block);
   }

@@ -33,7 +33,7 @@ void Hierarchy::Impl::expand(int level, std::int32_t node) {
   const std::int32_t id = levels[level].id[node];
   const Vec3 at = levels[level].position[node];
   forget_singleton(level, node);
-  const std::int32_t below = levels[level - 1].add(id, at);
+  const std::int32_t below = add_node(level - 1, id, at);
   // NOLINTNEXTLINE(readability-suspicious-call-argument): the node is the parent of the one below it
   attach(level - 1, below, node);
   levels[level - 1].up[below] = node;

@@ -60,14 +60,16 @@ struct NearestRows {
 /// constant: several threads may ask at once.
 class Nearest {
  public:
-  /// Measures the balls of all subtrees: O(nodes of level 1 and above).
+  /// Measures the balls of all subtrees, O(nodes of level 1 and above), unless the hierarchy keeps them up
+  /// (Hierarchy::kept_view()).
   explicit Nearest(const HierarchyView& view);
   ~Nearest();
   Nearest(Nearest&&) noexcept;
   Nearest& operator=(Nearest&&) noexcept;
 
   /// The nearest other points of each point; row i is that of id i, and rows of ids that were removed hold
-  /// nothing. Whole blocks of points are asked for at once, O(k) a point where density varies little.
+  /// nothing. Whole blocks of points are asked for at once, O(k) a point where density varies little; of a
+  /// kept_view() one point after the other.
   /// @throws InvalidParameter for a k or an epsilon out of range; `rows` is as it was then.
   void of_points(const NearestParams& params, NearestRows& rows) const;
   NearestRows of_points(const NearestParams& params) const {
