@@ -37,7 +37,7 @@ SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
              ["*Certificate*:Repair.*:Maintenance*:Update.*:Singletons.*:Insertion.*:Removal.*:PackingOf*:"
               "*RepairOfSmallScenes*",
-              "Work.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
+              "Work.*:Visits.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
               "*/Packing.TheCheck*/D1",
               "HierarchyMotion.NoMotion*:HierarchyMotion.Boxes*:HierarchyChurn.*:HierarchySparse*:"
               "*/HierarchySparse.*/none",
