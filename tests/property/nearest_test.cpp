@@ -21,6 +21,7 @@
 #include "error_message.hpp"
 #include "hierarchy/structure.hpp"
 #include "instruction_sets.hpp"
+#include "proximity_scene.hpp"
 #include "scenes.hpp"
 
 namespace dch {
@@ -47,32 +48,18 @@ std::vector<Neighbor> sorted_by_distance(const HierarchyView& view, Vec3 from, s
 
 class NearestScene {
  public:
-  explicit NearestScene(std::uint64_t seed) : random_(seed) {
-    const auto boxes = scenes::all_boxes(random_.uniform(3, 12));
-    box_ = boxes[random_.below(boxes.size())];
-    choose_structure();
-    const auto sets = scenes::hard_point_sets(box_.box, random_.below(260), 0.4 * params_.radius + 0.05);
-    const scenes::NamedPoints& set = sets[random_.below(sets.size())];
-    points_ = set.points;
-    what_ = "seed " + std::to_string(seed) + ": " + std::to_string(points_.size()) + " points, " + set.name +
-            ", " + box_.name + ", radius " + std::to_string(params_.radius);
-    threads_ = make_thread_pool(1 + static_cast<int>(random_.below(3)));
+  explicit NearestScene(std::uint64_t seed) : scene_(seed, 260) {
+    threads_ = make_thread_pool(1 + static_cast<int>(scene_.random.below(3)));
   }
 
   void check() {
     const RestoreInstructionSet restore;
     const auto sets = supported_sets();
-    set_instruction_set(sets[random_.below(sets.size())]);
-    Hierarchy hierarchy(params_);
-    hierarchy.build(points_, box_.box);
+    set_instruction_set(sets[scene_.random.below(sets.size())]);
     for (int step = 0; step < 4; ++step) {
-      ASSERT_NO_FATAL_FAILURE(check_points(hierarchy.view()));
-      ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.view()));
-      if (step % 2 == 0) {
-        move(hierarchy);
-      } else {
-        exchange(hierarchy);
-      }
+      ASSERT_NO_FATAL_FAILURE(check_points(scene_.view()));
+      ASSERT_NO_FATAL_FAILURE(check_positions(scene_.view()));
+      scene_.change(step);
     }
   }
 
@@ -97,33 +84,9 @@ class NearestScene {
   }
 
  private:
-  void choose_structure() {
-    const double widest = std::min(3.0, 0.98 * box_.box.max_cutoff());
-    params_.radius = widest * std::pow(10, -random_.uniform());
-    params_.policy = random_.below(2) == 0 ? MaintenancePolicy::automatic : MaintenancePolicy::always_repair;
-  }
-  void move(Hierarchy& hierarchy) {
-    const double motion = params_.radius * std::pow(10, random_.uniform(-3, 0.3));
-    for (Vec3& p : points_) p = p + random_.in_cube(motion);
-    hierarchy.update(points_, box_.box);
-  }
-  void exchange(Hierarchy& hierarchy) {
-    for (std::size_t k = random_.below(20); k > 0; --k) {
-      const auto id = static_cast<std::int32_t>(random_.below(hierarchy.capacity() + 1));
-      if (hierarchy.contains(id)) {
-        hierarchy.remove(id);
-      } else {
-        const Vec3 at = scenes::from_fractional(
-            box_.box, {random_.uniform(), random_.uniform(), random_.uniform(0, 1.5)});
-        const auto got = static_cast<std::size_t>(hierarchy.insert(at));
-        points_.resize(std::max(points_.size(), got + 1));
-        points_[got] = at;
-      }
-    }
-  }
   NearestParams ask() {
     NearestParams params;
-    params.k = 1 + static_cast<std::int32_t>(random_.below(random_.below(4) == 0 ? 300 : 14));
+    params.k = 1 + static_cast<std::int32_t>(scene_.random.below(scene_.random.below(4) == 0 ? 300 : 14));
     params.executor = threads_.get();
     return params;
   }
@@ -141,10 +104,9 @@ class NearestScene {
   void check_positions(const HierarchyView& view) {
     std::vector<Vec3> queries;
     for (int q = 0; q < 20; ++q)
-      queries.push_back(scenes::from_fractional(box_.box, random_.in_cube(2)) +
-                        random_.in_cube(params_.radius));
+      queries.push_back(scene_.somewhere() + scene_.random.in_cube(scene_.radius()));
     NearestParams params = ask();
-    params.epsilon = random_.below(2) == 0 ? 0 : random_.uniform(0, 2);
+    params.epsilon = scene_.random.below(2) == 0 ? 0 : scene_.random.uniform(0, 2);
     const NearestRows rows = Nearest(view).of_positions(queries, params);
     for (std::size_t q = 0; q < queries.size(); ++q)
       ASSERT_NO_FATAL_FAILURE(check_row(rows, q, sorted_by_distance(view, queries[q], -1), params.epsilon));
@@ -154,8 +116,8 @@ class NearestScene {
     const Span<const std::int32_t> ids = rows.row(row);
     for (std::size_t j = 0; j < ids.size(); ++j) {
       const double distance2 = rows.distance2[row * ids.size() + j];
-      const std::string where = what_ + ", row " + std::to_string(row) + ", neighbor " + std::to_string(j) +
-                                " of " + std::to_string(ids.size());
+      const std::string where = scene_.what() + ", row " + std::to_string(row) + ", neighbor " +
+                                std::to_string(j) + " of " + std::to_string(ids.size());
       if (j >= expected.size()) {
         ASSERT_EQ(ids[j], -1) << where;
         ASSERT_EQ(distance2, kNowhere) << where;
@@ -169,12 +131,8 @@ class NearestScene {
     }
   }
 
-  scenes::Random random_;
-  scenes::NamedBox box_;
-  HierarchyParams params_;
-  std::vector<Vec3> points_;
+  ProximityScene scene_;
   std::unique_ptr<Executor> threads_;
-  std::string what_;
 };
 
 TEST(Nearest, EqualsAllPairsInRandomScenes) {
