@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "upper_nodes.hpp"
+
+namespace dch::detail {
+
+UpperNodes::UpperNodes(const Structure& structure) : structure_(structure), balls_(structure) {
+  ids.resize(structure.count());
+  if (ids.empty()) return;
+  nodes.emplace_back();
+  nodes[0].points = static_cast<std::int32_t>(ids.size());
+  std::vector<Subtree> children;
+  for (std::int32_t root = 0; root < structure.levels.back().size(); ++root)
+    if (structure.levels.back().is_alive(root)) children.push_back({structure.top(), root});
+  subtree_.push_back(children.front());
+  if (children.size() > 1) add_children(0, children);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (nodes[k].children > 0) continue;
+    const Subtree at = pass_only_children(subtree_[k]);
+    list_children(at, children);
+    if (children.empty()) {
+      take_points(at, static_cast<std::size_t>(nodes[k].first_point));
+    } else {
+      add_children(k, children);
+    }
+  }
+}
+
+std::int32_t UpperNodes::count(Subtree at) const {
+  return at.level == 0 ? 1 : static_cast<std::int32_t>(balls_.count(at.level, at.node));
+}
+
+/// None of a leaf, whose points are taken as they are.
+void UpperNodes::list_children(Subtree of, std::vector<Subtree>& children) const {
+  children.clear();
+  if (of.level <= 1) return;
+  if (structure_.is_singleton(of.level, of.node))
+    children.push_back({0, structure_.levels[of.level].id[of.node]});
+  structure_.for_each_child(of.level, of.node, [&](std::int32_t child) {
+    children.push_back({of.level - 1, child});
+  });
+}
+
+/// The lowest node with the same points below.
+UpperNodes::Subtree UpperNodes::pass_only_children(Subtree at) const {
+  std::vector<Subtree> children;
+  for (list_children(at, children); children.size() == 1; list_children(at, children)) at = children.front();
+  return at;
+}
+
+void UpperNodes::add_children(std::size_t parent, const std::vector<Subtree>& children) {
+  nodes[parent].first_child = static_cast<std::int32_t>(nodes.size());
+  nodes[parent].children = static_cast<std::int32_t>(children.size());
+  std::int32_t place = nodes[parent].first_point;
+  for (const Subtree at : children) {
+    PointTree::Node node;
+    node.first_point = place;
+    node.points = count(at);
+    place += node.points;
+    nodes.push_back(node);
+    subtree_.push_back(at);
+  }
+}
+
+void UpperNodes::take_points(Subtree of, std::size_t place) {
+  if (of.level == 0) {
+    ids[place] = of.node;
+    return;
+  }
+  structure_.for_each_child(1, of.node,
+                            [&](std::int32_t slot) { ids[place++] = structure_.points.id[slot]; });
+}
+
+}  // namespace dch::detail
