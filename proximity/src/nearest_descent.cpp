@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "geometry/metric.hpp"
@@ -27,17 +26,18 @@ double gap2_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
 
 }  // namespace
 
-template <class Metric>
-void NearestDescent<Metric>::search(Vec3 position, std::int32_t self, double epsilon,
-                                    NearestCandidates& best) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::search(Vec3 position, std::int32_t self, double epsilon,
+                                    Candidates& best) {
   const double reach = std::max(structure_.largest_reach, wrap_error_.reach(position));
   Query query{position,
               metric_.wrap(position),
               self,
               wrap_error_.bound(reach),
               &best,
-              std::numeric_limits<double>::infinity(),
+              0,
               1 / (1 + epsilon)};
+  set_limit(query);
   dive(query);
   while (!waiting_.empty()) {
     const Subtree next = waiting_.back();
@@ -47,8 +47,8 @@ void NearestDescent<Metric>::search(Vec3 position, std::int32_t self, double eps
 }
 
 /// Down to the leaves with a few nodes of each level, so that the first leaf to be looked at is a near one.
-template <class Metric>
-void NearestDescent<Metric>::dive(Query& query) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::dive(Query& query) {
   waiting_.clear();
   const Level& top = structure_.levels.back();
   for (std::int32_t root = 0; root < top.size(); ++root)
@@ -66,29 +66,29 @@ void NearestDescent<Metric>::dive(Query& query) {
   put_nearest_last(first);
 }
 
-template <class Metric>
-bool NearestDescent<Metric>::is_too_far(const Query& query, const Subtree& subtree) const {
+template <class Metric, class Candidates>
+bool NearestDescent<Metric, Candidates>::is_too_far(const Query& query, const Subtree& subtree) const {
   const double within = (query.limit * query.shrink + subtree.radius) * kInflate;
   return subtree.distance2 > within * within;
 }
 
-template <class Metric>
-void NearestDescent<Metric>::push(const Query& query, int level, std::int32_t node) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::push(const Query& query, int level, std::int32_t node) {
   ++work.nodes;
   const Subtree subtree{metric_.distance2(query.wrapped, structure_.position(level, node)),
                         balls_.radius(level, node), level, node};
   if (!is_too_far(query, subtree)) waiting_.push_back(subtree);
 }
 
-template <class Metric>
-void NearestDescent<Metric>::put_nearest_last(std::size_t first) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::put_nearest_last(std::size_t first) {
   if (first == waiting_.size()) return;
   const auto begin = waiting_.begin() + static_cast<std::ptrdiff_t>(first);
   std::iter_swap(std::min_element(begin, waiting_.end(), is_nearer), waiting_.end() - 1);
 }
 
-template <class Metric>
-void NearestDescent<Metric>::open(Query& query, const Subtree& subtree) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::open(Query& query, const Subtree& subtree) {
   if (subtree.level == 1) return look_at_leaf(query, subtree.node);
   if (structure_.is_singleton(subtree.level, subtree.node)) {
     const std::int32_t id = structure_.levels[subtree.level].id[subtree.node];
@@ -101,8 +101,8 @@ void NearestDescent<Metric>::open(Query& query, const Subtree& subtree) {
 }
 
 /// The nearest block comes first: after it hardly another one is near enough.
-template <class Metric>
-void NearestDescent<Metric>::look_at_leaf(Query& query, std::int32_t node) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::look_at_leaf(Query& query, std::int32_t node) {
   const Vec3 at = metric_.displacement(structure_.levels[1].position[node], query.wrapped);
   near_blocks_.clear();
   std::size_t nearest = 0;
@@ -123,8 +123,8 @@ void NearestDescent<Metric>::look_at_leaf(Query& query, std::int32_t node) {
   }
 }
 
-template <class Metric>
-void NearestDescent<Metric>::look_at_block(Query& query, std::int32_t block) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::look_at_block(Query& query, std::int32_t block) {
   const LeafBlocks& points = structure_.points;
   const std::int32_t first = block * kBlock, last = first + points.count[block];
   work.points += points.count[block];
@@ -137,15 +137,23 @@ void NearestDescent<Metric>::look_at_block(Query& query, std::int32_t block) {
   }
 }
 
-template <class Metric>
-void NearestDescent<Metric>::look_at_point(Query& query, std::int32_t id, Vec3 given) {
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::look_at_point(Query& query, std::int32_t id, Vec3 given) {
   if (id == query.self) return;
   query.best->add(structure_.box.distance2(query.given, given), id);
+  set_limit(query);
+}
+
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::set_limit(Query& query) {
   query.limit = (std::sqrt(query.best->limit2()) + query.slack) * kInflate;
 }
 
-template class NearestDescent<OpenMetric>;
-template class NearestDescent<OrthorhombicMetric>;
-template class NearestDescent<LatticeMetric>;
+template class NearestDescent<OpenMetric, NearestCandidates>;
+template class NearestDescent<OrthorhombicMetric, NearestCandidates>;
+template class NearestDescent<LatticeMetric, NearestCandidates>;
+template class NearestDescent<OpenMetric, WithinCandidates>;
+template class NearestDescent<OrthorhombicMetric, WithinCandidates>;
+template class NearestDescent<LatticeMetric, WithinCandidates>;
 
 }  // namespace dch::detail

@@ -12,12 +12,13 @@
 #include "hierarchy/structure.hpp"
 #include "hierarchy/subtree_balls.hpp"
 #include "nearest_candidates.hpp"
+#include "within_candidates.hpp"
 
 namespace dch::detail {
 
-/// One query at a time: depth first, of siblings the nearest first, without subtrees farther than the k-th
-/// point. The first leaf is near enough for the rest to be dismissed by their squared distances.
-template <class Metric>
+/// One query at a time: depth first, of siblings the nearest first, without subtrees that are too far for the
+/// candidates: farther than the k-th point, or than a radius. The first leaf is near enough for the rest to be dismissed by their squared distances.
+template <class Metric, class Candidates = NearestCandidates>
 class NearestDescent {
  public:
   NearestDescent(const Metric& metric, const Structure& structure, const SubtreeBalls& balls)
@@ -25,7 +26,7 @@ class NearestDescent {
 
   /// @param position as given
   /// @param self id of a point that is no neighbor; -1 for none
-  void search(Vec3 position, std::int32_t self, double epsilon, NearestCandidates& best);
+  void search(Vec3 position, std::int32_t self, double epsilon, Candidates& best);
 
   NearestWork work;
 
@@ -43,7 +44,7 @@ class NearestDescent {
     Vec3 given, wrapped;
     std::int32_t self;
     double slack;  ///< by which distances of wrapped points may be off
-    NearestCandidates* best;
+    Candidates* best;
     double limit;   ///< how far off a point may be at most to be taken, by its wrapped image
     double shrink;  ///< of that: how far off a subtree may be to be opened
   };
@@ -56,6 +57,7 @@ class NearestDescent {
   void look_at_leaf(Query& query, std::int32_t node);
   void look_at_block(Query& query, std::int32_t block);
   void look_at_point(Query& query, std::int32_t id, Vec3 given);
+  static void set_limit(Query& query);
 
   const Metric& metric_;
   const Structure& structure_;
