@@ -28,15 +28,9 @@ double gap2_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
 
 template <class Metric, class Candidates>
 void NearestDescent<Metric, Candidates>::search(Vec3 position, std::int32_t self, double epsilon,
-                                    Candidates& best) {
+                                                Candidates& best) {
   const double reach = std::max(structure_.largest_reach, wrap_error_.reach(position));
-  Query query{position,
-              metric_.wrap(position),
-              self,
-              wrap_error_.bound(reach),
-              &best,
-              0,
-              1 / (1 + epsilon)};
+  Query query{position, metric_.wrap(position), self, wrap_error_.bound(reach), &best, 0, 1 / (1 + epsilon)};
   set_limit(query);
   dive(query);
   while (!waiting_.empty()) {

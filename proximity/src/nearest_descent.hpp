@@ -17,7 +17,8 @@
 namespace dch::detail {
 
 /// One query at a time: depth first, of siblings the nearest first, without subtrees that are too far for the
-/// candidates: farther than the k-th point, or than a radius. The first leaf is near enough for the rest to be dismissed by their squared distances.
+/// candidates: farther than the k-th point, or than a radius. The first leaf is near enough for the rest to
+/// be dismissed by their squared distances.
 template <class Metric, class Candidates = NearestCandidates>
 class NearestDescent {
  public:

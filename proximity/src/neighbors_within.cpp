@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -8,14 +9,16 @@
 #include "base/describe.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
+#include "hierarchy/subtree_balls.hpp"
 #include "nearest_descent.hpp"
-#include "subtree_balls.hpp"
 #include "within_candidates.hpp"
 
 namespace dch {
 
 struct NeighborsWithin::Impl {
-  explicit Impl(const detail::Structure& s) : structure(s), balls(s) {}
+  explicit Impl(const detail::Structure& s) : structure(s) {
+    if (!s.balls) measured.emplace(s);
+  }
 
   /// Rows for queries at position_of(k), which leave the point self_of(k) out.
   template <class Position, class Self>
@@ -25,7 +28,7 @@ struct NeighborsWithin::Impl {
     detail::WithinCandidates near(radius);
     detail::with_metric(structure.box, [&](const auto& metric) {
       detail::NearestDescent<std::decay_t<decltype(metric)>, detail::WithinCandidates> descent(
-          metric, structure, balls);
+          metric, structure, measured ? *measured : *structure.balls);
       for (std::size_t k = 0; k < queries; ++k) {
         near.clear();
         descent.search(position_of(k), self_of(k), 0, near);
@@ -48,7 +51,7 @@ struct NeighborsWithin::Impl {
   }
 
   const detail::Structure& structure;
-  detail::SubtreeBalls balls;
+  std::optional<detail::SubtreeBalls> measured;  ///< where the hierarchy keeps none up
 };
 
 NeighborsWithin::NeighborsWithin(const HierarchyView& view)

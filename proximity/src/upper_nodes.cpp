@@ -3,9 +3,10 @@
 
 namespace dch::detail {
 
-UpperNodes::UpperNodes(const Structure& structure) : structure_(structure), balls_(structure) {
+UpperNodes::UpperNodes(const Structure& structure) : structure_(structure) {
   ids.resize(structure.count());
   if (ids.empty()) return;
+  count_points();
   nodes.emplace_back();
   nodes[0].points = static_cast<std::int32_t>(ids.size());
   std::vector<Subtree> children;
@@ -25,8 +26,26 @@ UpperNodes::UpperNodes(const Structure& structure) : structure_(structure), ball
   }
 }
 
+void UpperNodes::count_points() {
+  count_.resize(structure_.levels.size());
+  for (std::size_t level = 1; level < count_.size(); ++level) {
+    const int below = static_cast<int>(level) - 1;
+    const Level& nodes_of_level = structure_.levels[level];
+    count_[level].assign(static_cast<std::size_t>(nodes_of_level.size()), 0);
+    for (std::int32_t node = 0; node < nodes_of_level.size(); ++node) {
+      if (!nodes_of_level.is_alive(node)) continue;
+      std::int32_t& points = count_[level][static_cast<std::size_t>(node)];
+      if (structure_.is_singleton(static_cast<int>(level), node)) ++points;
+      structure_.for_each_child(static_cast<int>(level), node, [&](std::int32_t child) {
+        points += count({below, child});
+      });
+    }
+  }
+}
+
+/// Below level 1 there are points alone.
 std::int32_t UpperNodes::count(Subtree at) const {
-  return at.level == 0 ? 1 : static_cast<std::int32_t>(balls_.count(at.level, at.node));
+  return at.level == 0 ? 1 : count_[static_cast<std::size_t>(at.level)][static_cast<std::size_t>(at.node)];
 }
 
 /// None of a leaf, whose points are taken as they are.

@@ -7,7 +7,6 @@
 #include <dch/proximity/point_tree.hpp>
 
 #include "hierarchy/structure.hpp"
-#include "subtree_balls.hpp"
 
 namespace dch::detail {
 
@@ -24,6 +23,7 @@ class UpperNodes {
   struct Subtree {
     std::int32_t level, node;  ///< level 0: a point that is in no leaf, by its id
   };
+  void count_points();
   std::int32_t count(Subtree at) const;
   void list_children(Subtree of, std::vector<Subtree>& children) const;
   Subtree pass_only_children(Subtree at) const;
@@ -31,8 +31,8 @@ class UpperNodes {
   void take_points(Subtree of, std::size_t place);
 
   const Structure& structure_;
-  SubtreeBalls balls_;
-  std::vector<Subtree> subtree_;  ///< by node
+  std::vector<std::vector<std::int32_t>> count_;  ///< by level and node: points below
+  std::vector<Subtree> subtree_;                  ///< by node
 };
 
 }  // namespace dch::detail

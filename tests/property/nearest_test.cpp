@@ -66,21 +66,19 @@ class NearestScene {
   /// The same while the hierarchy keeps up what queries need, with nothing but insertions and removals
   /// between.
   void check_kept() {
-    Hierarchy hierarchy(params_);
-    hierarchy.build(points_, box_.box);
-    hierarchy.kept_view();
+    scene_.kept_view();
     for (int step = 0; step < 12; ++step) {
-      exchange(hierarchy);
-      if (step == 6) hierarchy.view();  // measures anew
-      ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
+      scene_.exchange();
+      if (step == 6) scene_.measured_view();
+      ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
       if (step % 4 == 1) {
-        ASSERT_NO_FATAL_FAILURE(check_points(hierarchy.kept_view()));
+        ASSERT_NO_FATAL_FAILURE(check_points(scene_.kept_view()));
       }
     }
-    move(hierarchy);
-    ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
-    exchange(hierarchy);
-    ASSERT_NO_FATAL_FAILURE(check_positions(hierarchy.kept_view()));
+    scene_.move();
+    ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
+    scene_.exchange();
+    ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
   }
 
  private:

@@ -23,7 +23,10 @@ class ProximityScene {
     hierarchy_.build(points_, box_.box);
   }
 
-  HierarchyView view() { return hierarchy_.view(); }
+  /// In some scenes one that the hierarchy keeps up.
+  HierarchyView view() { return keeps_ ? kept_view() : measured_view(); }
+  HierarchyView kept_view() { return hierarchy_.kept_view(); }
+  HierarchyView measured_view() { return hierarchy_.view(); }
   const Box& box() const { return box_.box; }
   double radius() const { return hierarchy_.params().radius; }
   const std::string& what() const { return what_; }
@@ -44,24 +47,6 @@ class ProximityScene {
     }
   }
 
-  scenes::Random random;
-
- private:
-  HierarchyParams choose(std::size_t most_points) {
-    const auto boxes = scenes::all_boxes(random.uniform(3, 12));
-    box_ = boxes[random.below(boxes.size())];
-    HierarchyParams params;
-    const double widest = std::min(3.0, 0.98 * box_.box.max_cutoff());
-    params.radius = widest * std::pow(10, -random.uniform());
-    params.policy = random.below(2) == 0 ? MaintenancePolicy::automatic : MaintenancePolicy::always_repair;
-    const auto sets =
-        scenes::hard_point_sets(box_.box, random.below(most_points + 1), 0.4 * params.radius + 0.05);
-    const scenes::NamedPoints& set = sets[random.below(sets.size())];
-    points_ = set.points;
-    what_ = std::to_string(points_.size()) + " points, " + set.name + ", " + box_.name + ", radius " +
-            std::to_string(params.radius);
-    return params;
-  }
   void move() {
     const double motion = radius() * std::pow(10, random.uniform(-3, 0.3));
     for (Vec3& p : points_) p = p + random.in_cube(motion);
@@ -82,9 +67,30 @@ class ProximityScene {
     }
   }
 
+  scenes::Random random;
+
+ private:
+  HierarchyParams choose(std::size_t most_points) {
+    const auto boxes = scenes::all_boxes(random.uniform(3, 12));
+    box_ = boxes[random.below(boxes.size())];
+    HierarchyParams params;
+    const double widest = std::min(3.0, 0.98 * box_.box.max_cutoff());
+    params.radius = widest * std::pow(10, -random.uniform());
+    params.policy = random.below(2) == 0 ? MaintenancePolicy::automatic : MaintenancePolicy::always_repair;
+    const auto sets =
+        scenes::hard_point_sets(box_.box, random.below(most_points + 1), 0.4 * params.radius + 0.05);
+    const scenes::NamedPoints& set = sets[random.below(sets.size())];
+    points_ = set.points;
+    keeps_ = random.below(3) == 0;
+    what_ = std::to_string(points_.size()) + " points, " + set.name + ", " + box_.name + ", radius " +
+            std::to_string(params.radius);
+    return params;
+  }
+
   scenes::NamedBox box_;
   std::vector<Vec3> points_;
   std::string what_;
+  bool keeps_ = false;
   Hierarchy hierarchy_;  // last: it is made by what the others are chosen for
 };
 

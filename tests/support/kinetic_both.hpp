@@ -13,7 +13,7 @@ namespace dch::kinetic {
 
 /// Steps both up to a time, event by event.
 inline void step_both(KineticHierarchy& reference, KineticEdges& engine, double until, MovingScene& scene,
-               bool changes_plans) {
+                      bool changes_plans) {
   for (;;) {
     const double next = std::min(until, reference.next_event());
     const auto expected = reference.step(next);
