@@ -30,8 +30,17 @@ int parse_interval(const std::string& word) {
 
 Request parse_on(const std::vector<std::string>& words) {
   Request request;
+  const std::string remedy = "; give 'dch on engine dch', 'dch on engine grid' or 'dch on engine auto'";
   if (words.size() == 1) return request;
-  if (words[1] != "c") refuse("unknown option '" + words[1] + "' of 'dch on'; it takes none");
+  if (words[1] == "engine") {
+    if (words.size() == 2) refuse("'dch on engine' lacks its name" + remedy);
+    request.engine = words[2];
+    if (request.engine != "dch" && request.engine != "grid" && request.engine != "auto")
+      refuse("'dch on engine' does not know '" + words[2] + "'" + remedy);
+    expect_no_more(words, 3);
+    return request;
+  }
+  if (words[1] != "c") refuse("unknown option '" + words[1] + "' of 'dch on'" + remedy);
   if (words.size() == 2) refuse("'dch on c' lacks its value, which has no effect any more; leave 'c' out");
   request.has_c = true;
   expect_no_more(words, 3);
@@ -118,7 +127,7 @@ Request parse_precision(const std::vector<std::string>& words) {
 
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
-      "; give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
+      "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
       "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);

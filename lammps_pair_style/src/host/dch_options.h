@@ -17,8 +17,9 @@ enum class OrderAtoms { automatic, always, never };
 struct Request {
   enum class Action { on, off, stats, verify, precision, threads, skin, order };
   Action action = Action::on;
-  bool has_c = false;    ///< `on c`, which has no effect any more
-  int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
+  std::string engine = "dch";  ///< `on`: what fills lists, see dch::make_search
+  bool has_c = false;          ///< `on c`, which has no effect any more
+  int verify_every = 0;        ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
   ForcePrecision precision = ForcePrecision::full;  ///< `precision`: of force styles of ours
   bool tunes_skin = false;                          ///< `skin`: auto, not fixed
   OrderAtoms order_atoms = OrderAtoms::automatic;   ///< `order`

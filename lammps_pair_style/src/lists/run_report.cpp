@@ -38,10 +38,21 @@ std::string list_table(const RunReport& r) {
   return text.empty() ? "  no lists: they are assigned when a run begins\n" : text;
 }
 
+/// Each process chooses for its own atoms.
+std::string engine_line(const RunReport& r) {
+  std::string text = "  engine                  " + r.engine;
+  if (!r.choice.empty()) text += (r.processes > 1 ? ", on process 0 " : ", ") + r.choice;
+  if (!r.choice.empty() && r.processes > 1)
+    text += "; " + std::to_string(r.processes_on_grid) + " of " + std::to_string(r.processes) +
+            " processes on the grid";
+  return text + "\n";
+}
+
 std::string work_table(const RunReport& r) {
   const RunCounters& n = r.counters;
   std::string text;
   text += line("  builds in the last run  %lld", static_cast<long long>(n.builds));
+  text += engine_line(r);
   text += line(
       "  structure               radius %g, %d levels; built %lld times, repaired %lld times, "
       "neither %lld times",

@@ -42,8 +42,11 @@ struct RunReport {
   bool enabled = false;
   int verify_every = 0;
   int processes = 1;
-  double radius = 0;  ///< of the search [length]
-  double skin = 0;    ///< that was found or is being tried; 0 if it is the script's [length]
+  double radius = 0;          ///< of the search [length]
+  std::string engine;         ///< that fills lists and cluster pairs
+  std::string choice;         ///< what it has chosen and why, on the first process; empty if nothing
+  int processes_on_grid = 0;  ///< by their own choice
+  double skin = 0;            ///< that was found or is being tried; 0 if it is the script's [length]
   bool skin_settled = false;
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space

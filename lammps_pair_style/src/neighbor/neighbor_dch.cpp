@@ -27,13 +27,6 @@ namespace {
 constexpr double kRadiusMargin = 1.0 + 1e-6;
 
 }  // namespace
-}  // namespace LAMMPS_NS
-
-std::unique_ptr<dch::PairSearch> dch::lammps::make_search(const HierarchyParams& params) {
-  return make_dch_search(params);
-}
-
-namespace LAMMPS_NS {
 
 std::unique_ptr<ClusterListFiller> make_cluster_filler(LAMMPS* lammps, SpecialPairs& special,
                                                        const PairRules& rules) {
@@ -80,7 +73,10 @@ NeighborDCH* NeighborDCH::install(LAMMPS* lammps, const NeighborParts& parts) {
   return ours;
 }
 
-void NeighborDCH::enable() { enabled_ = true; }
+void NeighborDCH::enable(const std::string& engine) {
+  enabled_ = true;
+  engine_ = engine;
+}
 
 void NeighborDCH::disable() {
   enabled_ = false;
@@ -117,6 +113,7 @@ void NeighborDCH::init() {
     return;
   }
   prepare_search();
+  check_engine_makes_clusters();
   prepare_skin();
   before_run_ = search_stats();
   order_.begin_run();
@@ -146,7 +143,11 @@ void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
   const bool by_size = sizes_differ_much();
   const int threads = pool_ ? pool_->threads() : 1;
-  if (search_ && radius == params_.radius && by_size == params_.size_classes && threads == threads_) return;
+  const std::string engine = enabled_ ? engine_ : kHierarchy;
+  const bool is_ready = search_ && radius == params_.radius && by_size == params_.size_classes &&
+                        threads == threads_ && engine == engine_in_use_;
+  if (is_ready) return;
+  engine_in_use_ = engine;
   params_ = {};
   params_.radius = radius;
   params_.size_classes = by_size;
@@ -154,10 +155,19 @@ void NeighborDCH::prepare_search() {
   try {
     if (threads != threads_) pool_ = threads_ > 1 ? dch::make_thread_pool(threads_) : nullptr;
     params_.executor = pool_.get();
-    search_ = parts_.search(params_);
+    search_ = parts_.search(engine, params_);
   } catch (const dch::Error& e) {
     error->all(FLERR, std::string("DCH neighbor lists: ") + e.what());
   }
+}
+
+/// A style that asks for cluster pairs has no list to fall back on by then.
+void NeighborDCH::check_engine_makes_clusters() {
+  if (clusters_.empty() || search_->has_cluster_pairs()) return;
+  error->all(FLERR,
+             "DCH neighbor lists: the engine '" + engine_in_use_ +
+                 "' makes no cluster pairs, which pair styles with the suffix dch compute forces with; give "
+                 "'dch on engine auto' or 'dch on engine dch', or 'suffix off' before the pair_style");
 }
 
 // setup_bins() is not virtual and runs outside build(): where bins are in sight stock code sizes them, and

@@ -24,10 +24,8 @@
 
 namespace dch::lammps {
 
-/// Makes the search structure for some parameters; make_dch_search, but for tests.
-using SearchFactory = std::unique_ptr<PairSearch> (*)(const HierarchyParams&);
-
-std::unique_ptr<PairSearch> make_search(const HierarchyParams& params);
+/// Makes the engine of a name; dch::make_search, but for tests.
+using SearchFactory = std::unique_ptr<PairSearch> (*)(const std::string& engine, const HierarchyParams&);
 
 }  // namespace dch::lammps
 
@@ -43,12 +41,12 @@ std::unique_ptr<ClusterListFiller> make_cluster_filler(LAMMPS* lammps, SpecialPa
 
 /// What a NeighborDCH is made of.
 struct NeighborParts {
-  dch::lammps::SearchFactory search = dch::lammps::make_search;
+  dch::lammps::SearchFactory search = dch::make_search;
   ClusterFillerFactory cluster_filler = make_cluster_filler;
 };
 
-/// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy: over the atoms in the
-/// periodic box where one process has it, else over owned and ghost atoms.
+/// LAMMPS's Neighbor with the pairwise lists filled from a discrete center hierarchy or a grid: over the
+/// atoms in the periodic box where one process has it, else over owned and ghost atoms.
 ///
 /// It takes the place of the stock object, so every pair style, fix and compute finds its list where it
 /// always was. Of the perpetual lists it fills those that LAMMPS would build by searching space for a pair
@@ -69,8 +67,8 @@ class NeighborDCH : public Neighbor {
   /// LAMMPS with a message if another class has taken that place.
   static NeighborDCH* install(LAMMPS* lammps, const NeighborParts& parts = {});
 
-  /// From the next run on, lists come from a hierarchy.
-  void enable();
+  /// From the next run on, lists come from the engine of that name; see dch::make_search.
+  void enable(const std::string& engine);
   /// All lists are native from their next build on.
   void disable();
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
@@ -107,6 +105,7 @@ class NeighborDCH : public Neighbor {
 
  private:
   class OnlyTheseLists;
+  static constexpr const char* kHierarchy = "dch";
 
   /// Cluster pairs of a style, and the list that they are compared with.
   struct ServedClusters {
@@ -128,6 +127,7 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  void check_engine_makes_clusters();
   void prepare_skin();
   void choose_skin();
   void apply_skin();
@@ -149,6 +149,8 @@ class NeighborDCH : public Neighbor {
 
   std::unique_ptr<Neighbor> retired_;
   bool enabled_ = false;
+  std::string engine_ = kHierarchy;  ///< for lists; those that are off leave cluster pairs the hierarchy
+  std::string engine_in_use_ = kHierarchy;  ///< that search_ was made as
   int verify_every_ = 0;
 
   bool bins_hidden_ = false;

@@ -18,14 +18,17 @@ dch::lammps::RunReport NeighborDCH::report() const {
              served.rows.first.capacity() * sizeof(std::int64_t);
   for (const ServedClusters& clusters : clusters_) bytes += clusters.list->memory_bytes();
 
-  std::array<std::int64_t, 8> sums{run_.entries,
+  const std::string choice = search_ ? search_->choice() : std::string();
+
+  std::array<std::int64_t, 9> sums{run_.entries,
                                    run_.verified_entries,
                                    now.promotions - before_run_.promotions,
                                    now.demotions - before_run_.demotions,
                                    now.inserted - before_run_.inserted,
                                    now.removed - before_run_.removed,
                                    static_cast<std::int64_t>(bytes),
-                                   atom->nlocal};
+                                   atom->nlocal,
+                                   choice.rfind("grid", 0) == 0 ? 1 : 0};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_LMP_BIGINT, MPI_SUM, world);
   std::array<std::int64_t, 4> largest{now.builds - before_run_.builds, now.repairs - before_run_.repairs,
                                       now.levels, now.refreshes - before_run_.refreshes};
@@ -43,6 +46,9 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.verify_every = verify_every_;
   report.processes = comm->nprocs;
   report.radius = params_.radius;
+  report.engine = engine_in_use_;
+  report.choice = choice;
+  report.processes_on_grid = static_cast<int>(sums[8]);
   report.in_box = points_.in_box();
   report.order_obstacle = order_.obstacle();
   report.instructions = dch::name(dch::instruction_set());

@@ -30,7 +30,7 @@ void DchCommand::command(int narg, char** arg) {
             FLERR,
             std::string(
                 "'dch on c' has no effect any more and will be an error in the next version; give 'dch on'"));
-      neighbor_dch->enable();
+      neighbor_dch->enable(request.engine);
       break;
     case Request::Action::off:
       neighbor_dch->disable();

@@ -130,13 +130,14 @@ class OrderOfAtoms(unittest.TestCase):
 
 class Errors(unittest.TestCase):
     def test_words_that_mean_nothing(self):
-        for words, remedy in (("", "give 'dch on', 'dch off', 'dch stats', 'dch verify"),
+        for words, remedy in (("", "give 'dch on', 'dch on engine dch|grid|auto', 'dch off'"),
                               ("threads none", "the number of threads is 'none'"),
                               ("precision half", "does not know 'half'"),
                               ("of", "unknown keyword 'of'"),
                               ("off now", "'now' after 'dch off' has no meaning"),
                               ("on c", "'dch on c' lacks its value, which has no effect any more"),
                               ("on fast", "unknown option 'fast'"),
+                              ("on engine tree", "'dch on engine' does not know 'tree'; give 'dch on engine dch'"),
                               ("verify", "give 'dch verify yes'"),
                               ("verify maybe", "does not know 'maybe'"),
                               ("verify every 0", "the interval is '0' but has to be a whole number from 1 up")):
@@ -288,6 +289,71 @@ run 20
 dch stats
 """)
         self.assertIn("radius 2.4,", output)
+
+
+class Engines(unittest.TestCase):
+    """`dch on engine`: what is taken, that `dch stats` says so, and that no change of engine changes the pairs."""
+
+    # A melt whose box widens around it: its density is even at first, and no longer so later.
+    WIDENING = MELT.replace("every 5 check no", "every 1 check yes") + \
+        "fix 2 all deform 1 x scale 2 y scale 2 z scale 2 remap none\n"
+
+    def run_on(self, text, ranks):
+        code, output = host.run_text(text, ranks=ranks)
+        self.assertEqual(code, 0, output)
+        return output
+
+    def check_same(self, stock, output, tolerance):
+        native, ours = thermo_tables(stock), thermo_tables(output)
+        self.assertEqual(len(native), len(ours), output)
+        for first, second in zip(native, ours):
+            self.assertLess(largest_relative_difference(first[-1], second[-1]), tolerance, output)
+
+    def test_change_between_runs(self):
+        for ranks in (1, 2):
+            stock = self.run_on(MELT + "run 20\n" * 5, ranks)
+            output = self.run_on("include ${load}\n" + MELT + "dch verify yes\n" +
+                                 "".join(f"dch on{engine}\nrun 20\ndch stats\n"
+                                         for engine in (" engine grid", "", " engine auto", " engine grid")) +
+                                 "dch on\nrun 20 pre no\ndch stats\n", ranks)
+            self.check_same(stock, output, 1e-9)
+            self.assertEqual(output.count("verified                5 builds"), 4, output)
+            engines = re.findall(r"^  engine +(\S+)", output, re.MULTILINE)
+            self.assertEqual(engines, ["grid", "dch", "auto,", "grid", "grid"])  # no new setup, no new engine
+
+    def test_auto_changes_in_the_middle_of_a_run(self):
+        script = self.WIDENING + "{}run 1\n{stats}run 99 pre no\n{stats}"
+        for ranks in (1, 2):
+            stock = self.run_on(script.format("", stats=""), ranks)
+            for verify in ("yes", "no"):
+                output = self.run_on("include ${load}\n" + script.format(f"dch on engine auto\ndch verify {verify}\n",
+                                                                        stats="dch stats\n"), ranks)
+                self.check_same(stock, output, 1e-6)
+                early, late = re.findall(r"^  engine +auto, (.*)", output, re.MULTILINE)
+                self.assertIn("grid: ", early)
+                self.assertNotIn("distances of the hierarchy", early)
+                self.assertIn("distances of the hierarchy", late)  # which has thus been in use since
+
+    def test_auto_takes_the_hierarchy_for_cluster_pairs(self):
+        for ranks in (1, 2):
+            stock = self.run_on(MELT + "run 20\n" * 2, ranks)
+            output = self.run_on("include ${load}\ndch verify yes\nsuffix dch\n" + MELT +
+                                 "dch on engine auto\nrun 20\nrun 20\ndch stats\n", ranks)
+            self.check_same(stock, output, 1e-9)
+            self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
+            self.assertRegex(output, "engine +auto, .*dch: cluster pairs are asked for")
+
+    def test_a_grid_is_refused_for_cluster_pairs(self):
+        with_style = "suffix dch\n" + MELT + "dch on engine grid\nrun 20\n"
+        later = MELT + "dch on engine grid\nrun 20\nsuffix dch\n" \
+            "pair_style none\npair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0\nrun 20\n"
+        for script, ranks in ((with_style, 1), (with_style, 2), (later, 1)):
+            code, output = host.run_text("include ${load}\n" + script, ranks=ranks)
+            self.assertNotEqual(code, 0, output)
+            self.assertIn("the engine 'grid' makes no cluster pairs", output)
+            self.assertIn("give 'dch on engine auto'", output)
+        off = run("include ${load}\n" + with_style.replace("run 20", "dch off\nrun 20\ndch stats"))
+        self.assertRegex(off, r"engine +dch\n")
 
 
 class WithoutBins(unittest.TestCase):

@@ -34,6 +34,7 @@ FACTORS = {
     "boundary": ("p p p", "p p s", "f s p", "f f f"),
     "pair": ("lj", "granular", "hybrid", "full"),
     "bonds": ("none", "left out", "weighted"),
+    "engine": ("dch", "grid", "auto"),
 }
 
 # Tilts xy, xz, yz are whole spacings of the lattice. LAMMPS wants the second dimension of each to be periodic; faces
@@ -89,11 +90,11 @@ SW = "A A A 0.2 0.7 1.8 21.0 1.2 -0.333333333333 7.049556277 0.6022245584 4.0 0.
 
 # Unverified builds have to be right by themselves: what verifying does to LAMMPS, bins for example, may help them.
 MODES = {
-    "lists": ("suffix off\n", "dch on\n"),
-    "lists, verified": ("suffix off\n", "dch on\ndch verify yes\n"),
+    "lists": ("suffix off\n", "dch on engine {engine}\n"),
+    "lists, verified": ("suffix off\n", "dch on engine {engine}\ndch verify yes\n"),
     "forces": ("suffix dch\n", "dch off\n"),
     "forces, verified": ("suffix dch\ndch verify yes\n", "dch off\n"),
-    "both, verified": ("suffix dch\ndch verify yes\n", "dch on\n"),
+    "both, verified": ("suffix dch\ndch verify yes\n", "dch on engine {engine_with_forces}\n"),
 }
 
 
@@ -180,7 +181,11 @@ def script_of(scene, before, after):
 
 
 def modes_of(scene):
-    return {name: lines for name, lines in MODES.items() if scene["pair"] != "granular" or name.startswith("lists")}
+    """The lines before and after the scene. A grid makes no cluster pairs; beside force styles `auto` takes its place."""
+    engine = scene["engine"]
+    with_forces = "auto" if engine == "grid" else engine
+    return {name: (before, after.format(engine=engine, engine_with_forces=with_forces))
+            for name, (before, after) in MODES.items() if scene["pair"] != "granular" or name.startswith("lists")}
 
 
 class Runner:

@@ -31,6 +31,7 @@ pair_coeff 1 1 1.0 1.0
 neighbor {skin} bin
 neigh_modify delay 0 every 1 check yes
 fix 1 all nve
+{fix}
 thermo 20
 thermo_modify format float %.17g
 dump 1 all custom {steps} {dump} id x y z vx vy vz fx fy fz
@@ -39,13 +40,16 @@ run {steps}
 dch stats
 """
 SCENES = {
-    "gas": {"lattice": "sc 0.1", "cells": 14, "tilt": 4, "temperature": 10, "skin": 1.5, "steps": 120},
-    "melt": {"lattice": "fcc 0.8442", "cells": 7, "tilt": 2, "temperature": 20, "skin": 1.0, "steps": 60},
+    "gas": {"lattice": "sc 0.1", "cells": 14, "tilt": 4, "temperature": 10, "skin": 1.5, "steps": 120, "fix": ""},
+    "melt": {"lattice": "fcc 0.8442", "cells": 7, "tilt": 2, "temperature": 20, "skin": 1.0, "steps": 60, "fix": ""},
+    # `auto` changes from the grid to the hierarchy.
+    "widening": {"lattice": "fcc 0.8442", "cells": 6, "tilt": 0, "temperature": 1.44, "skin": 0.3, "steps": 100,
+                 "fix": "fix 2 all deform 1 x scale 2 y scale 2 z scale 2 remap none"},
 }
 
 
 def outcome(scene, words, ranks, threads):
-    """A hash of the last frame and all thermo output, and how often structures were built and repaired."""
+    """A hash of the last frame and all thermo output, how often structures were built and repaired, and the engine."""
     dump = host.work / "dump.repeat"
     text = f"include ${{load}}\n{words}dch threads {threads}\n" + SCRIPT.format(dump=dump, **SCENES[scene])
     code, output = host.run_text(text, ranks=ranks)
@@ -53,7 +57,8 @@ def outcome(scene, words, ranks, threads):
         raise AssertionError(output)
     state = dump.read_text() + repr(thermo_tables(output))
     work = re.search(r"built (\d+) times, repaired (\d+) times, neither (\d+) times", output)
-    return hashlib.sha256(state.encode()).hexdigest(), tuple(map(int, work.groups()))
+    engine = re.search(r"^  engine +(.*)", output, re.MULTILINE)[1]
+    return hashlib.sha256(state.encode()).hexdigest(), tuple(map(int, work.groups())), engine
 
 
 class Repeats(unittest.TestCase):
@@ -64,21 +69,27 @@ class Repeats(unittest.TestCase):
                 result = outcome(scene, words, ranks, threads[repeat % len(threads)])
             found.setdefault(result, []).append(repeat)
         self.assertEqual(len(found), 1, f"{scene}, {words!r}, {ranks} processes: {found}")
-        (_, (builds, repairs, _)), = found
+        (_, (builds, repairs, _), engine), = found
         self.assertGreater(builds + repairs, 2, "nothing was decided")
+        return engine
 
     def test_force_styles_on_one_process_with_one_and_two_threads(self):
-        for scene in SCENES:
+        for scene in ("gas", "melt"):
             self.check(scene, "dch on\nsuffix dch\n", 1, threads=(1, 2))
 
     def test_lists_on_one_process(self):
-        for scene in SCENES:
-            self.check(scene, "dch on\n", 1)
+        self.check("gas", "dch on\n", 1)
+        self.check("melt", "dch on engine grid\n", 1, threads=(1, 2))
+
+    def test_choice_of_the_engine(self):
+        for ranks, threads in ((1, (1, 2)), (2, (1,))):
+            engine = self.check("widening", "dch on engine auto\n", ranks, threads)
+            self.assertIn("distances of the hierarchy", engine)  # which is in use after the grid
 
     def test_two_processes(self):
-        host.environment["OMPI_MCA_mpi_yield_when_idle"] = "1"  # one that waits leaves the processor to the others
         self.check("melt", "dch on\nsuffix dch\n", 2)
 
 
 if __name__ == "__main__":
+    os.environ["OMPI_MCA_mpi_yield_when_idle"] = "1"  # one that waits leaves the processor to the others
     main(__doc__)

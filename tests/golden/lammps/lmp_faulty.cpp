@@ -65,7 +65,7 @@ class FaultySearch : public dch::PairSearch {
   int lists_ = 0;
 };
 
-std::unique_ptr<dch::PairSearch> make_faulty(const dch::HierarchyParams& params) {
+std::unique_ptr<dch::PairSearch> make_faulty(const std::string&, const dch::HierarchyParams& params) {
   return std::make_unique<FaultySearch>(params);
 }
 

@@ -28,6 +28,9 @@ TEST(DchOptions, On) {
   EXPECT_EQ(request.action, Request::Action::on);
   EXPECT_TRUE(parse_request({"on", "c", "1.3"}).has_c);
   EXPECT_FALSE(parse_request({"on"}).has_c);
+  EXPECT_EQ(parse_request({"on"}).engine, "dch");
+  for (const char* engine : {"dch", "grid", "auto"})
+    EXPECT_EQ(parse_request({"on", "engine", engine}).engine, engine);
 }
 
 TEST(DchOptions, OffAndStats) {
@@ -68,14 +71,20 @@ TEST(DchOptions, Threads) {
 
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
-      "give 'dch on', 'dch off', 'dch stats', 'dch verify yes|no|every N', 'dch precision double|mixed', "
+      "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
+      "'dch precision double|mixed', "
       "'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
       {{"up"}, "unknown keyword 'up'; " + grammar},
       {{"off", "now"}, "'now' after 'dch off' has no meaning; remove it"},
-      {{"on", "d"}, "unknown option 'd' of 'dch on'; it takes none"},
+      {{"on", "d"}, "unknown option 'd' of 'dch on'; give 'dch on engine dch', 'dch on engine grid'"},
+      {{"on", "engine"}, "'dch on engine' lacks its name; give 'dch on engine dch'"},
+      {{"on", "engine", "tree"},
+       "'dch on engine' does not know 'tree'; give 'dch on engine dch', 'dch on engine grid' or 'dch on "
+       "engine auto'"},
+      {{"on", "engine", "grid", "c"}, "'c' after 'dch grid'"},
       {{"on", "c"}, "'dch on c' lacks its value, which has no effect any more; leave 'c' out"},
       {{"on", "c", "1.2", "c"}, "'c' after 'dch 1.2'"},
       {{"verify"},

@@ -49,6 +49,21 @@ TEST(RunReport, GivesCountsAndMeans) {
   EXPECT_THAT(text, HasSubstr("instructions            avx2\n"));
 }
 
+TEST(RunReport, SaysWhichEngineWasTakenAndWhy) {
+  RunReport report = example();
+  report.engine = "grid";
+  EXPECT_THAT(format_report(report), HasSubstr("engine                  grid\n"));
+  report.engine = "auto";
+  report.choice = "dch: 9.0 points a cell, spread 7.1";
+  EXPECT_THAT(format_report(report),
+              HasSubstr("engine                  auto, dch: 9.0 points a cell, spread 7.1\n"));
+  report.processes = 3;
+  report.processes_on_grid = 2;
+  EXPECT_THAT(format_report(report),
+              HasSubstr("auto, on process 0 dch: 9.0 points a cell, spread 7.1; 2 of 3 "
+                        "processes on the grid\n"));
+}
+
 TEST(RunReport, SaysWhatThePointsAre) {
   dch::lammps::RunReport report = example();
   report.in_box = true;
