@@ -46,7 +46,7 @@ void add(const ClusterOfFour<Real>& force, ClusterOfFour<Real>& to) {
   }
 }
 
-/// Adds what a part has found for clusters of later parts to what earlier ones have.
+/// Adds what a task has found for clusters of later tasks to what earlier ones have.
 template <class Real>
 void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<ClusterOfFour<Real>>& found,
                    std::vector<ClusterOfFour<Real>>& later) {
@@ -58,7 +58,7 @@ void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<ClusterOf
   }
 }
 
-/// Gives particles the forces on their clusters: what their part has found and what earlier ones have. A
+/// Gives particles the forces on their clusters: what their task has found and what earlier ones have. A
 /// particle stands in one slot at most.
 template <class Real>
 void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<ClusterOfFour<Real>>& found,
@@ -66,7 +66,7 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
   for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
     ClusterOfFour<Real> force = found[c];
     found[c] = {};
-    if (pairs.is_named_before[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {
+    if (pairs.has_earlier_contributions[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {
       add(earlier[c], force);
       earlier[c] = {};
     }
@@ -102,8 +102,8 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
   using Of = Kernels<Real>;
   const auto& functions = Of::functions(detail::force_kernels(instruction_set()));
   const auto function = functions.choose(kind(), parameters(), sums != nullptr);
-  const auto parts = static_cast<int>(pairs.parts.size()) - 1;
-  const int workers = executor_ ? std::min(executor_->threads(), parts) : 1;
+  const auto tasks = static_cast<int>(pairs.tasks.size()) - 1;
+  const int workers = executor_ ? std::min(executor_->threads(), tasks) : 1;
   const auto clusters = static_cast<std::size_t>(pairs.clusters());
   scratch.force.resize(static_cast<std::size_t>(workers));
   scratch.lanes.resize(static_cast<std::size_t>(workers));
@@ -118,36 +118,36 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
     if (mixes_) sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
     if (mixes_) sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
-  detail::Turns turns(parts);
+  detail::Turns turns(tasks);
   detail::run_parts(executor_, workers, [&](int worker) {
     auto& force = scratch.force[static_cast<std::size_t>(worker)];
     auto& lanes = scratch.lanes[static_cast<std::size_t>(worker)];
-    for (int part = turns.take(); part >= 0; part = turns.take()) {
-      const ClusterPairs::Part& own = pairs.parts[static_cast<std::size_t>(part)];
-      const ClusterPairs::Part& next = pairs.parts[static_cast<std::size_t>(part) + 1];
+    for (int task = turns.take(); task >= 0; task = turns.take()) {
+      const ClusterPairs::Task& own = pairs.tasks[static_cast<std::size_t>(task)];
+      const ClusterPairs::Task& next = pairs.tasks[static_cast<std::size_t>(task) + 1];
       const std::size_t first_row = pairs.first_row(own), last_row = pairs.first_row(next);
       const Span<const ClusterPairs::Range> ranges{
           pairs.ranges.data() + own.first_range,
           static_cast<std::size_t>(next.first_range - own.first_range)};
-      const detail::LjTask<Real> task{pairs.rows.data() + first_row,
-                                      static_cast<std::int64_t>(last_row - first_row),
-                                      pairs.entries.data(),
-                                      Of::at(pairs).data(),
-                                      Of::shift(pairs).data(),
-                                      pairs.type.data(),
-                                      types_,
-                                      detail::pointers_to(tables),
-                                      mixes_ ? scratch.half_sigma.data()->slot : nullptr,
-                                      mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
-                                      has_charges_ ? scratch.charge.data()->slot : nullptr,
-                                      constants<Real>(),
-                                      force.data(),
-                                      functions.wants_lanes ? lanes.data()->numbers : nullptr,
-                                      {own.first_cluster, next.first_cluster},
-                                      ranges};
+      const detail::LjTask<Real> kernel_task{pairs.rows.data() + first_row,
+                                             static_cast<std::int64_t>(last_row - first_row),
+                                             pairs.entries.data(),
+                                             Of::at(pairs).data(),
+                                             Of::shift(pairs).data(),
+                                             pairs.type.data(),
+                                             types_,
+                                             detail::pointers_to(tables),
+                                             mixes_ ? scratch.half_sigma.data()->slot : nullptr,
+                                             mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
+                                             has_charges_ ? scratch.charge.data()->slot : nullptr,
+                                             constants<Real>(),
+                                             force.data(),
+                                             functions.wants_lanes ? lanes.data()->numbers : nullptr,
+                                             {own.first_cluster, next.first_cluster},
+                                             ranges};
       detail::LjSums found;
-      function(task, found);
-      turns.in_turn(part, [&] {
+      function(kernel_task, found);
+      turns.in_turn(task, [&] {
         add_for_later(ranges, force, scratch.earlier);
         if (sums) detail::give(found, *sums);
       });
@@ -164,7 +164,7 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
         "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
         "other "
         "units or ForcePrecision::full");
-  if (pairs.parts.size() < 2) return;
+  if (pairs.tasks.size() < 2) return;
   if (precision == ForcePrecision::mixed) {
     run(pairs, charges, mixed_, scratch_float_, forces, sums);
   } else {

@@ -9,20 +9,20 @@
 
 namespace dch::detail {
 
-/// Has workers take turns: each takes the next part when it has none, and does some of the work on it when
-/// all parts before have had theirs done.
+/// Has workers take turns: each takes the next task when it has none, and does some of the work on it when
+/// all tasks before have had theirs done.
 class Turns {
  public:
-  explicit Turns(int parts) : parts_(parts) {}
-  /// The next part, or -1 if all are taken.
+  explicit Turns(int tasks) : tasks_(tasks) {}
+  /// The next task, or -1 if all are taken.
   int take() {
     const std::lock_guard lock(mutex_);
-    return taken_ < parts_ ? taken_++ : -1;
+    return taken_ < tasks_ ? taken_++ : -1;
   }
   template <class Work>
-  void in_turn(int part, const Work& work) {
+  void in_turn(int task, const Work& work) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return done_ == part; });
+    changed_.wait(lock, [&] { return done_ == task; });
     lock.unlock();
     work();
     lock.lock();
@@ -33,7 +33,7 @@ class Turns {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  int parts_, taken_ = 0, done_ = 0;
+  int tasks_, taken_ = 0, done_ = 0;
 };
 
 /// task(0) .. task(parts - 1), on the executor's threads if there are several.

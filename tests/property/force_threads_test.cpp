@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The parts that threads compute hold all rows and name what they say, and forces are the same bits however
+// The tasks that threads compute hold all rows and name what they say, and forces are the same bits however
 // many threads there are.
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr double kCutoff = 1.5;
 
 class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
  protected:
-  /// Enough for several parts, none near another one; some leave the cell.
+  /// Enough for several tasks, none near another one; some leave the cell.
   ForcesOnThreads() {
     constexpr int kSide = 26;
     scenes::Random random(11);
@@ -97,44 +97,45 @@ TEST_P(ForcesOnThreads, PositionsAreTakenAlike) {
         ASSERT_EQ(together.at[c].z[slot], alone.at[c].z[slot]);
         ASSERT_EQ(together.at_float[c].y[slot], alone.at_float[c].y[slot]);
       }
-    ASSERT_EQ(together.torn.size(), alone.torn.size());
-    for (std::size_t k = 0; k < alone.torn.size(); ++k)
-      ASSERT_EQ(together.torn[k].cluster, alone.torn[k].cluster);
+    ASSERT_EQ(together.split_clusters.size(), alone.split_clusters.size());
+    for (std::size_t k = 0; k < alone.split_clusters.size(); ++k)
+      ASSERT_EQ(together.split_clusters[k].cluster, alone.split_clusters[k].cluster);
   }
 }
 
-TEST_P(ForcesOnThreads, PartsNameTheirOwnClustersAndLaterOnes) {
-  const auto& parts = pairs.parts;
-  ASSERT_GE(parts.size(), 4u);
-  ASSERT_EQ(pairs.first_row(parts.front()), 0u);
-  ASSERT_EQ(parts.front().first_cluster, 0);
-  ASSERT_EQ(pairs.first_row(parts.back()) + 1, pairs.rows.size());
-  ASSERT_EQ(parts.back().first_cluster, pairs.clusters());
-  std::vector<bool> is_named_before(pairs.at.size());
-  for (std::size_t p = 0; p + 1 < parts.size(); ++p) {
+TEST_P(ForcesOnThreads, TasksNameTheirOwnClustersAndLaterOnes) {
+  const auto& tasks = pairs.tasks;
+  ASSERT_GE(tasks.size(), 4u);
+  ASSERT_EQ(pairs.first_row(tasks.front()), 0u);
+  ASSERT_EQ(tasks.front().first_cluster, 0);
+  ASSERT_EQ(pairs.first_row(tasks.back()) + 1, pairs.rows.size());
+  ASSERT_EQ(tasks.back().first_cluster, pairs.clusters());
+  std::vector<bool> has_earlier_contributions(pairs.at.size());
+  for (std::size_t p = 0; p + 1 < tasks.size(); ++p) {
     std::vector<bool> is_listed(pairs.at.size());
-    for (std::int64_t k = parts[p].first_range; k < parts[p + 1].first_range; ++k) {
+    for (std::int64_t k = tasks[p].first_range; k < tasks[p + 1].first_range; ++k) {
       const ClusterPairs::Range range = pairs.ranges[static_cast<std::size_t>(k)];
-      ASSERT_GE(range.first, parts[p + 1].first_cluster);
+      ASSERT_GE(range.first, tasks[p + 1].first_cluster);
       for (std::int32_t c = range.first; c < range.last; ++c) {
         ASSERT_FALSE(is_listed[static_cast<std::size_t>(c)]);
-        is_listed[static_cast<std::size_t>(c)] = is_named_before[static_cast<std::size_t>(c)] = true;
+        is_listed[static_cast<std::size_t>(c)] = has_earlier_contributions[static_cast<std::size_t>(c)] =
+            true;
       }
     }
-    for (std::size_t r = pairs.first_row(parts[p]); r < pairs.first_row(parts[p + 1]); ++r) {
+    for (std::size_t r = pairs.first_row(tasks[p]); r < pairs.first_row(tasks[p + 1]); ++r) {
       const ClusterPairs::Row& row = pairs.rows[r];
-      ASSERT_GE(row.cluster, parts[p].first_cluster);
-      ASSERT_LT(row.cluster, parts[p + 1].first_cluster);
+      ASSERT_GE(row.cluster, tasks[p].first_cluster);
+      ASSERT_LT(row.cluster, tasks[p + 1].first_cluster);
       for (std::int64_t e = row.first; e < pairs.rows[r + 1].first; ++e) {
         const std::int32_t c = pairs.entries[static_cast<std::size_t>(e)].cluster;
-        const bool is_own = c >= parts[p].first_cluster && c < parts[p + 1].first_cluster;
-        ASSERT_TRUE(is_own || is_listed[static_cast<std::size_t>(c)]) << "part " << p << ", cluster " << c;
+        const bool is_own = c >= tasks[p].first_cluster && c < tasks[p + 1].first_cluster;
+        ASSERT_TRUE(is_own || is_listed[static_cast<std::size_t>(c)]) << "task " << p << ", cluster " << c;
       }
     }
   }
   for (std::size_t c = 0; c < pairs.at.size(); ++c) {
-    const bool is_marked = pairs.is_named_before[static_cast<std::size_t>(pairs.origin_of[c])] != 0;
-    ASSERT_TRUE(is_marked || !is_named_before[c]) << c;
+    const bool is_marked = pairs.has_earlier_contributions[static_cast<std::size_t>(pairs.origin_of[c])] != 0;
+    ASSERT_TRUE(is_marked || !has_earlier_contributions[c]) << c;
   }
 }
 

@@ -94,7 +94,7 @@ TEST(SharedExecutor, ThreadsSumUpForcesSideBySide) {
   hierarchy.build(points, box);
   ClusterPairs pairs;
   hierarchy.cluster_pairs(request, pairs);
-  ASSERT_GE(pairs.parts.size(), 4u);
+  ASSERT_GE(pairs.tasks.size(), 4u);
   const auto forces_on = [&](Executor* executor) {
     LennardJones potential({1, 0.9, 1.5});
     potential.set_executor(executor);

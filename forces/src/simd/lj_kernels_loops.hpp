@@ -22,13 +22,13 @@ namespace {
 template <class S>
 struct Separations {
   Coordinates<S> d;
-  typename S::V r2[S::kParts], s[S::kParts];
+  typename S::V r2[S::kRegisters], s[S::kRegisters];
 };
 
-/// Charges of a row's cluster, for the pairs of each part.
+/// Charges of a row's cluster, for the pairs of each register.
 template <class S>
 struct RowCharges {
-  typename S::V of_i[S::kParts];
+  typename S::V of_i[S::kRegisters];
 };
 
 template <class S, LjParameters kParameters, ForceKind kKind>
@@ -40,7 +40,7 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
                                  task.at[row.cluster]);
   coefficient.choose_j(entry.cluster);
   Separations<S> found;
-  for (int p = 0; p < S::kParts; ++p) {
+  for (int p = 0; p < S::kRegisters; ++p) {
     const V dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
     const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
     found.d.x[p] = dx;
@@ -68,13 +68,13 @@ struct RowSums {
 /// holds all 16 pairs this takes a fused operation for each axis; to sum up over cluster I, which is put off
 /// to the end, takes nine more, and shuffles among them.
 template <class S>
-constexpr bool kWantsLanes = S::kParts == 1;
+constexpr bool kWantsLanes = S::kRegisters == 1;
 
 /// Adds force / r times displacements to an entry's lanes and to what the row has summed up.
 template <class S>
 void add_to_lanes(typename S::V force, const Coordinates<S>& d, Coordinates<S>& sum,
                   typename S::Real* lanes) {
-  static_assert(S::kParts == 1);
+  static_assert(S::kRegisters == 1);
   sum.x[0] = S::madd(force, d.x[0], sum.x[0]);
   sum.y[0] = S::madd(force, d.y[0], sum.y[0]);
   sum.z[0] = S::madd(force, d.z[0], sum.z[0]);
@@ -97,10 +97,10 @@ void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range cluste
   }
 }
 
-/// Whether two entries at a time fit into registers. Four parts do not: spilling costs more than waiting
+/// Whether two entries at a time fit into registers. Four of each do not: spilling costs more than waiting
 /// does.
 template <class S>
-constexpr bool kMeasuresAhead = S::kParts <= 2;
+constexpr bool kMeasuresAhead = S::kRegisters <= 2;
 
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
 template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
@@ -110,7 +110,7 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
   using V = typename S::V;
   coefficient.choose_j(entry.cluster);
   Coordinates<S> force;
-  for (int p = 0; p < S::kParts; ++p) {
+  for (int p = 0; p < S::kRegisters; ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
     V charge = S::zero();
     if constexpr (has_charges(kKind))
@@ -154,9 +154,9 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sum
     const Coordinates<S> i = spread<S>(task.at[row.cluster]);
     coefficient.choose_i(row.cluster);
     if constexpr (has_charges(kKind))
-      for (int p = 0; p < S::kParts; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
+      for (int p = 0; p < S::kRegisters; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
     RowSums<S> sum;
-    for (int p = 0; p < S::kParts; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
+    for (int p = 0; p < S::kRegisters; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
     sum.energy = sum.coulomb_energy = S::zero();
     for (auto& v : sum.virial) v = S::zero();
     const ClusterPairs::Entry* entry = task.entries + row.first;

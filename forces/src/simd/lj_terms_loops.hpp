@@ -20,7 +20,7 @@ enum Coefficient {
   kCoefficients
 };
 
-/// The coefficients of 16 pairs, part by part; those of one type are the same for all.
+/// The coefficients of 16 pairs, register by register; those of one type are the same for all.
 template <class S, LjParameters kParameters>
 struct PairCoefficients;
 
@@ -58,7 +58,7 @@ struct PairCoefficients<S, LjParameters::by_type> {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
   void choose_j(std::int32_t cluster) { of_j = type + 4 * cluster; }
-  V operator()(int k, int part) const { return S::lookup(table[k], types, row, of_j, part); }
+  V operator()(int k, int which) const { return S::lookup(table[k], types, row, of_j, which); }
   V common_cutoff2() const { return cutoff2; }
 
   const std::int32_t* type;
@@ -81,7 +81,7 @@ struct PairCoefficients<S, LjParameters::by_particle> {
         root_epsilon(task.root_epsilon),
         cutoff2(S::set1(*task.coefficients.cutoff2)) {}
   void choose_i(std::int32_t cluster) {
-    for (int p = 0; p < S::kParts; ++p) {
+    for (int p = 0; p < S::kRegisters; ++p) {
       sigma_of_i[p] = S::spread(half_sigma + 4 * cluster, p);
       epsilon_of_i[p] = S::spread(root_epsilon + 4 * cluster, p);
     }
@@ -93,7 +93,7 @@ struct PairCoefficients<S, LjParameters::by_particle> {
   V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], S::repeat(root_epsilon + of_j)); }
 
   const Real *half_sigma, *root_epsilon;
-  V cutoff2, sigma_of_i[S::kParts], epsilon_of_i[S::kParts];
+  V cutoff2, sigma_of_i[S::kRegisters], epsilon_of_i[S::kRegisters];
   std::int32_t of_j = 0;
 };
 
@@ -159,7 +159,7 @@ struct Constants {
   typename S::V splitting, quadratic, offset, switch_from, over_width;
 };
 
-/// What a part's pairs add: force / r, energies.
+/// What the pairs of a register add: force / r, energies.
 template <class S>
 struct PairTerms {
   typename S::V force, energy, coulomb_energy;

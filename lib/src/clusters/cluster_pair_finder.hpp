@@ -76,13 +76,13 @@ class ClusterPairFinder {
     }
     BoxArrays from(std::int32_t k) const;
   };
-  /// Which cluster stands near a node, and by which of the part's shifts.
+  /// Which cluster stands near a node, and by which of the slice's shifts.
   struct Source {
     std::int32_t cluster, shift;
     std::uint8_t filled, ghosts;  ///< a bit for each slot
   };
-  /// What one part of the work finds and needs.
-  struct Part {
+  /// What one slice of the work finds and needs.
+  struct Slice {
     std::vector<ClusterPairs::Row> rows;
     std::vector<ClusterPairs::Entry> entries;
     std::vector<ClusterPairs::Shift> shift;
@@ -119,27 +119,27 @@ class ClusterPairFinder {
   void put_cluster(const LocalPoint* points, const std::int32_t* ids, std::int32_t count, std::int32_t c,
                    const ListParams& request, ClusterPairs& out);
   template <class Metric>
-  void find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters, Part& part);
+  void find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters, Slice& slice);
   void collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image, const ClusterPairs& clusters,
-               Part& part);
+               Slice& slice);
   void append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift, const ListParams& request,
-                  const ClusterPairs& clusters, Part& part);
+                  const ClusterPairs& clusters, Slice& slice);
   void append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift, std::int32_t found,
-                        Part& part) const;
+                        Slice& slice) const;
   template <class F>
   void for_each_excluded(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
                          const F& f) const;
   void mark_exclusions(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
-                       Part& part) const;
+                       Slice& slice) const;
   void unmark_exclusions(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
-                         Part& part) const;
+                         Slice& slice) const;
   static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
                                              const ClusterPairs& clusters);
   std::int32_t shift_count(std::size_t shifts) const;
   double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
-  void append_parts(ClusterPairs& out) const;
-  void cut_into_parts(ClusterPairs& out);
+  void append_slices(ClusterPairs& out) const;
+  void cut_into_tasks(ClusterPairs& out);
   void append_ranges(Shifts shifts, std::int32_t first_cluster, ClusterPairs& out);
 
   const ClusterSearchKernels* kernels_ = nullptr;
@@ -153,8 +153,8 @@ class ClusterPairFinder {
   std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
   std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
-  std::vector<Part> parts_;
-  std::vector<std::int32_t> part_of_node_;  ///< the last one of ClusterPairs::parts that names it
+  std::vector<Slice> slices_;
+  std::vector<std::int32_t> task_of_node_;  ///< the last one of ClusterPairs::tasks that names it
   std::vector<std::int32_t> named_nodes_;   ///< by one of them
 };
 

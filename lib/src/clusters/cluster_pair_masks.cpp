@@ -27,16 +27,16 @@ void ClusterPairFinder::for_each_excluded(const Exclusions& exclusions, std::int
 }
 
 void ClusterPairFinder::mark_exclusions(const Exclusions& exclusions, std::int32_t c,
-                                        const ClusterPairs& clusters, Part& part) const {
+                                        const ClusterPairs& clusters, Slice& slice) const {
   for_each_excluded(exclusions, c, clusters, [&](std::size_t other, std::uint32_t bit) {
-    part.excluded[other] = static_cast<std::uint16_t>(part.excluded[other] | bit);
+    slice.excluded[other] = static_cast<std::uint16_t>(slice.excluded[other] | bit);
   });
 }
 
 void ClusterPairFinder::unmark_exclusions(const Exclusions& exclusions, std::int32_t c,
-                                          const ClusterPairs& clusters, Part& part) const {
+                                          const ClusterPairs& clusters, Slice& slice) const {
   for_each_excluded(exclusions, c, clusters,
-                    [&](std::size_t other, std::uint32_t) { part.excluded[other] = 0; });
+                    [&](std::size_t other, std::uint32_t) { slice.excluded[other] = 0; });
 }
 
 /// Bits of the pairs whose types have a cutoff.
@@ -62,10 +62,10 @@ std::size_t ClusterPairFinder::memory_bytes() const {
       bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
   for (const Cuts* cuts : {&cuts_, &last_cuts_})
     bytes += bytes_of(cuts->of_node) + bytes_of(cuts->id) + bytes_of(cuts->place);
-  for (const Part& part : parts_)
-    bytes += bytes_of(part.rows) + bytes_of(part.entries) + bytes_of(part.shift) +
-             bytes_of_boxes(part.boxes) + bytes_of(part.near) + bytes_of(part.source) +
-             bytes_of(part.chosen) + bytes_of(part.excluded);
+  for (const Slice& slice : slices_)
+    bytes += bytes_of(slice.rows) + bytes_of(slice.entries) + bytes_of(slice.shift) +
+             bytes_of_boxes(slice.boxes) + bytes_of(slice.near) + bytes_of(slice.source) +
+             bytes_of(slice.chosen) + bytes_of(slice.excluded);
   return bytes;
 }
 

@@ -39,10 +39,10 @@ void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, f
   for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to[slot] = static_cast<float>(from[slot] - middle);
 }
 
-/// Takes new positions of clusters that are not in one image.
-class TornClusters {
+/// Takes new positions of clusters that the boundary of the cell splits.
+class SplitClusters {
  public:
-  TornClusters(ClusterPairs& pairs, Span<const Vec3> positions, const Box& now, double safe2)
+  SplitClusters(ClusterPairs& pairs, Span<const Vec3> positions, const Box& now, double safe2)
       : pairs_(pairs),
         positions_(positions),
         now_(now),
@@ -52,21 +52,21 @@ class TornClusters {
 
   /// @param known what is known of it, or null
   /// @throws InvalidPosition, and then has changed nothing
-  ClusterPairs::Torn take(std::int32_t cluster, const ClusterPairs::Torn* known) {
+  ClusterPairs::SplitCluster take(std::int32_t cluster, const ClusterPairs::SplitCluster* known) {
     const auto c = static_cast<std::size_t>(cluster);
-    ClusterPairs::Torn torn = known ? *known : ClusterPairs::Torn{cluster, {}};
+    ClusterPairs::SplitCluster split = known ? *known : ClusterPairs::SplitCluster{cluster, {}};
     const ClusterOfFour<double>& before = pairs_.at[c];
-    ClusterOfFour<double> at = place(torn);
+    ClusterOfFour<double> at = place(split);
     if (!known || !all_within(safe2_, before, at)) {
-      find_images(before, torn);
-      at = place(torn);
+      find_images(before, split);
+      at = place(split);
     }
     pairs_.at[c] = at;
     ClusterOfFour<float>& rounded = pairs_.at_float[c];
     round_axis(grid_, at.x, rounded.x, rounded.center[0]);
     round_axis(grid_, at.y, rounded.y, rounded.center[1]);
     round_axis(grid_, at.z, rounded.z, rounded.center[2]);
-    return torn;
+    return split;
   }
 
  private:
@@ -79,25 +79,26 @@ class TornClusters {
   }
 
   /// The origin, which has few digits, is moved to each image: that does not round.
-  ClusterOfFour<double> place(const ClusterPairs::Torn& torn) const {
+  ClusterOfFour<double> place(const ClusterPairs::SplitCluster& split) const {
     ClusterOfFour<double> at;
     for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
-      put(positions_[static_cast<std::size_t>(particle(torn.cluster, slot))] -
-              (origin(torn.cluster) - images_.vector(torn.image[slot])),
+      put(positions_[static_cast<std::size_t>(particle(split.cluster, slot))] -
+              (origin(split.cluster) - images_.vector(split.image[slot])),
           slot, at);
     return at;
   }
 
   /// The image of each particle is that nearest to where it was.
-  void find_images(const ClusterOfFour<double>& before, ClusterPairs::Torn& torn) const {
+  void find_images(const ClusterOfFour<double>& before, ClusterPairs::SplitCluster& split) const {
     for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-      const std::int32_t i = particle(torn.cluster, slot);
+      const std::int32_t i = particle(split.cluster, slot);
       const Vec3 position = positions_[static_cast<std::size_t>(i)];
-      const Vec3 moved = position - origin(torn.cluster) - slot_of(before, slot);
+      const Vec3 moved = position - origin(split.cluster) - slot_of(before, slot);
       if (!std::isfinite(norm2(moved)))
         throw InvalidPosition("position " + std::to_string(i) + " = " + detail::describe(position) +
                               " is not finite; check the coordinates of this step");
-      torn.image[slot] = norm2(moved) < safe2_ ? Vec3{} : images_.integers(now_.nearest_image(moved) - moved);
+      split.image[slot] =
+          norm2(moved) < safe2_ ? Vec3{} : images_.integers(now_.nearest_image(moved) - moved);
     }
   }
 
@@ -145,16 +146,16 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
     refresh(task, far.data() + first);
   });
   far.erase(std::remove(far.begin(), far.end(), kPadding), far.end());
-  TornClusters taker(*this, positions, now, safe2);
-  std::vector<Torn> now_torn;
-  now_torn.reserve(far.size());
-  auto known = torn.begin();
+  SplitClusters taker(*this, positions, now, safe2);
+  std::vector<SplitCluster> split_now;
+  split_now.reserve(far.size());
+  auto known = split_clusters.begin();
   for (const std::int32_t cluster : far) {
-    while (known != torn.end() && known->cluster < cluster) ++known;
-    now_torn.push_back(
-        taker.take(cluster, known != torn.end() && known->cluster == cluster ? &*known : nullptr));
+    while (known != split_clusters.end() && known->cluster < cluster) ++known;
+    split_now.push_back(
+        taker.take(cluster, known != split_clusters.end() && known->cluster == cluster ? &*known : nullptr));
   }
-  torn = std::move(now_torn);
+  split_clusters = std::move(split_now);
 }
 
 void ClusterPairs::refresh_shifts(const Box& now) {
@@ -177,8 +178,8 @@ std::size_t ClusterPairs::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return bytes_of(rows) + bytes_of(entries) + bytes_of(particle) + bytes_of(type) + bytes_of(origin_of) +
          bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_float) + bytes_of(shift_vector) +
-         bytes_of(shift_vector_float) + bytes_of(torn) + bytes_of(parts) + bytes_of(ranges) +
-         bytes_of(is_named_before);
+         bytes_of(shift_vector_float) + bytes_of(split_clusters) + bytes_of(tasks) + bytes_of(ranges) +
+         bytes_of(has_earlier_contributions);
 }
 
 }  // namespace dch

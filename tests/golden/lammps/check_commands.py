@@ -247,7 +247,7 @@ dch stats
 
     def test_threads_change_nothing(self):
         for styles in ("dch on\n", "suffix dch\n"):
-            # So many that forces are computed in several parts.
+            # So many that forces are computed in several tasks.
             script = styles + "dch threads {}\n" + MELT + "replicate 2 2 1\nrun 40\n"
             tables = [thermo_tables(run("include ${load}\n" + script.format(n))) for n in (1, 3)]
             self.assertEqual(tables[0], tables[1])

@@ -29,7 +29,7 @@ std::vector<Vec3> jittered_lattice(int per_side, const Box& box, dch::scenes::Ra
 
 struct Walk {
   std::int64_t searches;
-  std::size_t torn;  ///< clusters, at most at any step, that refreshing had to bring together
+  std::size_t split;  ///< clusters, at most at any step, that refreshing had to bring together
 };
 
 /// Small steps of particles, each up to so many periods away from the box, with every pair checked.
@@ -50,7 +50,7 @@ Walk walk(const Box& box, double periods_away) {
     const dch::ClusterPairs& pairs = keeper.at(positions, box);
     EXPECT_EQ(dch::cluster_pair_fault(pairs, positions, box, within), "")
         << "step " << step << ", " << periods_away << " periods away, " << box.description();
-    if (step > 0) result.torn = std::max(result.torn, pairs.torn.size());
+    if (step > 0) result.split = std::max(result.split, pairs.split_clusters.size());
     for (Vec3& p : positions) p = p + random.in_ball(0.004);
   }
   result.searches = keeper.searches();
@@ -65,7 +65,7 @@ TEST(ClusterPairKeeperTest, ParticlesThatWanderedCostNoMore) {
     for (const double periods_away : {1.0, 1e3, 1e6}) {
       const Walk away = walk(box, periods_away);
       EXPECT_EQ(away.searches, 1) << periods_away << " periods away, " << box.description();
-      EXPECT_EQ(away.torn, 0u) << periods_away << " periods away, " << box.description();
+      EXPECT_EQ(away.split, 0u) << periods_away << " periods away, " << box.description();
     }
   }
 }

@@ -233,10 +233,10 @@ TEST(ClusterPairFinder, RefusesMoreThanIndicesName) {
 TEST(ClusterPairFinder, ForgetsWhatIsOfTheLastSearchAlone) {
   HandMadeNodes scene;
   scene.add({}, {{}, {0.1, 0, 0}});
-  scene.pairs.torn.resize(1);
+  scene.pairs.split_clusters.resize(1);
   scene.pairs.has_shift_vectors = true;
   const ClusterPairs& pairs = scene.find(1);
-  EXPECT_TRUE(pairs.torn.empty());
+  EXPECT_TRUE(pairs.split_clusters.empty());
   EXPECT_FALSE(pairs.has_shift_vectors);
 }
 

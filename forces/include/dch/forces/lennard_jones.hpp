@@ -139,9 +139,9 @@ class LennardJones {
   template <class Real>
   struct Scratch {
     // All 0 between calls.
-    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its part
+    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its task
     std::vector<std::vector<Lanes<Real>>> lanes;          ///< the same before it is summed up, if wanted
-    std::vector<ClusterOfFour<Real>> earlier;             ///< found by parts before that of the cluster
+    std::vector<ClusterOfFour<Real>> earlier;             ///< found by tasks before that of the cluster
     std::vector<FourNumbers<Real>> charge, half_sigma, root_epsilon;
   };
   /// Each for all pairs of types: cutoff2, force12, force6, energy12, energy6, energy_shift, coulomb_cutoff2.

@@ -77,10 +77,10 @@ struct ClusterPairs {
   std::vector<Row> rows;  ///< and one more with the number of entries
   std::vector<Entry> entries;
 
-  /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own part and of
-  /// later ones. Parts depend on the clusters alone, so forces that are summed up in their order do not
+  /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own task and of
+  /// later ones. Tasks depend on the clusters alone, so forces that are summed up in their order do not
   /// depend on the number of threads.
-  struct Part {
+  struct Task {
     std::int32_t first_cluster;
     std::int64_t first_range;
   };
@@ -88,10 +88,10 @@ struct ClusterPairs {
   struct Range {
     std::int32_t first, last;
   };
-  std::vector<Part> parts;    ///< and one more, for the end of the last
-  std::vector<Range> ranges;  ///< by part: those of later parts that its rows name, and a few more; ascending
+  std::vector<Task> tasks;    ///< and one more, for the end of the last
+  std::vector<Range> ranges;  ///< by task: those of later tasks that its rows name, and a few more; ascending
   std::vector<std::uint8_t>
-      is_named_before;  ///< by origin: whether ranges of earlier parts hold its clusters
+      has_earlier_contributions;  ///< by origin: whether ranges of earlier tasks hold its clusters
 
   std::vector<std::int32_t> particle;   ///< by slot; -1 for padding
   std::vector<std::int32_t> type;       ///< by slot, of ListParams::types; 0 without those and for padding
@@ -107,22 +107,23 @@ struct ClusterPairs {
   bool has_shift_vectors = false;                       ///< of `box`; not so after a search
 
   /// A cluster whose particles lay in different periodic images at the last refresh().
-  struct Torn {
+  struct SplitCluster {
     std::int32_t cluster;
     Vec3 image[kSlots];  ///< in integer multiples of the cell vectors, to be added to each
   };
-  std::vector<Torn> torn;  ///< by ascending cluster; what refresh() remembers from one time to the next
+  std::vector<SplitCluster>
+      split_clusters;  ///< by ascending cluster; what refresh() remembers from one time to the next
 
   std::size_t particles = 0;  ///< number of positions
   int types = 1;              ///< of ListParams::cutoffs
   double list_radius = 1;     ///< of the ListParams [length]
   Box box;
 
-  /// Where the rows of a part begin; those of a cluster stand behind those of the clusters before it.
-  std::size_t first_row(const Part& part) const {
+  /// Where the rows of a task begin; those of a cluster stand behind those of the clusters before it.
+  std::size_t first_row(const Task& task) const {
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() - 1);
     return static_cast<std::size_t>(
-        std::lower_bound(rows.begin(), end, part.first_cluster,
+        std::lower_bound(rows.begin(), end, task.first_cluster,
                          [](const Row& row, std::int32_t cluster) { return row.cluster < cluster; }) -
         rows.begin());
   }

@@ -45,7 +45,7 @@ std::int32_t near_clusters(const ClusterOfFour<float>* clusters, const ClusterOf
   for (std::int32_t n = 0; n < count; ++n) {
     const auto j = S::load_cluster(clusters[chosen[n]]);
     std::uint32_t near = 0;
-    for (int p = 0; p < S::kParts; ++p) {
+    for (int p = 0; p < S::kRegisters; ++p) {
       const auto dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
       near |= S::bits_at_most(S::add(S::add(S::mul(dx, dx), S::mul(dy, dy)), S::mul(dz, dz)), limit);
     }

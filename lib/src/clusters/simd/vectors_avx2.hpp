@@ -17,7 +17,7 @@ struct Avx2Float {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 8, kParts = 2;
+  static constexpr int kLanes = 8, kRegisters = 2;
 
   static V zero() { return _mm256_setzero_ps(); }
   static V set1(float v) { return _mm256_set1_ps(v); }
@@ -40,15 +40,15 @@ struct Avx2Float {
   static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
     return append_lanes(lanes, first, to);
   }
-  static V less(V a, V b, std::uint32_t mask, int part) {
+  static V less(V a, V b, std::uint32_t mask, int which) {
     const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-    const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * part))), lane);
+    const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * which))), lane);
     return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ),
                          _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_ps(lanes, a); }
-  static V spread(const float* four, int part) {
-    return _mm256_set_m128(_mm_set1_ps(four[2 * part + 1]), _mm_set1_ps(four[2 * part]));
+  static V spread(const float* four, int which) {
+    return _mm256_set_m128(_mm_set1_ps(four[2 * which + 1]), _mm_set1_ps(four[2 * which]));
   }
   static V twice(__m128 four) { return _mm256_set_m128(four, four); }
   static V repeat(const float* four) { return twice(_mm_load_ps(four)); }
@@ -65,18 +65,18 @@ struct Avx2Float {
             twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
   }
   static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
-                  int part) {
+                  int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     if (types <= kFewTypes)
       return _mm256_permutevar_ps(
-          _mm256_set_m128(_mm_loadu_ps(table + row[2 * part + 1]), _mm_loadu_ps(table + row[2 * part])),
+          _mm256_set_m128(_mm_loadu_ps(table + row[2 * which + 1]), _mm_loadu_ps(table + row[2 * which])),
           _mm256_set_m128i(columns, columns));
-    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
-    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
+    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which]));
+    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which + 1]));
     return _mm256_i32gather_ps(table, _mm256_set_m128i(second, first), 4);
   }
-  static __m128 over_i(const V* parts) {
-    const V both = add(parts[0], parts[1]);
+  static __m128 over_i(const V* registers) {
+    const V both = add(registers[0], registers[1]);
     return _mm_add_ps(_mm256_castps256_ps128(both), _mm256_extractf128_ps(both, 1));
   }
   static void add_over_i(const Coordinates<Avx2Float>& force, ClusterOfFour<float>& to) {
@@ -84,8 +84,8 @@ struct Avx2Float {
     _mm_store_ps(to.y, _mm_add_ps(_mm_load_ps(to.y), over_i(force.y)));
     _mm_store_ps(to.z, _mm_add_ps(_mm_load_ps(to.z), over_i(force.z)));
   }
-  static __m128 over_j(const V* parts) {
-    const V pairs = _mm256_hadd_ps(parts[0], parts[1]);  // slots 0 and 2 of I, then 1 and 3
+  static __m128 over_j(const V* registers) {
+    const V pairs = _mm256_hadd_ps(registers[0], registers[1]);  // slots 0 and 2 of I, then 1 and 3
     const V fours = _mm256_hadd_ps(pairs, pairs);
     return _mm_unpacklo_ps(_mm256_castps256_ps128(fours), _mm256_extractf128_ps(fours, 1));
   }
@@ -109,7 +109,7 @@ struct Avx2Double {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 4, kParts = 4;
+  static constexpr int kLanes = 4, kRegisters = 4;
 
   static V zero() { return _mm256_setzero_pd(); }
   static V set1(double v) { return _mm256_set1_pd(v); }
@@ -125,15 +125,15 @@ struct Avx2Double {
   static V power_of_two(V n) {
     return _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(add(n, set1(0x1.8p52 + 1023))), 52));
   }
-  static V less(V a, V b, std::uint32_t mask, int part) {
+  static V less(V a, V b, std::uint32_t mask, int which) {
     const __m256i lane = _mm256_setr_epi64x(1, 2, 4, 8);
     const __m256i bits =
-        _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(mask >> (4 * part))), lane);
+        _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(mask >> (4 * which))), lane);
     return _mm256_and_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ),
                          _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
-  static V spread(const double* four, int part) { return _mm256_set1_pd(four[part]); }
+  static V spread(const double* four, int which) { return _mm256_set1_pd(four[which]); }
   static V repeat(const double* four) { return _mm256_load_pd(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
                               const ClusterOfFour<double>&) {
@@ -142,25 +142,28 @@ struct Avx2Double {
             add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
   }
   static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
-                  const std::int32_t* column, int part) {
+                  const std::int32_t* column, int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     if (types <= kFewTypes) {
       // The two halves of number k are the numbers 2 k and 2 k + 1 of 32 bits.
       const __m256i k = _mm256_cvtepi32_epi64(columns), low = _mm256_add_epi64(k, k);
       const __m256i high = _mm256_add_epi64(low, _mm256_set1_epi64x(1));
-      return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(table + row[part])),
+      return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(table + row[which])),
                                                        _mm256_or_si256(low, _mm256_slli_epi64(high, 32))));
     }
-    return _mm256_i32gather_pd(table, _mm_add_epi32(columns, _mm_set1_epi32(row[part])), 8);
+    return _mm256_i32gather_pd(table, _mm_add_epi32(columns, _mm_set1_epi32(row[which])), 8);
   }
-  static V over_i(const V* parts) { return add(add(parts[0], parts[1]), add(parts[2], parts[3])); }
+  static V over_i(const V* registers) {
+    return add(add(registers[0], registers[1]), add(registers[2], registers[3]));
+  }
   static void add_over_i(const Coordinates<Avx2Double>& force, ClusterOfFour<double>& to) {
     _mm256_store_pd(to.x, add(_mm256_load_pd(to.x), over_i(force.x)));
     _mm256_store_pd(to.y, add(_mm256_load_pd(to.y), over_i(force.y)));
     _mm256_store_pd(to.z, add(_mm256_load_pd(to.z), over_i(force.z)));
   }
-  static V over_j(const V* parts) {
-    const V low = _mm256_hadd_pd(parts[0], parts[1]), high = _mm256_hadd_pd(parts[2], parts[3]);
+  static V over_j(const V* registers) {
+    const V low = _mm256_hadd_pd(registers[0], registers[1]),
+            high = _mm256_hadd_pd(registers[2], registers[3]);
     return add(_mm256_permute2f128_pd(low, high, 0x20), _mm256_permute2f128_pd(low, high, 0x31));
   }
   static void subtract_over_j(const Coordinates<Avx2Double>& force, ClusterOfFour<double>& to) {

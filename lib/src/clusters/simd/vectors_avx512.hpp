@@ -17,7 +17,7 @@ struct Avx512Float {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 16, kParts = 1;
+  static constexpr int kLanes = 16, kRegisters = 1;
 
   static V zero() { return _mm512_setzero_ps(); }
   static V set1(float v) { return _mm512_set1_ps(v); }
@@ -125,7 +125,7 @@ struct Avx512Double {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 8, kParts = 2;
+  static constexpr int kLanes = 8, kRegisters = 2;
 
   static V zero() { return _mm512_setzero_pd(); }
   static V set1(double v) { return _mm512_set1_pd(v); }
@@ -141,13 +141,13 @@ struct Avx512Double {
   static V power_of_two(V n) {
     return _mm512_castsi512_pd(_mm512_slli_epi64(_mm512_castpd_si512(add(n, set1(0x1.8p52 + 1023))), 52));
   }
-  static __mmask8 less(V a, V b, std::uint32_t mask, int part) {
-    return _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask >> (8 * part)), a, b, _CMP_LT_OQ);
+  static __mmask8 less(V a, V b, std::uint32_t mask, int which) {
+    return _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask >> (8 * which)), a, b, _CMP_LT_OQ);
   }
   static V keep(__mmask8 lanes, V a) { return _mm512_maskz_mov_pd(lanes, a); }
-  static V spread(const double* four, int part) {
+  static V spread(const double* four, int which) {
     const __m512i slot =
-        part == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
+        which == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);
     return _mm512_permutexvar_pd(slot, _mm512_broadcast_f64x4(_mm256_load_pd(four)));
   }
   static V repeat(const double* four) { return _mm512_broadcast_f64x4(_mm256_load_pd(four)); }
@@ -159,18 +159,18 @@ struct Avx512Double {
     return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
   }
   static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
-                  const std::int32_t* column, int part) {
+                  const std::int32_t* column, int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
-    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part]));
-    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * part + 1]));
+    const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which]));
+    const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which + 1]));
     const __m256i at = _mm256_set_m128i(second, first);
     if (types <= kFewTypes)
       return _mm512_permutex2var_pd(_mm512_loadu_pd(table), _mm512_cvtepi32_epi64(at),
                                     _mm512_loadu_pd(table + 8));
     return _mm512_i32gather_pd(at, table, 8);
   }
-  static __m256d over_i(const V* parts) {
-    const V both = add(parts[0], parts[1]);
+  static __m256d over_i(const V* registers) {
+    const V both = add(registers[0], registers[1]);
     return _mm256_add_pd(_mm512_castpd512_pd256(both), _mm512_extractf64x4_pd(both, 1));
   }
   static void add_over_i(const Coordinates<Avx512Double>& force, ClusterOfFour<double>& to) {
@@ -178,8 +178,9 @@ struct Avx512Double {
     _mm256_store_pd(to.y, _mm256_add_pd(_mm256_load_pd(to.y), over_i(force.y)));
     _mm256_store_pd(to.z, _mm256_add_pd(_mm256_load_pd(to.z), over_i(force.z)));
   }
-  static __m256d over_j(const V* parts) {
-    const V even = _mm512_unpacklo_pd(parts[0], parts[1]), odd = _mm512_unpackhi_pd(parts[0], parts[1]);
+  static __m256d over_j(const V* registers) {
+    const V even = _mm512_unpacklo_pd(registers[0], registers[1]),
+            odd = _mm512_unpackhi_pd(registers[0], registers[1]);
     const V pairs = add(even, odd);  // two sums of slots 0 and 2 of I each, then of 1 and 3
     const __m512i first = _mm512_setr_epi64(0, 4, 1, 5, 0, 4, 1, 5);
     const __m512i second = _mm512_setr_epi64(2, 6, 3, 7, 2, 6, 3, 7);

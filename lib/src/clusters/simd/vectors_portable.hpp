@@ -18,7 +18,7 @@ struct Portable {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 4, kParts = 4;
+  static constexpr int kLanes = 4, kRegisters = 4;
 
   template <class F>
   static V each(const F& f) {
@@ -60,15 +60,15 @@ struct Portable {
   static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
     return append_lanes(lanes, first, to);
   }
-  static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int part) {
+  static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int which) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] < b.lane[k]) << k;
-    return bits & mask >> (4 * part);
+    return bits & mask >> (4 * which);
   }
   static V keep(std::uint32_t lanes, const V& a) {
     return each([&](int k) { return (lanes >> k & 1) != 0 ? a.lane[k] : Real{0}; });
   }
-  static V spread(const Real* four, int part) { return set1(four[part]); }
+  static V spread(const Real* four, int which) { return set1(four[which]); }
   static V repeat(const Real* four) { return load(four); }
   static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
@@ -83,17 +83,18 @@ struct Portable {
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
   static V lookup(const Real* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int part) {
-    return each([&](int k) { return table[row[part] + column[k]]; });
+                  int which) {
+    return each([&](int k) { return table[row[which] + column[k]]; });
   }
-  static void add_parts(const V* parts, Real* four) {
+  static void add_registers(const V* registers, Real* four) {
     for (int k = 0; k < 4; ++k)
-      four[k] += (parts[0].lane[k] + parts[1].lane[k]) + (parts[2].lane[k] + parts[3].lane[k]);
+      four[k] +=
+          (registers[0].lane[k] + registers[1].lane[k]) + (registers[2].lane[k] + registers[3].lane[k]);
   }
   static void add_over_i(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {
-    add_parts(force.x, to.x);
-    add_parts(force.y, to.y);
-    add_parts(force.z, to.z);
+    add_registers(force.x, to.x);
+    add_registers(force.y, to.y);
+    add_registers(force.z, to.z);
   }
   static Real lanes_sum(const V& a) { return (a.lane[0] + a.lane[1]) + (a.lane[2] + a.lane[3]); }
   static void subtract_over_j(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {

@@ -17,7 +17,7 @@ struct SseFloat {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 4, kParts = 4;
+  static constexpr int kLanes = 4, kRegisters = 4;
 
   static V zero() { return _mm_setzero_ps(); }
   static V set1(float v) { return _mm_set1_ps(v); }
@@ -40,13 +40,13 @@ struct SseFloat {
   static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
     return append_lanes(lanes, first, to);
   }
-  static V less(V a, V b, std::uint32_t mask, int part) {
+  static V less(V a, V b, std::uint32_t mask, int which) {
     const __m128i lane = _mm_setr_epi32(1, 2, 4, 8);
-    const __m128i bits = _mm_and_si128(_mm_set1_epi32(static_cast<int>(mask >> (4 * part))), lane);
+    const __m128i bits = _mm_and_si128(_mm_set1_epi32(static_cast<int>(mask >> (4 * which))), lane);
     return _mm_and_ps(_mm_cmplt_ps(a, b), _mm_castsi128_ps(_mm_cmpeq_epi32(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
-  static V spread(const float* four, int part) { return _mm_set1_ps(four[part]); }
+  static V spread(const float* four, int which) { return _mm_set1_ps(four[which]); }
   static V repeat(const float* four) { return _mm_load_ps(four); }
   static Cluster load_cluster(const ClusterOfFour<float>& at) {
     return {_mm_load_ps(at.x), _mm_load_ps(at.y), _mm_load_ps(at.z)};
@@ -60,18 +60,20 @@ struct SseFloat {
             add(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA))};
   }
   static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int part) {
-    const float* const from = table + row[part];
+                  int which) {
+    const float* const from = table + row[which];
     return _mm_setr_ps(from[column[0]], from[column[1]], from[column[2]], from[column[3]]);
   }
-  static V over_i(const V* parts) { return add(add(parts[0], parts[1]), add(parts[2], parts[3])); }
+  static V over_i(const V* registers) {
+    return add(add(registers[0], registers[1]), add(registers[2], registers[3]));
+  }
   static void add_over_i(const Coordinates<SseFloat>& force, ClusterOfFour<float>& to) {
     _mm_store_ps(to.x, add(_mm_load_ps(to.x), over_i(force.x)));
     _mm_store_ps(to.y, add(_mm_load_ps(to.y), over_i(force.y)));
     _mm_store_ps(to.z, add(_mm_load_ps(to.z), over_i(force.z)));
   }
-  static V over_j(const V* parts) {
-    return _mm_hadd_ps(_mm_hadd_ps(parts[0], parts[1]), _mm_hadd_ps(parts[2], parts[3]));
+  static V over_j(const V* registers) {
+    return _mm_hadd_ps(_mm_hadd_ps(registers[0], registers[1]), _mm_hadd_ps(registers[2], registers[3]));
   }
   static void subtract_over_j(const Coordinates<SseFloat>& force, ClusterOfFour<float>& to) {
     _mm_store_ps(to.x, sub(_mm_load_ps(to.x), over_j(force.x)));
@@ -93,7 +95,7 @@ struct SseDouble {
   struct Cluster {
     V x, y, z;
   };
-  static constexpr int kLanes = 4, kParts = 4;
+  static constexpr int kLanes = 4, kRegisters = 4;
 
   static V zero() { return {_mm_setzero_pd(), _mm_setzero_pd()}; }
   static V set1(double v) { return {_mm_set1_pd(v), _mm_set1_pd(v)}; }
@@ -119,16 +121,16 @@ struct SseDouble {
     return {_mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(shifted.low), 52)),
             _mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(shifted.high), 52))};
   }
-  static V less(V a, V b, std::uint32_t mask, int part) {
+  static V less(V a, V b, std::uint32_t mask, int which) {
     const __m128i lane_low = _mm_set_epi64x(2, 1), lane_high = _mm_set_epi64x(8, 4);
-    const __m128i bits = _mm_set1_epi64x(static_cast<long long>(mask >> (4 * part)));
+    const __m128i bits = _mm_set1_epi64x(static_cast<long long>(mask >> (4 * which)));
     const __m128d in_low = _mm_castsi128_pd(_mm_cmpeq_epi64(_mm_and_si128(bits, lane_low), lane_low));
     const __m128d in_high = _mm_castsi128_pd(_mm_cmpeq_epi64(_mm_and_si128(bits, lane_high), lane_high));
     return {_mm_and_pd(_mm_cmplt_pd(a.low, b.low), in_low),
             _mm_and_pd(_mm_cmplt_pd(a.high, b.high), in_high)};
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
-  static V spread(const double* four, int part) { return set1(four[part]); }
+  static V spread(const double* four, int which) { return set1(four[which]); }
   static V repeat(const double* four) { return load(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
                               const ClusterOfFour<double>&) {
@@ -136,20 +138,22 @@ struct SseDouble {
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
   static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int part) {
-    const double* const from = table + row[part];
+                  int which) {
+    const double* const from = table + row[which];
     return {_mm_setr_pd(from[column[0]], from[column[1]]), _mm_setr_pd(from[column[2]], from[column[3]])};
   }
-  static V over_i(const V* parts) { return add(add(parts[0], parts[1]), add(parts[2], parts[3])); }
+  static V over_i(const V* registers) {
+    return add(add(registers[0], registers[1]), add(registers[2], registers[3]));
+  }
   static void add_over_i(const Coordinates<SseDouble>& force, ClusterOfFour<double>& to) {
     store(to.x, add(load(to.x), over_i(force.x)));
     store(to.y, add(load(to.y), over_i(force.y)));
     store(to.z, add(load(to.z), over_i(force.z)));
   }
-  static V over_j(const V* parts) {
+  static V over_j(const V* registers) {
     const auto lanes_sum = [](V a) { return _mm_add_pd(a.low, a.high); };
-    return {_mm_hadd_pd(lanes_sum(parts[0]), lanes_sum(parts[1])),
-            _mm_hadd_pd(lanes_sum(parts[2]), lanes_sum(parts[3]))};
+    return {_mm_hadd_pd(lanes_sum(registers[0]), lanes_sum(registers[1])),
+            _mm_hadd_pd(lanes_sum(registers[2]), lanes_sum(registers[3]))};
   }
   static void subtract_over_j(const Coordinates<SseDouble>& force, ClusterOfFour<double>& to) {
     store(to.x, sub(load(to.x), over_j(force.x)));
