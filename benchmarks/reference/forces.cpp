@@ -4,7 +4,6 @@
 // by a plain loop over our neighbor list and by our kernels on cluster pairs. Units are those of the
 // configuration.
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -12,10 +11,11 @@
 #include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
+#include "program.hpp"
+
 namespace dch::bench {
 namespace {
 
-constexpr int kOk = 0, kUsage = 2, kFailed = 3;
 constexpr double kSkin = 0.02;  // of the cutoff, small for small boxes; forces do not depend on it
 
 struct Scene {
@@ -159,18 +159,16 @@ int run(const std::string& from, const std::string& to) {
   return kOk;
 }
 
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Forces and energy of one configuration, for a comparison with other programs",
+               "dch_reference_forces");
+  std::string from, to;
+  app.add_option("SCENE", from, "File with the configuration, in JSON")->required();
+  app.add_option("ANSWERS", to, "File to write, in JSON")->required();
+  return run_program(app, argc, argv, [&] { return run(from, to); });
+}
+
 }  // namespace
 }  // namespace dch::bench
 
-int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: dch_reference_forces SCENE ANSWERS\n");
-    return dch::bench::kUsage;
-  }
-  try {
-    return dch::bench::run(argv[1], argv[2]);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "dch_reference_forces: %s\n", error.what());
-    return dch::bench::kFailed;
-  }
-}
+int main(int argc, char** argv) { return dch::bench::parse_and_run(argc, argv); }
