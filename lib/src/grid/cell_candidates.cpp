@@ -2,6 +2,7 @@
 #include "grid/cell_candidates.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include <dch/base/index_count.hpp>
 
@@ -10,20 +11,32 @@
 namespace dch::detail {
 namespace {
 
+/// Numbers of the points of a block, in a register: compilers leave the loops over them as they are.
+using Lanes __attribute__((vector_size(kBlock * sizeof(std::int16_t)))) = std::int16_t;
+using WrappingLanes __attribute__((vector_size(kBlock * sizeof(std::uint16_t)))) = std::uint16_t;
+
+/// The number that `choose` of two lanes prefers to all others.
+template <class Choose>
+std::int16_t chosen_of(Lanes v, const Choose& choose) {
+  static_assert(kBlock == 8);
+  v = choose(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+  v = choose(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+  v = choose(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+  return v[0];
+}
+
 /// Box around the points of a block, all lanes of which hold one. Coordinates wrap, so all is taken relative
 /// to the first of them.
 BlockSpan span_around(const BlockPoints& points) {
   BlockSpan span{};
   const std::int16_t* const axes[3] = {points.x, points.y, points.z};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto origin = static_cast<std::uint16_t>(axes[axis][0]);
-    std::int16_t low = 0, high = 0;
-    for (int lane = 0; lane < kBlock; ++lane) {
-      const auto d = static_cast<std::int16_t>(
-          static_cast<std::uint16_t>(static_cast<std::uint16_t>(axes[axis][lane]) - origin));
-      low = std::min(low, d);
-      high = std::max(high, d);
-    }
+    WrappingLanes at;
+    std::memcpy(&at, axes[axis], sizeof at);
+    const std::uint16_t origin = at[0];
+    const auto from_origin = reinterpret_cast<Lanes>(at - origin);
+    const int low = chosen_of(from_origin, [](Lanes a, Lanes b) { return a < b ? a : b; });
+    const int high = chosen_of(from_origin, [](Lanes a, Lanes b) { return a > b ? a : b; });
     const int middle = (low + high) >> 1;
     span.center[axis] =
         static_cast<std::int16_t>(static_cast<std::uint16_t>(origin + static_cast<std::uint16_t>(middle)));
