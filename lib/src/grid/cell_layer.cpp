@@ -15,6 +15,8 @@ namespace {
 /// into 2^16 are exact to a thousandth of a unit.
 constexpr std::int64_t kMostCellsAlong = std::int64_t{1} << 20;
 
+constexpr std::int32_t kAhead = 24;  ///< points whose positions, in no cache, are asked for before their turn
+
 }  // namespace
 
 void CellLayer::clear() {
@@ -205,6 +207,7 @@ void CellLayer::quantize(Span<const Vec3> positions, const Box& box, Vec3 origin
       const std::int32_t* const id = id_.data();
       const double per_unit = 1 / unit;
       for (std::int32_t place = begin; place < end; ++place) {
+        __builtin_prefetch(&positions[static_cast<std::size_t>(id[std::min(place + kAhead, end - 1)])]);
         const Vec3 at = own_metric.wrap(positions[static_cast<std::size_t>(id[place])]) - origin;
         x[place] = rounded(at.x * per_unit);
         y[place] = rounded(at.y * per_unit);
