@@ -114,7 +114,9 @@ GridSearch::Reach GridSearch::prepare(Span<const ListParams> requests) {
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   bool in_cells = !box_.any_periodic() || (reach + 3 * error) * kInflate < box_.max_cutoff();
   if (in_cells) {
-    classify(requests, error);
+    classify(requests);
+    for (std::size_t k = 0; k < exact_reach_.size(); ++k)
+      classes_.reach[k] = exact_reach_[k] > 0 ? (exact_reach_[k] + error) * kInflate : 0;
     in_cells = sort_points(error);
   }
   stats_.maintain_seconds += seconds_since(start);
@@ -153,10 +155,13 @@ std::optional<Occupancy> GridSearch::occupancy_for(Span<const ListParams> reques
   return points > 0 ? Occupancy{points / cells, squares / points, sparse / points} : Occupancy();
 }
 
-/// Several classes if those of the sizes that are asked for make for less work than one.
-void GridSearch::classify(Span<const ListParams> requests, double error) {
+/// Several classes if those of the sizes that are asked for make for less work than one; those at hand if
+/// sizes are what they were.
+void GridSearch::classify(Span<const ListParams> requests) {
   /// Several grids have this share of the work of one at most, for it is more than the pairs looked at.
   constexpr double kWorthIt = 0.6;
+  if (!groups_.empty() && sizes_.says_the_same(requests)) return;
+  sizes_.forget();
   const std::size_t n = positions_.size();
   SizeClasses chosen = one_class(requests);
   if (have_sizes(requests)) {
@@ -164,8 +169,7 @@ void GridSearch::classify(Span<const ListParams> requests, double error) {
     if (several.count > 1 && work_of(several) < kWorthIt * work_of_one(chosen, n))
       chosen = std::move(several);
   }
-  for (double& reach : chosen.reach)
-    if (reach > 0) reach = (reach + error) * kInflate;
+  exact_reach_ = chosen.reach;
   if (groups_.size() != chosen.count || chosen.of != classes_.of) {
     groups_.clear();  // if memory runs out below, nothing is known of them
     std::vector<Group> groups(chosen.count);
@@ -174,6 +178,7 @@ void GridSearch::classify(Span<const ListParams> requests, double error) {
     groups_.swap(groups);
   }
   classes_ = std::move(chosen);
+  sizes_.keep(requests);  // last, when all goes by them
 }
 
 /// Puts the points of each class into cells. Returns false if they lie too far apart for that.
@@ -221,8 +226,8 @@ void GridSearch::find_plainly(double error, const std::vector<const PairFilter*>
 
 const SearchStats& GridSearch::stats() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) + plain_.memory_bytes() +
-                        rows_.memory_bytes() + list_finder_.memory_bytes();
+  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) + sizes_.memory_bytes() +
+                        plain_.memory_bytes() + rows_.memory_bytes() + list_finder_.memory_bytes();
   for (const Group& group : groups_)
     stats_.memory_bytes += group.layer.memory_bytes() + bytes_of(group.particle);
   return stats_;

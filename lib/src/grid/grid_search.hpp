@@ -58,7 +58,7 @@ class GridSearch final : public PairSearch {
   };
   Reach prepare(Span<const ListParams> requests);
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
-  void classify(Span<const ListParams> requests, double error);
+  void classify(Span<const ListParams> requests);
   bool sort_points(double error);
   void find_plainly(double error, const std::vector<const PairFilter*>& filters,
                     const std::vector<NeighborList*>& out);
@@ -69,7 +69,9 @@ class GridSearch final : public PairSearch {
   Box box_;
   double wrap_error_ = 0;
   KeyTable key_table_;  ///< finds keys that repeat
+  SizeRecord sizes_;    ///< that classes_ are of
   SizeClasses classes_;
+  std::vector<double> exact_reach_;  ///< that of classes_ without rounding [length]
   std::vector<Group> groups_;
   PlainCells plain_{1};
   bool has_plain_ = false;  ///< whether plain_ holds the points
