@@ -37,7 +37,7 @@ SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
              ["*Certificate*:Repair.*:Maintenance*:Update.*:Singletons.*:Insertion.*:Removal.*:PackingOf*:"
               "*RepairOfSmallScenes*",
-              "Work.*:Visits.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
+              "Work.*:Visits.*:KeptBalls.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
               "*/Packing.TheCheck*/D1",
               "HierarchyMotion.NoMotion*:HierarchyMotion.Boxes*:HierarchyChurn.*:HierarchySparse*:"
               "*/HierarchySparse.*/none",
@@ -53,7 +53,7 @@ LEAVES = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy
 CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_clusters"],
                  ["ClusterPairFinder.*:Work.OfClusterPairs*",
                   "ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
-                  "*PartsName*/orthorhombic_ppf",
+                  "*TasksName*/orthorhombic_ppf",
                   "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
                   "*ClusterPairsScenes.*/triclinic_ppp"])
 FILES = {

@@ -227,6 +227,25 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
     }
 }
 
+TEST_P(ListKernelsTest, ShiftMovesWholeBlocksAndNoMore) {
+  scenes::Random random(8);
+  for (const std::int32_t count : {0, 1, kBlock, 3 * kBlock - 2}) {
+    const CandidateArrays from(4 * kBlock, 32767, random);
+    CandidateArrays to = from;
+    const std::int16_t by[] = {coordinate(random, 32767), coordinate(random, 32767),
+                               coordinate(random, 32767)};
+    kernels().shift(to.view(), by, count);
+    const std::size_t end = static_cast<std::size_t>((count + kBlock - 1) / kBlock * kBlock);
+    for (std::size_t k = 0; k < from.x.size(); ++k) {
+      ASSERT_EQ(to.x[k], k < end ? wrapped(from.x[k] + by[0]) : from.x[k]) << count;
+      ASSERT_EQ(to.y[k], k < end ? wrapped(from.y[k] + by[1]) : from.y[k]) << count;
+      ASSERT_EQ(to.z[k], k < end ? wrapped(from.z[k] + by[2]) : from.z[k]) << count;
+    }
+    ASSERT_EQ(to.id, from.id);
+    ASSERT_EQ(to.tag, from.tag);
+  }
+}
+
 TEST_P(ListKernelsTest, CompressKeepsTheOrder) {
   scenes::Random random(2);
   for (int trial = 0; trial < 300; ++trial) {
