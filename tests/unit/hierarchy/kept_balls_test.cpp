@@ -31,7 +31,8 @@ class KeptBalls : public testing::Test {
     for (int level = 1; level <= structure.top(); ++level)
       for (std::int32_t node = 0; node < structure.levels[level].size(); ++node) {
         if (!structure.levels[level].is_alive(node)) continue;
-        ASSERT_EQ(structure.balls->radius(level, node), measured.radius(level, node)) << level << ", " << node;
+        ASSERT_EQ(structure.balls->radius(level, node), measured.radius(level, node))
+            << level << ", " << node;
       }
   }
 
