@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <boost/heap/d_ary_heap.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,30 +20,44 @@ struct Due {
   }
 };
 
-/// One entry for each point, the earliest on top.
+/// One entry for each point, the earliest on top. A tournament: each node of a binary tree holds the earlier
+/// of the two below it. Most changes are of points that lose their first matches before and after, and stop
+/// there.
 class PointQueue {
  public:
   explicit PointQueue(std::size_t points) {
-    heap_.reserve(points);
-    for (std::size_t i = 0; i < points; ++i)
-      handles_.push_back(heap_.push({kNever, {static_cast<std::int32_t>(i), -1}}));
+    while (leaves_ < points) leaves_ *= 2;
+    for (std::size_t i = 0; i < points; ++i) entries_.push_back({kNever, {static_cast<std::int32_t>(i), -1}});
+    winners_.assign(leaves_, -1);
+    for (std::size_t node = leaves_ - 1; node > 0; --node) winners_[node] = match(node);
   }
 
-  bool empty() const { return heap_.empty(); }
-  const Due& top() const { return heap_.top(); }
-  const Due& of(std::int32_t point) const { return *handles_[static_cast<std::size_t>(point)]; }
+  bool empty() const { return entries_.empty(); }
+  const Due& top() const { return entries_[leaves_ > 1 ? static_cast<std::size_t>(winners_[1]) : 0]; }
+  const Due& of(std::int32_t point) const { return entries_[static_cast<std::size_t>(point)]; }
   void set(std::int32_t point, const Due& due) {
-    heap_.update(handles_[static_cast<std::size_t>(point)], due);
+    entries_[static_cast<std::size_t>(point)] = due;
+    for (std::size_t node = (leaves_ + static_cast<std::size_t>(point)) / 2; node > 0; node /= 2) {
+      const std::int32_t winner = match(node);
+      if (winner == winners_[node] && winner != point) return;
+      winners_[node] = winner;
+    }
   }
 
  private:
-  struct Later {
-    bool operator()(const Due& x, const Due& y) const { return y < x; }
-  };
-  using Heap = boost::heap::d_ary_heap<Due, boost::heap::arity<4>, boost::heap::mutable_<true>,
-                                       boost::heap::compare<Later>>;
-  Heap heap_;
-  std::vector<Heap::handle_type> handles_;
+  /// -1 for none.
+  std::int32_t winner_below(std::size_t node) const {
+    if (node < leaves_) return winners_[node];
+    return node - leaves_ < entries_.size() ? static_cast<std::int32_t>(node - leaves_) : -1;
+  }
+  std::int32_t match(std::size_t node) const {
+    const std::int32_t a = winner_below(2 * node), b = winner_below(2 * node + 1);
+    return b < 0 || (a >= 0 && of(a) < of(b)) ? a : b;
+  }
+
+  std::size_t leaves_ = 1;             ///< a power of two; leaf k has the number leaves_ + k, the root 1
+  std::vector<Due> entries_;           ///< by point
+  std::vector<std::int32_t> winners_;  ///< by node
 };
 
 }  // namespace dch::kinetic
