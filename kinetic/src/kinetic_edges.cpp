@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <dch/base/error.hpp>
 #include <dch/hierarchy/hierarchy_params.hpp>
 #include <dch/kinetic/kinetic_edges.hpp>
 
+#include "argument_checks.hpp"
 #include "base/describe.hpp"
 #include "geometry/position_check.hpp"
 
@@ -15,34 +15,12 @@ namespace {
 
 using detail::describe;
 
-bool is_in_range(double x) { return std::abs(x) <= kMaxMagnitude; }  // false for NaN
-bool is_in_range(Vec3 v) { return is_in_range(v.x) && is_in_range(v.y) && is_in_range(v.z); }
-
-/// @param what names the value, whose text is made for an error alone: the check is made at every event
-template <class Value, class What>
-void check(const Value& value, const What& what, const char* remedy) {
-  if (is_in_range(value)) return;
-  throw InvalidParameter(what() + " = " + describe(value) + " is not finite or beyond " +
-                         describe(kMaxMagnitude) + "; " + remedy);
-}
-
 void check_motion(std::size_t id, Vec3 velocity, Vec3 acceleration) {
   const auto of_point = [&](const char* what) {
     return [what, id] { return what + std::string(" of point ") + std::to_string(id); };
   };
   check(velocity, of_point("velocity"), "check what it was computed from");
   check(acceleration, of_point("acceleration"), "check what it was computed from");
-}
-
-void check_time(double time, const char* name) {
-  check(
-      time, [&] { return std::string(name); }, "choose another origin or unit of time");
-}
-
-void check_length(double length, const std::string& what) {
-  if (length >= kMinListRadius && length <= kMaxListRadius) return;
-  throw InvalidParameter(what + " = " + describe(length) + " is not within " + describe(kMinListRadius) +
-                         ".." + describe(kMaxListRadius) + "; use another unit of length");
 }
 
 /// Returns the largest distance of a pair.
