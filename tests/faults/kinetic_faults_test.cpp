@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <dch/kinetic/hard_spheres.hpp>
 #include <dch/kinetic/kinetic_hierarchy.hpp>
 
 #include "random.hpp"
@@ -82,6 +83,48 @@ TEST_P(KineticFaults, AStepThatIsBrokenOffIsTheLast) {
 
 INSTANTIATE_TEST_SUITE_P(Engines, KineticFaults, ::testing::ValuesIn(engines()),
                          [](const auto& engine) { return engine.param.name; });
+
+std::unique_ptr<kinetic::HardSpheres> make_spheres() {
+  scenes::Random random(72);
+  kinetic::HardSphereParams params;
+  params.box = Box::orthorhombic({4, 4, 4});
+  std::vector<Vec3> positions, velocities;
+  for (int k = 0; k < 27; ++k) {
+    positions.push_back({1.3 * (k % 3), 1.3 * (k / 3 % 3), 1.3 * (k / 9)});
+    velocities.push_back(random.in_cube(1));
+    params.radii.push_back(k % 2 == 0 ? 0.5 : 0.2);
+  }
+  return std::make_unique<kinetic::HardSpheres>(params, positions, velocities);
+}
+
+TEST(HardSphereFaults, AStepThatIsBrokenOffIsTheLast) {
+  const auto moved = make_spheres();
+  moved->advance_to(5);
+  const SweepResult result =
+      sweep([] { return make_spheres(); }, [](auto& spheres) { spheres->advance_to(5); },
+            [&](auto& spheres, Ending ending) -> std::string {
+              if (ending == Ending::returned)
+                return spheres->position(5) == moved->position(5) ? "" : "another position";
+              try {
+                spheres->step(6);
+              } catch (const InvalidParameter&) {
+                return "";
+              }
+              return "it goes on";
+            });
+  EXPECT_GT(result.failures, 5);
+  EXPECT_TRUE(result.faults.empty()) << result.faults[0];
+}
+
+TEST(HardSphereFaults, ThereIsNothingOrAllAtTheStart) {
+  const SweepResult result = sweep(
+      [] { return std::unique_ptr<kinetic::HardSpheres>(); }, [](auto& spheres) { spheres = make_spheres(); },
+      [&](auto& spheres, Ending) {
+        return spheres == nullptr || spheres->least_gap() > 0 ? "" : "half of it";
+      });
+  EXPECT_GT(result.failures, 10);
+  EXPECT_TRUE(result.faults.empty()) << result.faults[0];
+}
 
 }  // namespace
 }  // namespace dch::faults

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dch::kinetic {
+
+/// Pairs of points, in the rows of both, in no order that counts.
+class MutualRows {
+ public:
+  explicit MutualRows(std::size_t points) : rows_(points), is_new_(points, 0) {}
+
+  const std::vector<std::int32_t>& of(std::int32_t id) const { return rows_[static_cast<std::size_t>(id)]; }
+
+  /// Makes a row that of a point, and tells of the partners that it had not, and had, before.
+  template <class Added, class Dropped>
+  void replace(std::int32_t id, const std::vector<std::int32_t>& row, const Added& added,
+               const Dropped& dropped) {
+    std::vector<std::int32_t>& mine = rows_[static_cast<std::size_t>(id)];
+    for (const std::int32_t other : row) is_new_[static_cast<std::size_t>(other)] = 1;
+    for (const std::int32_t other : mine) {
+      char& is_in_row = is_new_[static_cast<std::size_t>(other)];
+      if (!is_in_row) {
+        erase(other, id);
+        dropped(other);
+      }
+      is_in_row = 0;
+    }
+    mine = row;
+    for (const std::int32_t other : row) {
+      char& is_new = is_new_[static_cast<std::size_t>(other)];
+      if (is_new) {
+        rows_[static_cast<std::size_t>(other)].push_back(id);
+        added(other);
+      }
+      is_new = 0;
+    }
+  }
+
+ private:
+  void erase(std::int32_t id, std::int32_t partner) {
+    std::vector<std::int32_t>& row = rows_[static_cast<std::size_t>(id)];
+    *std::find(row.begin(), row.end(), partner) = row.back();
+    row.pop_back();
+  }
+
+  std::vector<std::vector<std::int32_t>> rows_;
+  std::vector<char> is_new_;  ///< of the row at hand
+};
+
+}  // namespace dch::kinetic

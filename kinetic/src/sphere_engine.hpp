@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <dch/kinetic/hard_spheres.hpp>
+
+#include "anchor_search.hpp"
+#include "images.hpp"
+#include "mutual_rows.hpp"
+#include "point_queue.hpp"
+
+namespace dch::kinetic {
+
+/// What HardSpheres does, for arguments that have been checked. Times are counted from the last
+/// synchronize(), so that they stay small and round little.
+class SphereEngine {
+ public:
+  SphereEngine(const HardSphereParams& params, Span<const Vec3> positions, Span<const Vec3> velocities);
+
+  std::optional<Collision> step(double limit);
+  /// Time of the clock becomes zero.
+  void synchronize();
+  void set_growth(double rate);
+  void scale_velocities(double factor);
+
+  double now() const { return now_; }
+  double radius(std::int32_t id) const { return radius_at(sphere(id), now_); }
+  Vec3 position(std::int32_t id) const;
+  Vec3 velocity(std::int32_t id) const { return sphere(id).velocity; }
+  double virial() const { return virial_; }
+  const HardSphereCounters& counters() const { return counters_; }
+  double least_gap() const;
+  /// Whether enough has happened that synchronize() costs little.
+  bool has_long_run() const;
+
+ private:
+  /// The flight since a sphere's last collision.
+  struct Sphere {
+    Vec3 position{};
+    double time = 0;
+    Vec3 velocity{};
+    double radius = 0;  ///< as given at the start
+  };
+  /// How far a sphere goes before it gets a new home or anchor, and what it did since it got one.
+  struct Rooms {
+    double home = 0, anchor = 0;  ///< [length]
+    std::int32_t collisions = 0, homes = 0;
+    double since = 0;         ///< when the sphere was last seen to collide at a usual rate
+    std::int32_t hurried = 0;  ///< collisions since then
+  };
+
+  Sphere& sphere(std::int32_t id) { return spheres_[static_cast<std::size_t>(id)]; }
+  const Sphere& sphere(std::int32_t id) const { return spheres_[static_cast<std::size_t>(id)]; }
+  double scale_at(double time) const { return scale_ + growth_ * time; }
+  double radius_at(const Sphere& sphere, double time) const { return sphere.radius * scale_at(time); }
+
+  void check_overlap(std::int32_t id) const;
+  double contact_time(std::int32_t a, std::int32_t b);
+  void predict(std::int32_t id);
+  void predict_changed(std::int32_t id);
+  void tell_partner(std::int32_t partner, std::int32_t id, double time);
+  void predict_all();
+  void set_exit(std::int32_t id);
+  Collision collide(std::int32_t a, std::int32_t b);
+  void watch_for_collapse(std::int32_t id);
+
+  void find_first_homes();
+  void leave_home(std::int32_t id);
+  void give_anchor(std::int32_t id);
+  void take_candidates(std::int32_t id);
+  void set_ball(std::int32_t id);
+  void join_near(std::int32_t id);
+  bool are_near(std::int32_t a, std::int32_t b) const;
+  double room_at_anchor(std::int32_t id) const;
+  double most_room() const;
+
+  Images images_;
+  double restitution_;
+  double scale_ = 1, growth_ = 0;  ///< of all radii, at time zero, and in a unit of time
+  double largest_radius_ = 0;      ///< as given at the start
+  double now_ = 0;
+  double usual_time_ = 0;  ///< in which spheres fly about their own size
+  double virial_ = 0;
+  std::int64_t collisions_at_zero_ = 0;
+  std::vector<Sphere> spheres_;
+  std::vector<double> masses_;
+  std::vector<Ball> homes_;
+  std::vector<double> exits_;
+  std::vector<Rooms> rooms_;
+  std::vector<char> is_doubtful_;  ///< whether nothing happens to the sphere before its entry, nor then
+  MutualRows rows_;                 ///< whose balls around homes touch: the tracked pairs
+  MutualRows candidates_;           ///< whose balls around anchors touch
+  std::vector<std::int32_t> found_; ///< a row that is being made
+  AnchorSearch anchors_;
+  PointQueue events_;
+  HardSphereCounters counters_;
+};
+
+}  // namespace dch::kinetic

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+//
+// Where spheres stay until their exits, and whom they may meet until then.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <dch/base/error.hpp>
+
+#include "base/describe.hpp"
+#include "sphere_engine.hpp"
+#include "sphere_motion.hpp"
+
+namespace dch::kinetic {
+namespace {
+
+using detail::describe;
+
+/// Of a sphere's radius: the first guess of its room around its home, and around its anchor.
+constexpr double kHomeRoom = 0.4, kAnchorRoom = 1.2;
+/// Room around a home below this share of the radius makes no list shorter.
+constexpr double kLeastRoom = 0.02;
+/// What it costs in predictions of a pair to look at a candidate, to give a home, the same for each of its
+/// pairs with candidates about four times as many, and to search for a place.
+constexpr double kLook = 0.5, kHome = 10, kPairOfHome = 3, kSearch = 500;
+/// A room changes by this share for each share that its use is off; and by how much it is widened where nobody
+/// is near.
+constexpr double kGain = 0.1, kMostShare = 4, kLeap = 1.4;
+/// Balls that touch so many others are not widened.
+constexpr double kCrowd = 64, kCrowdOfAnchor = 512;
+/// Exits are taken this share of the room early, which is far more than roots and distances round.
+constexpr double kEarly = 1e-6;
+
+/// The cost of lists is least where what is done with a list costs as much as to make it, times the exponent
+/// by which the room lasts longer over that by which the list grows, about 1.5 over 3 room / (radius + room).
+/// @param touching how many others the ball touched
+void adapt(double& room, double radius, double use, double cost, double touching, double crowd) {
+  const double share = use / (cost * (radius + room) / (2 * room));
+  if (share > 1 || touching <= crowd) room *= 1 + kGain * (1 - std::min(share, kMostShare));
+  if (touching == 0) room *= kLeap;
+}
+
+}  // namespace
+
+/// With two spheres in balls that touch, the image that is meant stays the nearest one.
+double SphereEngine::most_room() const {
+  const double diameter = 2 * largest_radius_ * scale_at(now_), limit = images_.box().max_cutoff();
+  if (diameter > kLargestShareOfBox * limit)
+    throw CutoffTooLarge("the largest diameter = " + describe(diameter) + " exceeds " +
+                         describe(kLargestShareOfBox * limit) + ", " + describe(kLargestShareOfBox) +
+                         " of half the smallest height of the periodic box; stop the growth sooner, or take "
+                         "more spheres");
+  return std::min(0.24 * (limit - diameter), kMaxListRadius / 16);
+}
+
+void SphereEngine::find_first_homes() {
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const Sphere& s = spheres_[i];
+    rooms_[i].home = kHomeRoom * s.radius;
+    rooms_[i].anchor = kAnchorRoom * s.radius;
+    balls.push_back({s.position, s.radius + rooms_[i].anchor});
+  }
+  anchors_.set_all(balls);
+  const auto spheres = static_cast<std::int32_t>(spheres_.size());
+  for (std::int32_t id = 0; id < spheres; ++id) {
+    anchors_.find_touching(id, found_);
+    check_overlap(id);
+    take_candidates(id);
+    set_ball(id);
+  }
+  for (std::int32_t id = 0; id < spheres; ++id) join_near(id);
+}
+
+/// Before anything is made of the pair: of spheres on one spot each would have all others in its row.
+void SphereEngine::check_overlap(std::int32_t id) const {
+  const Sphere& self = sphere(id);
+  std::int32_t first = -1;
+  for (const std::int32_t other : found_) {
+    const double distance = (self.radius + sphere(other).radius) * (1 - kTouching);
+    if (images_.box().distance2(self.position, sphere(other).position) < distance * distance &&
+        (first < 0 || other < first))
+      first = other;
+  }
+  if (first < 0) return;
+  const double apart = std::sqrt(images_.box().distance2(self.position, sphere(first).position));
+  throw InvalidParameter("spheres " + std::to_string(id) + " and " + std::to_string(first) +
+                         " overlap: their centers are " + describe(apart) +
+                         " apart, and their radii add up to " + describe(self.radius + sphere(first).radius) +
+                         "; move them apart, or begin with smaller radii and let them grow");
+}
+
+void SphereEngine::leave_home(std::int32_t id) {
+  Rooms& rooms = rooms_[static_cast<std::size_t>(id)];
+  const auto pairs = static_cast<double>(rows_.of(id).size());
+  adapt(rooms.home, radius(id), rooms.collisions * pairs, kHome + kPairOfHome * pairs, pairs, kCrowd);
+  rooms.collisions = 0;
+  rooms.home = std::clamp(rooms.home, std::min(kLeastRoom * radius(id), most_room()), most_room());
+  ++counters_.homes;
+  ++rooms.homes;
+  if (room_at_anchor(id) < 0.5 * rooms.home) give_anchor(id);
+  set_ball(id);
+  join_near(id);
+  set_exit(id);
+  predict(id);
+}
+
+/// What is left around the sphere of the ball around its anchor.
+double SphereEngine::room_at_anchor(std::int32_t id) const {
+  const Ball& anchor = anchors_.ball(id);
+  return anchor.radius - radius(id) - std::sqrt(images_.box().distance2(anchor.center, position(id)));
+}
+
+void SphereEngine::set_ball(std::int32_t id) {
+  const double room = std::min(rooms_[static_cast<std::size_t>(id)].home, room_at_anchor(id));
+  homes_[static_cast<std::size_t>(id)] = {position(id), radius(id) + std::min(room, most_room())};
+}
+
+void SphereEngine::give_anchor(std::int32_t id) {
+  Rooms& rooms = rooms_[static_cast<std::size_t>(id)];
+  const auto candidates = static_cast<double>(candidates_.of(id).size());
+  adapt(rooms.anchor, radius(id), rooms.homes * kLook * candidates, kSearch + candidates, candidates,
+        kCrowdOfAnchor);
+  rooms.homes = 0;
+  rooms.anchor = std::clamp(rooms.anchor, 1.5 * rooms.home, kMaxListRadius / 16);
+  anchors_.set(id, {position(id), radius(id) + rooms.anchor});
+  ++counters_.anchors;
+  anchors_.find_touching(id, found_);
+  take_candidates(id);
+}
+
+void SphereEngine::take_candidates(std::int32_t id) {
+  const auto ignore = [](std::int32_t) {};
+  candidates_.replace(id, found_, ignore, ignore);
+}
+
+void SphereEngine::join_near(std::int32_t id) {
+  found_.clear();
+  for (const std::int32_t other : candidates_.of(id))
+    if (are_near(id, other)) found_.push_back(other);
+  rows_.replace(
+      id, found_, [&](std::int32_t other) { tell_partner(other, id, contact_time(id, other)); },
+      [&](std::int32_t other) {
+        if (events_.of(other).edge.b == id) is_doubtful_[static_cast<std::size_t>(other)] = 1;
+      });
+}
+
+bool SphereEngine::are_near(std::int32_t a, std::int32_t b) const {
+  const Ball &p = homes_[static_cast<std::size_t>(a)], &q = homes_[static_cast<std::size_t>(b)];
+  const double reach = p.radius + q.radius;
+  return images_.box().distance2(p.center, q.center) <= reach * reach;
+}
+
+/// Later than now even where the time that the sphere takes is below the rounding of times.
+void SphereEngine::set_exit(std::int32_t id) {
+  const Sphere& s = sphere(id);
+  const Ball& home = homes_[static_cast<std::size_t>(id)];
+  const Vec3 off = images_.box().nearest_image(s.position + (now_ - s.time) * s.velocity - home.center);
+  const double room = (home.radius - radius(id)) * (1 - kEarly);
+  const double stay = time_to_exit(off, s.velocity, room, -growth_ * s.radius);
+  exits_[static_cast<std::size_t>(id)] = std::max(now_ + stay, std::nextafter(now_, kNever));
+}
+
+}  // namespace dch::kinetic
