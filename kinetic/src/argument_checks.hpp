@@ -31,8 +31,9 @@ inline void check_time(double time, const char* name) {
 
 inline void check_length(double length, const std::string& what) {
   if (length >= kMinListRadius && length <= kMaxListRadius) return;
-  throw InvalidParameter(what + " = " + detail::describe(length) + " is not within " + detail::describe(kMinListRadius) +
-                         ".." + detail::describe(kMaxListRadius) + "; use another unit of length");
+  throw InvalidParameter(what + " = " + detail::describe(length) + " is not within " +
+                         detail::describe(kMinListRadius) + ".." + detail::describe(kMaxListRadius) +
+                         "; use another unit of length");
 }
 
 }  // namespace dch::kinetic

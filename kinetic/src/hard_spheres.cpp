@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <dch/kinetic/hard_spheres.hpp>
-
 #include <algorithm>
 #include <numbers>
 #include <string>
 
 #include <dch/base/error.hpp>
+#include <dch/kinetic/hard_spheres.hpp>
 
 #include "argument_checks.hpp"
 #include "base/describe.hpp"
@@ -66,7 +65,11 @@ void check_spheres(const HardSphereParams& params, Span<const Vec3> positions, S
 
 struct HardSpheres::Impl {
   Impl(const HardSphereParams& given, Span<const Vec3> positions, Span<const Vec3> velocities, double start)
-      : params(given), engine(given, positions, velocities), zero(start), now(start), count(positions.size()) {}
+      : params(given),
+        engine(given, positions, velocities),
+        zero(start),
+        now(start),
+        count(positions.size()) {}
 
   std::size_t place(std::int32_t id) const { return static_cast<std::size_t>(id); }
   double mass(std::int32_t id) const { return params.masses.empty() ? 1 : params.masses[place(id)]; }

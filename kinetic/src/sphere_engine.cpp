@@ -173,8 +173,7 @@ Collision SphereEngine::collide(std::int32_t a, std::int32_t b) {
   const Vec3 relative = q.velocity - p.velocity;
   const double approach = growth_ * (p.radius + q.radius) - dot(relative, normal);
   const double first = masses_[static_cast<std::size_t>(a)], second = masses_[static_cast<std::size_t>(b)];
-  const double change =
-      (1 + restitution_) * std::max(approach, kLeastApproach * std::sqrt(norm2(relative)));
+  const double change = (1 + restitution_) * std::max(approach, kLeastApproach * std::sqrt(norm2(relative)));
   p.velocity = p.velocity - (change * second / (first + second)) * normal;
   q.velocity = q.velocity + (change * first / (first + second)) * normal;
   const double impulse = change * first / (first + second) * second;
@@ -195,12 +194,11 @@ void SphereEngine::watch_for_collapse(std::int32_t id) {
     rooms.since = now_;
     rooms.hurried = 0;
   } else if (++rooms.hurried > kHurried) {
-    throw InvalidParameter("sphere " + std::to_string(id) + " has collided " + std::to_string(kHurried) +
-                           " times within " + describe(now_ - rooms.since) + ", less than " +
-                           describe(kUsualShare) +
-                           " of the time in which a sphere flies its own size: with a restitution of " +
-                           describe(restitution_) +
-                           " they collapse, and time stands still; choose a restitution nearer to 1");
+    throw InvalidParameter(
+        "sphere " + std::to_string(id) + " has collided " + std::to_string(kHurried) + " times within " +
+        describe(now_ - rooms.since) + ", less than " + describe(kUsualShare) +
+        " of the time in which a sphere flies its own size: with a restitution of " + describe(restitution_) +
+        " they collapse, and time stands still; choose a restitution nearer to 1");
   }
 }
 
@@ -210,9 +208,9 @@ double SphereEngine::least_gap() const {
     const auto a = static_cast<std::int32_t>(i);
     for (const std::int32_t b : rows_.of(a))
       if (b > a)
-        least = std::min(least, std::sqrt(images_.box().distance2(position(a), position(b))) /
-                                        (radius(a) + radius(b)) -
-                                    1);
+        least = std::min(
+            least,
+            std::sqrt(images_.box().distance2(position(a), position(b))) / (radius(a) + radius(b)) - 1);
   }
   return least;
 }

@@ -49,7 +49,7 @@ class SphereEngine {
   struct Rooms {
     double home = 0, anchor = 0;  ///< [length]
     std::int32_t collisions = 0, homes = 0;
-    double since = 0;         ///< when the sphere was last seen to collide at a usual rate
+    double since = 0;          ///< when the sphere was last seen to collide at a usual rate
     std::int32_t hurried = 0;  ///< collisions since then
   };
 
@@ -91,10 +91,10 @@ class SphereEngine {
   std::vector<Ball> homes_;
   std::vector<double> exits_;
   std::vector<Rooms> rooms_;
-  std::vector<char> is_doubtful_;  ///< whether nothing happens to the sphere before its entry, nor then
-  MutualRows rows_;                 ///< whose balls around homes touch: the tracked pairs
-  MutualRows candidates_;           ///< whose balls around anchors touch
-  std::vector<std::int32_t> found_; ///< a row that is being made
+  std::vector<char> is_doubtful_;    ///< whether nothing happens to the sphere before its entry, nor then
+  MutualRows rows_;                  ///< whose balls around homes touch: the tracked pairs
+  MutualRows candidates_;            ///< whose balls around anchors touch
+  std::vector<std::int32_t> found_;  ///< a row that is being made
   AnchorSearch anchors_;
   PointQueue events_;
   HardSphereCounters counters_;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <dch/kinetic/sphere_growth.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <dch/base/error.hpp>
+#include <dch/kinetic/sphere_growth.hpp>
 
 #include "base/describe.hpp"
 

@@ -23,8 +23,8 @@ constexpr double kLeastRoom = 0.02;
 /// What it costs in predictions of a pair to look at a candidate, to give a home, the same for each of its
 /// pairs with candidates about four times as many, and to search for a place.
 constexpr double kLook = 0.5, kHome = 10, kPairOfHome = 3, kSearch = 500;
-/// A room changes by this share for each share that its use is off; and by how much it is widened where nobody
-/// is near.
+/// A room changes by this share for each share that its use is off; and by how much it is widened where
+/// nobody is near.
 constexpr double kGain = 0.1, kMostShare = 4, kLeap = 1.4;
 /// Balls that touch so many others are not widened.
 constexpr double kCrowd = 64, kCrowdOfAnchor = 512;

@@ -25,7 +25,7 @@ BELOW = {
     "trajectory": ["lib"],
     "lammps_pair_style": ["lib", "forces", "necklace_polymer"],
     "openmm_plugin": ["lib", "forces", "necklace_polymer"],
-    "replay": ["lib", "necklace_polymer", "proximity", "trajectory"],
+    "replay": ["lib", "kinetic", "necklace_polymer", "proximity", "trajectory"],
 }
 ENDINGS = {".cpp", ".hpp", ".h"}
 

@@ -60,8 +60,8 @@ class HardSphereOracle {
   void check(const Collision& collision) {
     const Sphere &p = spheres_[collision.pair.a], &q = spheres_[collision.pair.b];
     const double passed = static_cast<double>(Real(collision.time) - now_);
-    const Vec3 normal = engine_.box().nearest_image(engine_.position(collision.pair.b) -
-                                                    engine_.position(collision.pair.a));
+    const Vec3 normal =
+        engine_.box().nearest_image(engine_.position(collision.pair.b) - engine_.position(collision.pair.a));
     const double distance = std::sqrt(norm2(normal));
     const double walls = growth_[collision.pair.a] + growth_[collision.pair.b];
     const double before = dot(q.velocity - p.velocity, normal) / distance - walls;
@@ -89,8 +89,8 @@ class HardSphereOracle {
     double least = kNever;
     for_each_pair([&](Edge pair) {
       const Sphere &p = spheres_[pair.a], &q = spheres_[pair.b];
-      least = std::min(least,
-                       std::sqrt(engine_.box().distance2(p.position, q.position)) / (p.radius + q.radius) - 1);
+      least = std::min(
+          least, std::sqrt(engine_.box().distance2(p.position, q.position)) / (p.radius + q.radius) - 1);
     });
     return least;
   }
@@ -113,7 +113,8 @@ class HardSphereOracle {
     const auto& cell = engine_.box().reduced();
     for (int i = -most[0]; i <= most[0]; ++i)
       for (int j = -most[1]; j <= most[1]; ++j)
-        for (int k = -most[2]; k <= most[2]; ++k) f(double(i) * cell[0] + double(j) * cell[1] + double(k) * cell[2]);
+        for (int k = -most[2]; k <= most[2]; ++k)
+          f(double(i) * cell[0] + double(j) * cell[1] + double(k) * cell[2]);
   }
   /// How long until a pair touches by an image that is near then.
   Real contact_after(Edge pair, Real from) const {
@@ -129,9 +130,7 @@ class HardSphereOracle {
   }
 
   static Real root(Vec3 r, Vec3 v, Real d, Real g) {
-    const auto product = [](Vec3 x, Vec3 y) {
-      return Real(x.x) * y.x + Real(x.y) * y.y + Real(x.z) * y.z;
-    };
+    const auto product = [](Vec3 x, Vec3 y) { return Real(x.x) * y.x + Real(x.y) * y.y + Real(x.z) * y.z; };
     const Real square = product(v, v) - g * g, half = product(r, v) - d * g, rest = product(r, r) - d * d;
     if (half >= 0 && square >= 0) return kNever;
     if (half < 0 && rest < 0) return 0;  // they touch, to within rounding

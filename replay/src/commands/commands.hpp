@@ -10,6 +10,7 @@ class Command;
 void add_replay_command(Command& app, int& exit_code);
 void add_contacts_command(Command& app, int& exit_code);
 void add_query_command(Command& app, int& exit_code);
+void add_hardspheres_command(Command& app, int& exit_code);
 void add_info_command(Command& app, int& exit_code);
 void add_convert_command(Command& app, int& exit_code);
 void add_generate_command(Command& app, int& exit_code);

@@ -50,6 +50,7 @@ constexpr const char* kDescription =
     "  dchmd replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
     "  dchmd contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
     "  dchmd query FILE --nearest 12 --clusters R           nearest atoms, closest pair, clusters\n"
+    "  dchmd hardspheres --spheres 4000 --fraction 0.45 --time 10   collisions of hard spheres, pressure\n"
     "  dchmd help replay                                    all options of a subcommand\n"
     "\n"
     "Exit status: 0 ok, 1 --verify found a mismatch, 2 wrong usage, 3 a file that is broken or\n"
@@ -61,6 +62,7 @@ void declare(Command& app, int& exit_code) {
   add_replay_command(app, exit_code);
   add_contacts_command(app, exit_code);
   add_query_command(app, exit_code);
+  add_hardspheres_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_generate_command(app, exit_code);
   add_help_command(app);

@@ -11,7 +11,10 @@ namespace dch::cli {
 /// JSON has no infinity and no NaN.
 nlohmann::ordered_json number_or_null(double value);
 
-/// How a report begins, as docs/report-schema.md describes it. @param frames in the report
+/// How any report begins: the number of the schema and the version of the command.
+nlohmann::ordered_json begin_report();
+
+/// How the report of a trajectory begins, as docs/report-schema.md describes it. @param frames in the report
 nlohmann::ordered_json begin_report(const TrajectorySummary& summary, std::size_t frames);
 
 }  // namespace dch::cli

@@ -145,13 +145,14 @@ TEST(HardSpheres, RefuseWhatDoesNotFit) {
     return message_of<Error>([&] { HardSpheres(params, at, velocities); });
   };
   EXPECT_THAT(refused(with_radii({2, 1.5}), two, rest),
-              AllOf(HasSubstr("spheres 0 and 1 overlap"), HasSubstr("are 3 apart"), HasSubstr("add up to 3.5"),
-                    HasSubstr("smaller radii")));
+              AllOf(HasSubstr("spheres 0 and 1 overlap"), HasSubstr("are 3 apart"),
+                    HasSubstr("add up to 3.5"), HasSubstr("smaller radii")));
   EXPECT_THAT(refused(with_radii({1}), two, rest), HasSubstr("1 radii for 2 spheres"));
   EXPECT_THAT(refused(with_radii({1, 0}), two, rest), HasSubstr("radius of sphere 1 = 0"));
   EXPECT_THAT(refused(with_radii({1, kNaN}), two, rest), HasSubstr("radius of sphere 1 = nan"));
   EXPECT_THAT(refused(with_radii({1, 1}), two, {{}}), HasSubstr("1 velocities for 2 spheres"));
-  EXPECT_THAT(refused(with_radii({1, 1}), {{0, 0, 0}, {kNaN, 0, 0}}, rest), HasSubstr("position of sphere 1"));
+  EXPECT_THAT(refused(with_radii({1, 1}), {{0, 0, 0}, {kNaN, 0, 0}}, rest),
+              HasSubstr("position of sphere 1"));
   EXPECT_THAT(refused(with_radii({1, 1}), two, {{}, {0, kNaN, 0}}), HasSubstr("velocity of sphere 1"));
   HardSphereParams params = with_radii({1, 1});
   for (const double mass : {0.0, -1.0, kNaN}) {
@@ -167,7 +168,9 @@ TEST(HardSpheres, RefuseWhatDoesNotFit) {
   }
   EXPECT_THAT(refused(with_radii({2.5, 1}, Box::orthorhombic({10, 10, 10})), two, rest),
               AllOf(HasSubstr("diameter = 5"), HasSubstr("4.5"), HasSubstr("larger box")));
-  EXPECT_THAT(message_of<Error>([&] { HardSpheres(with_radii({1, 1}), two, rest, kNaN); }),
+  EXPECT_THAT(message_of<Error>([&] {
+                HardSpheres(with_radii({1, 1}), two, rest, kNaN);
+              }),
               HasSubstr("start = nan"));
 }
 
@@ -186,7 +189,8 @@ TEST(HardSpheres, RefuseTimeThatRunsBackAndChangeNothing) {
               AllOf(HasSubstr("time = 1"), HasSubstr("before now, 2")));
   EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.step(kNaN); }), HasSubstr("nan"));
   EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.set_growth(-1); }), HasSubstr("growth = -1"));
-  EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.scale_velocities(0); }), HasSubstr("velocities = 0"));
+  EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.scale_velocities(0); }),
+              HasSubstr("velocities = 0"));
   EXPECT_EQ(spheres.position(0), (Vec3{2, 0, 0}));
 }
 
@@ -196,9 +200,9 @@ TEST(HardSpheres, SayWhereTheyCollapse) {
   params.restitution = 0.05;
   HardSpheres spheres(params, std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}},
                       std::vector<Vec3>{{1, 0, 0}, {}, {-1, 0, 0}});
-  EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.advance_to(100); }),
-              AllOf(HasSubstr("collided 20 times"), HasSubstr("restitution of 0.05"),
-                    HasSubstr("nearer to 1")));
+  EXPECT_THAT(
+      message_of<InvalidParameter>([&] { spheres.advance_to(100); }),
+      AllOf(HasSubstr("collided 20 times"), HasSubstr("restitution of 0.05"), HasSubstr("nearer to 1")));
   EXPECT_THAT(message_of<InvalidParameter>([&] { spheres.advance_to(100); }), HasSubstr("broken off"));
 }
 
