@@ -49,8 +49,8 @@ std::vector<std::int32_t> types_of(const std::vector<double>& radii) {
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<std::int32_t> types;
   for (const double radius : radii)
-    types.push_back(static_cast<std::int32_t>(std::lower_bound(known.begin(), known.end(), radius) -
-                                              known.begin()) + 1);
+    types.push_back(
+        static_cast<std::int32_t>(std::lower_bound(known.begin(), known.end(), radius) - known.begin()) + 1);
   return types;
 }
 
@@ -116,8 +116,7 @@ void SphereRun::make_spheres() try {
   spheres_ = std::make_unique<HardSpheres>(
       kinetic::HardSphereParams{start_.box(), start_.radii, start_.masses, options_.restitution},
       start_.positions, start_.velocities, start_.time);
-  if (!options_.from.empty())
-    report_.start_fraction = spheres_->volume() / spheres_->box().volume();
+  if (!options_.from.empty()) report_.start_fraction = spheres_->volume() / spheres_->box().volume();
 } catch (const UsageError&) {
   throw;
 } catch (const trajectory::FileError&) {

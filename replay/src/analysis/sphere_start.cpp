@@ -111,11 +111,13 @@ std::int64_t let_grow(SphereState& state, double scale, const StartOptions& opti
   kinetic::HardSphereParams params{state.box(), state.radii, state.masses, 1};
   for (double& radius : params.radii) radius *= scale;
   kinetic::HardSpheres spheres(params, state.positions, state.velocities);
-  const kinetic::GrowthResult grown = kinetic::grow(spheres, {options.growth / scale, options.fraction, kJammed});
+  const kinetic::GrowthResult grown =
+      kinetic::grow(spheres, {options.growth / scale, options.fraction, kJammed});
   if (grown.is_jammed)
-    throw UsageError(fmt::format("--fraction {}: spheres that grew by --growth {} jammed at {:.6f}; choose a "
-                                 "lower fraction or a slower growth",
-                                 options.fraction, options.growth, grown.fraction));
+    throw UsageError(
+        fmt::format("--fraction {}: spheres that grew by --growth {} jammed at {:.6f}; choose a "
+                    "lower fraction or a slower growth",
+                    options.fraction, options.growth, grown.fraction));
   for (std::size_t k = 0; k < state.positions.size(); ++k)
     state.positions[k] = spheres.position(static_cast<std::int32_t>(k));
   return spheres.counters().collisions;

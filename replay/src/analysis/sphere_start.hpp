@@ -27,7 +27,7 @@ struct StartOptions {
 
 struct StartResult {
   SphereState state;
-  double fraction = 0;         ///< with which the spheres began to grow; that of `state` if they had not to
+  double fraction = 0;          ///< with which the spheres began to grow; that of `state` if they had not to
   std::int64_t collisions = 0;  ///< of the growth
 };
 

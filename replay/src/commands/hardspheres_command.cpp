@@ -50,9 +50,10 @@ void declare_start(Command& command, SphereWords& words) {
                   "Where spheres grow: by this share of their radii in a unit of time. Default 0.1")
       ->type_name("RATE");
   command
-      .add_option("--jam", words.jam,
-                  "Let the spheres grow until they are jammed: until the pressure is so many times that of an "
-                  "ideal gas")
+      .add_option(
+          "--jam", words.jam,
+          "Let the spheres grow until they are jammed: until the pressure is so many times that of an "
+          "ideal gas")
       ->type_name("P");
 }
 
@@ -63,9 +64,10 @@ void declare_options(Command& command, SphereWords& words) {
                   "Share of the relative velocity that a collision leaves. Default 1: elastic")
       ->type_name("E");
   command
-      .add_option("--time", words.time,
-                  "Run for this time; with temperature 1 a sphere of diameter 1 flies about its diameter in a "
-                  "unit of time")
+      .add_option(
+          "--time", words.time,
+          "Run for this time; with temperature 1 a sphere of diameter 1 flies about its diameter in a "
+          "unit of time")
       ->type_name("T");
   command.add_option("--collisions", words.collisions, "Run for so many collisions")->type_name("N");
   command.add_option("--every", words.every, "Time between two frames of --out")->type_name("T");
@@ -101,8 +103,8 @@ double parse_fraction(const std::string& text, const std::vector<SphereSize>& si
   const double fraction =
       parse_number("--fraction", text, {0, 1, true, "the share of the box that the spheres fill"});
   if (sizes.size() == 1 && fraction > kDensest)
-    throw UsageError(fmt::format("--fraction {}: equal spheres fill {:.4f} of space at most; choose a lower one",
-                                 fraction, kDensest));
+    throw UsageError(fmt::format(
+        "--fraction {}: equal spheres fill {:.4f} of space at most; choose a lower one", fraction, kDensest));
   return fraction;
 }
 
@@ -136,12 +138,11 @@ void read_length_of_run(const SphereWords& words, SphereOptions& options) {
   if (!words.time.empty())
     options.time = parse_number("--time", words.time, {0, kMost, true, "how long to run"});
   if (!words.collisions.empty())
-    options.collisions = parse_whole_number("--collisions", words.collisions, 1,
-                                            std::numeric_limits<std::int64_t>::max() / 64,
-                                            "the number of collisions to run for");
+    options.collisions =
+        parse_whole_number("--collisions", words.collisions, 1, std::numeric_limits<std::int64_t>::max() / 64,
+                           "the number of collisions to run for");
   if (!words.jam.empty())
-    options.jam =
-        parse_number("--jam", words.jam, {1, kMost, true, "a pressure over that of an ideal gas"});
+    options.jam = parse_number("--jam", words.jam, {1, kMost, true, "a pressure over that of an ideal gas"});
   if (words.every.empty() != words.frames.empty())
     throw UsageError("--out and --every go together: the file for frames, and the time between two of them");
   if (!words.every.empty())
@@ -157,9 +158,8 @@ SphereOptions sphere_options(const SphereWords& words) {
   read_length_of_run(words, options);
   options.frames = words.frames;
   options.restart = words.restart;
-  require_distinct_files(
-      {{"--from", words.from}},
-      {{"--out", words.frames}, {"--restart", words.restart}, {"--report", words.report}});
+  require_distinct_files({{"--from", words.from}},
+                         {{"--out", words.frames}, {"--restart", words.restart}, {"--report", words.report}});
   return options;
 }
 

@@ -11,8 +11,8 @@ namespace dch::cli {
 /// Hard spheres at a time, as `dchmd hardspheres --restart` writes them: docs/formats.md.
 struct SphereState {
   double time = 0;
-  double edge = 0;             ///< of the cubic periodic box, one corner of which is the origin [length]
-  std::vector<double> radii;   ///< [length]
+  double edge = 0;            ///< of the cubic periodic box, one corner of which is the origin [length]
+  std::vector<double> radii;  ///< [length]
   std::vector<double> masses;
   std::vector<Vec3> positions, velocities;
 

@@ -34,8 +34,9 @@ Json blocks_json(const SphereReport& report) {
 
 std::string sizes_text(const SphereReport& report) {
   const std::string least = readable(report.smallest_diameter);
-  return report.is_monodisperse() ? fmt::format("diameter {}", least)
-                                  : fmt::format("diameters {} to {}", least, readable(report.largest_diameter));
+  return report.is_monodisperse()
+             ? fmt::format("diameter {}", least)
+             : fmt::format("diameters {} to {}", least, readable(report.largest_diameter));
 }
 
 std::string start_text(const SphereReport& report) {
@@ -109,11 +110,10 @@ std::string render_json(const SphereReport& report) {
 }
 
 std::string render_table(const SphereReport& report) {
-  std::vector<Row> rows = {
-      {"spheres", fmt::format("{} of {}", grouped(report.spheres), sizes_text(report))},
-      {"box", fmt::format("cube of {}", readable(report.edge))},
-      {"fraction", fmt::format("{:.6f}", report.fraction)},
-      {"start", start_text(report)}};
+  std::vector<Row> rows = {{"spheres", fmt::format("{} of {}", grouped(report.spheres), sizes_text(report))},
+                           {"box", fmt::format("cube of {}", readable(report.edge))},
+                           {"fraction", fmt::format("{:.6f}", report.fraction)},
+                           {"start", start_text(report)}};
   if (report.jam)
     rows.push_back({"jammed", fmt::format("{} at {:.6f}, pressure {} of an ideal gas",
                                           report.jam->is_jammed ? "yes," : "no, full", report.jam->fraction,

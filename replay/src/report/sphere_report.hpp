@@ -10,11 +10,11 @@ namespace dch::cli {
 
 /// A part of a run.
 struct SphereBlock {
-  double time = 0;             ///< at its end
+  double time = 0;              ///< at its end
   std::int64_t collisions = 0;  ///< in it
-  double pressure = 0;         ///< over that of an ideal gas of the energy of then
-  double energy = 0;           ///< kinetic, at its end
-  double seconds = 0;          ///< of wall clock
+  double pressure = 0;          ///< over that of an ideal gas of the energy of then
+  double energy = 0;            ///< kinetic, at its end
+  double seconds = 0;           ///< of wall clock
 };
 
 /// Growth until the spheres were jammed.
@@ -32,11 +32,11 @@ struct SphereReport {
   std::int64_t growth_collisions = 0;
   double fraction = 0;
   double restitution = 1;
-  double begin = 0, end = 0;      ///< time
+  double begin = 0, end = 0;  ///< time
   double energy_at_start = 0;
-  double least_gap = 0;           ///< over the distance of a pair
-  double expected_pressure = 0;   ///< of the equation of state, at `fraction`
-  std::int64_t frames = 0;        ///< written
+  double least_gap = 0;          ///< over the distance of a pair
+  double expected_pressure = 0;  ///< of the equation of state, at `fraction`
+  std::int64_t frames = 0;       ///< written
   std::optional<SphereJam> jam;
   std::vector<SphereBlock> blocks;
 

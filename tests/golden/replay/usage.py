@@ -11,6 +11,8 @@ import tempfile
 
 from dch_command import Checks, expect_failure, run
 
+SPHERES = ["hardspheres", "--spheres", "32", "--fraction", "0.2", "--time", "1"]
+
 
 def wrong_commands(data):
     """(arguments, what the message has to hold)"""
@@ -140,6 +142,10 @@ def check_outputs_that_cannot_be(checks, command, data):
                                ("/dev/null", "not a regular file")):
                 expect_failure(checks, command, ["replay", water, "--cutoff", "0.4", option, path], 3, [path, part])
                 expect_failure(checks, command, ["contacts", polymer, "--gap", "1", option, path], 3, [path, part])
+        for option in ("--restart", "--report"):
+            for path, part in ((os.path.join(folder, "no", "such"), "No such file"), (folder, "a folder")):
+                expect_failure(checks, command, [*SPHERES, option, path], 3, [path, part])
+        expect_failure(checks, command, [*SPHERES, "--every", "1", "--out", os.path.join(folder, "w.xyz")], 3, ["w.xyz", ".h5"])
         expect_failure(checks, command, ["convert", water, os.path.join(folder, "no", "w.h5")], 3, ["no/w.h5"])
         expect_failure(checks, command, ["convert", water, os.path.join(folder, "w.xyz")], 3, ["w.xyz", ".h5"])
         expect_failure(checks, command, ["generate", "melt", "--chains", "10", "--beads", "10",
@@ -153,7 +159,8 @@ def check_full_disk(checks, command, data, chains):
     contacts = ["contacts", os.path.join(data, "nopbc.dcd"), "--gap", "5", "--topology", chains]
     for arguments in (contacts + ["--out", "contacts.h5"], contacts + ["--report", "report.json"],
                       contacts + ["--plot", "page.html"], replay + ["--out", "lists.h5"], replay + ["--report", "report.json"], replay + ["--plot", "page.html"],
-                      ["convert", polymer, "out.h5"], ["convert", polymer, "out.lammpstrj"],
+                      ["convert", polymer, "out.h5"], ["convert", polymer, "out.lammpstrj"], [*SPHERES, "--restart", "state.json"],
+                      [*SPHERES, "--report", "report.json"], [*SPHERES, "--every", "0.01", "--out", "frames.h5"],
                       ["generate", "melt", "--chains", "20", "--beads", "50", "melt.data"]):
         for largest_file in (0, 1000):
             message = expect_failure(checks, command, arguments, 3, [arguments[-1]], largest_file)
@@ -184,6 +191,7 @@ def check_help(checks, command):
                              (["help", "generate", "melt"], ["Usage: dchmd generate melt", "--chains"]),
                              (["replay", "--help"], ["--cutoff R", "nm for", "--verify"]),
                              (["info", "--help"], ["FILE"]),
+                             (["hardspheres", "--help"], ["--fraction PHI", "--jam P", "--restart STATE.json"]),
                              (["contacts", "--help"], ["--gap D", "--topology", "--radius"]), (["convert", "--help"], ["H5MD"]),
                              (["generate", "melt", "--help"], ["--chains"])):
         result = run(command, *arguments)

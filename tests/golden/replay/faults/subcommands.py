@@ -69,6 +69,8 @@ SUBCOMMANDS = [
     Subcommand("query", ["query", "in.dump", "--nearest", "3", "--clusters", "2.5", "--out", "out.h5", "--report", "out.json",
                          "--plot", "out.html"],
                ["out.h5", "out.json", "out.html"]),
+    Subcommand("hardspheres", ["hardspheres", "--spheres", "32", "--fraction", "0.2", "--time", "0.2", "--every", "0.1", "--out",
+                               "out.h5", "--restart", "out.txt", "--report", "out.json"], ["out.h5", "out.txt", "out.json"]),
     Subcommand("convert to H5MD", ["convert", "in.dump", "out.h5"], ["out.h5"]),
     Subcommand("convert to a dump", ["convert", "in.dump", "out.dump"], ["out.dump"]),
     Subcommand("generate", ["generate", "melt", "--chains", "20", "--beads", "60", "out.data"], ["out.data"]),
