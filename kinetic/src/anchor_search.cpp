@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/metric.hpp"
 #include "hierarchy_descent.hpp"
 
 namespace dch::kinetic {
@@ -73,7 +72,7 @@ void AnchorSearch::refresh() {
     } else {
       same.hierarchy.build(same.centers, box_);
     }
-    same.view = same.hierarchy.view();
+    same.view = same.hierarchy.kept_view();
     ++octave;
   }
   for (const std::int32_t id : strays_) is_stray_[static_cast<std::size_t>(id)] = 0;
@@ -89,9 +88,7 @@ void AnchorSearch::find_touching(std::int32_t id, std::vector<std::int32_t>& tou
       if (other != id && !is_stray_[static_cast<std::size_t>(other)] && touch(id, other))
         touching.push_back(other);
     };
-    detail::with_metric(box_, [&](const auto& metric) {
-      HierarchyDescent(metric, octave.view->structure(), self.center, self.radius + octave.largest, look_at);
-    });
+    for_each_near(*octave.view, self.center, self.radius + octave.largest, look_at);
   }
   for (const std::int32_t other : strays_)
     if (other != id && touch(id, other)) touching.push_back(other);

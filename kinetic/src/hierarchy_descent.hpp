@@ -1,43 +1,73 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include <dch/base/vec3.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
 
+#include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
 #include "hierarchy/structure.hpp"
 
 namespace dch::kinetic {
 
-/// Calls f(id) for the points of a hierarchy, with no repair put off, that are within `reach` of a position.
-/// The points below a node of level i are within R_0 + ... + R_{i-1} of it, those of a leaf within R_0.
+/// Calls f(id) for all points of a hierarchy that are within `reach` of a position, to within rounding: by the measured balls of its nodes and the boxes around blocks of
+/// points.
 template <class Metric, class F>
 class HierarchyDescent {
  public:
-  HierarchyDescent(const Metric& metric, const detail::Structure& structure, Vec3 at, double reach,
-                   const F& f)
+  /// @param view a kept_view()
+  HierarchyDescent(const Metric& metric, const HierarchyView& view, Vec3 at, double reach, const F& f)
       : metric_(metric),
-        structure_(structure),
+        structure_(view.structure()),
         at_(metric.wrap(at)),
-        reach_(reach * detail::kInflate),
+        reach_((reach + structure_.wrap_slack) * detail::kInflate),
         f_(f) {
-    double below = reach_ + structure.wrap_slack;
-    for (int level = 0; level < structure.top(); ++level) below += radius(level);
-    const detail::Level& top = structure.levels.back();
+    const detail::Level& top = structure_.levels.back();
     for (std::int32_t root = 0; root < top.size(); ++root)
-      if (top.is_alive(root)) visit(structure.top(), root, below);
+      if (top.is_alive(root)) visit(structure_.top(), root);
   }
 
  private:
-  double radius(int level) const { return structure_.levels[level].radius * detail::kInflate; }
-  void visit(int level, std::int32_t node, double reach) {
-    if (metric_.distance2(at_, structure_.position(level, node)) > reach * reach) return;
-    if (level == 0) return f_(structure_.points.id[node]);
-    if (structure_.is_singleton(level, node)) f_(structure_.levels[level].id[node]);
-    structure_.for_each_child(
-        level, node, [&](std::int32_t child) { visit(level - 1, child, reach - radius(level - 1)); });
+  void visit(int level, std::int32_t node) {
+    const detail::Level& nodes = structure_.levels[level];
+    const double extent = structure_.balls->radius(level, node) * detail::kInflate;
+    const Vec3 off = metric_.displacement(nodes.position[node], at_);
+    if (norm2(off) > (reach_ + extent) * (reach_ + extent)) return;
+    if (level == 1) return look_at_leaf(node, off, extent);
+    if (structure_.is_singleton(level, node)) look_at(nodes.id[node], nodes.position[node]);
+    for (std::int32_t child = nodes.first_child[node]; child != detail::kNone;
+         child = structure_.levels[level - 1].next_sibling[child])
+      visit(level - 1, child);
   }
+
+  /// @param off of the position from the center of the leaf
+  void look_at_leaf(std::int32_t node, Vec3 off, double extent) {
+    const detail::LeafBlocks& points = structure_.points;
+    // Corners are rounded to float. They say nothing where another image of the box may be as near.
+    const double within = reach_ + kFloatError * extent;
+    const bool has_one_image = (within + extent) * detail::kInflate < structure_.box.max_cutoff();
+    for (std::int32_t block = structure_.levels[1].first_child[node]; block != detail::kNone;
+         block = points.next[block]) {
+      if (has_one_image && gap2(off, structure_.balls->corners(block)) > within * within) continue;
+      const std::int32_t first = block * detail::kBlock, last = first + points.count[block];
+      for (std::int32_t slot = first; slot < last; ++slot) look_at(points.id[slot], points.position[slot]);
+    }
+  }
+  static double gap2(Vec3 at, const detail::MeasuredLeaves::Corners& corners) {
+    Vec3 gap;
+    for (int axis = 0; axis < 3; ++axis)
+      gap[axis] = std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
+    return norm2(gap);
+  }
+  void look_at(std::int32_t id, Vec3 position) {
+    if (metric_.distance2(at_, position) <= reach_ * reach_) f_(id);
+  }
+
+  /// More than what rounding to float changes of an extent.
+  static constexpr double kFloatError = 0x1p-23;
 
   const Metric& metric_;
   const detail::Structure& structure_;
@@ -45,5 +75,12 @@ class HierarchyDescent {
   double reach_;
   const F& f_;
 };
+
+/// The same, whatever the box. @param view a kept_view()
+template <class F>
+void for_each_near(const HierarchyView& view, Vec3 at, double reach, const F& f) {
+  detail::with_metric(view.box(),
+                      [&](const auto& metric) { HierarchyDescent(metric, view, at, reach, f); });
+}
 
 }  // namespace dch::kinetic

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "home_search.hpp"
 
-#include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
 #include "hierarchy_descent.hpp"
 
@@ -39,9 +38,7 @@ const NeighborList& HomeSearch::find_all(Span<const Vec3> homes) {
 }
 
 void HomeSearch::find_near(Vec3 position, double reach, const std::function<void(std::int32_t)>& f) {
-  const detail::Structure& structure = hierarchy_.view().structure();
-  detail::with_metric(params_.box,
-                      [&](const auto& metric) { HierarchyDescent(metric, structure, position, reach, f); });
+  for_each_near(hierarchy_.kept_view(), position, reach, f);
 }
 
 }  // namespace dch::kinetic
