@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Events of moving points: elastic spheres that change two plans at each collision, points that pass through
-// each other, and what the reference counts (thesis 5.5.2).
+// Collisions of hard spheres, events of points that pass through each other, and what the reference counts
+// (thesis 5.5.2).
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <dch/kinetic/kinetic_hierarchy.hpp>
+#include <dch/kinetic/sphere_growth.hpp>
 
 namespace dch::kinetic {
 namespace {
@@ -44,38 +45,57 @@ struct Spheres {
   std::vector<FlightPlan> plans;
 };
 
-double energy(const KineticEdges& spheres) {
-  double sum = 0;
-  for (std::int32_t id = 0; id < static_cast<std::int32_t>(spheres.size()); ++id)
-    sum += norm2(velocity_at(spheres.plan(id), spheres.now()));
-  return sum;
+void collide(HardSpheres& spheres, std::size_t times) {
+  for (std::size_t k = 0; k < times; ++k) spheres.step(1e9);
 }
 
-/// Lets time pass to the next collision and turns both spheres. The edge vanishes at the same time.
-void collide(KineticEdges& spheres) {
-  for (;;) {
-    const auto event = spheres.step(1e9);
-    if (!event->appears) continue;
-    const auto [a, b] = event->edge;
-    const Vec3 d = spheres.box().nearest_image(spheres.position(b) - spheres.position(a));
-    const Vec3 u = spheres.plan(a).velocity, v = spheres.plan(b).velocity;
-    const Vec3 kick = (dot(v - u, d) / norm2(d)) * d;
-    spheres.set_motion(a, u + kick);
-    spheres.set_motion(b, v - kick);
-    return;
-  }
-}
-
-void elastic_spheres(benchmark::State& state) {
-  const Spheres scene(state.range(0), 0.45);
-  const auto spheres = make_kinetic_edges(scene.params, scene.plans, 0);
-  const double before = energy(*spheres);
-  for (std::size_t k = 0; k < 10 * scene.plans.size(); ++k) collide(*spheres);  // off the lattice
-  for (auto _ : state) collide(*spheres);
-  if (std::abs(energy(*spheres) / before - 1) > 1e-10) state.SkipWithError("energy is not conserved");
+/// Checks, too, that what was measured are collisions of spheres that stay apart.
+void measure(benchmark::State& state, HardSpheres& spheres) {
+  const double before = spheres.energy();
+  collide(spheres, 20 * spheres.size());  // off the lattice, and until lists have the lengths that pay
+  for (auto _ : state) spheres.step(1e9);
+  if (std::abs(spheres.energy() / before - 1) > 1e-10) state.SkipWithError("energy is not conserved");
+  if (spheres.least_gap() < -1e-12) state.SkipWithError("spheres overlap");
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(elastic_spheres)->Arg(500)->Arg(10648)->Arg(97336)->Unit(benchmark::kMicrosecond);
+
+void equal_spheres(benchmark::State& state) {
+  const Spheres scene(state.range(0), 0.45);
+  std::vector<Vec3> positions, velocities;
+  for (const FlightPlan& plan : scene.plans) {
+    positions.push_back(plan.position);
+    velocities.push_back(plan.velocity);
+  }
+  HardSphereParams params;
+  params.box = scene.params.box;
+  params.radii.assign(positions.size(), 0.5);
+  HardSpheres spheres(params, positions, velocities);
+  measure(state, spheres);
+}
+BENCHMARK(equal_spheres)->Arg(500)->Arg(10648)->Arg(97336)->Unit(benchmark::kMicrosecond);
+
+/// As many of one size as of the other, 1 to `ratio`, that have grown to the packing fraction.
+void unlike_spheres(benchmark::State& state) {
+  Spheres scene(state.range(0), std::numbers::pi / 6 * 0.99);
+  std::shuffle(scene.plans.begin(), scene.plans.end(), std::mt19937_64(2));
+  HardSphereParams params;
+  params.box = scene.params.box;
+  std::vector<Vec3> positions, velocities;
+  for (std::size_t k = 0; k < scene.plans.size(); ++k) {
+    params.radii.push_back(k % 2 == 0 ? 0.49 : 0.49 / static_cast<double>(state.range(1)));
+    params.masses.push_back(std::pow(2 * params.radii.back(), 3));
+    positions.push_back(scene.plans[k].position);
+    velocities.push_back((1 / std::sqrt(params.masses.back())) * scene.plans[k].velocity);
+  }
+  HardSpheres spheres(params, positions, velocities);
+  grow(spheres, {1, 0.45, 1e6});
+  measure(state, spheres);
+}
+BENCHMARK(unlike_spheres)
+    ->Args({500, 10})
+    ->Args({19683, 10})
+    ->Args({19683, 20})
+    ->Unit(benchmark::kMicrosecond);
 
 void passing_points(benchmark::State& state) {
   const Spheres scene(state.range(0), 0.45);

@@ -13,8 +13,8 @@
 
 namespace dch::kinetic {
 
-/// Calls f(id) for all points of a hierarchy that are within `reach` of a position, to within rounding: by the measured balls of its nodes and the boxes around blocks of
-/// points.
+/// Calls f(id) for all points of a hierarchy that are within `reach` of a position, to within rounding: by
+/// the measured balls of its nodes and the boxes around blocks of points.
 template <class Metric, class F>
 class HierarchyDescent {
  public:
@@ -59,7 +59,8 @@ class HierarchyDescent {
   static double gap2(Vec3 at, const detail::MeasuredLeaves::Corners& corners) {
     Vec3 gap;
     for (int axis = 0; axis < 3; ++axis)
-      gap[axis] = std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
+      gap[axis] =
+          std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
     return norm2(gap);
   }
   void look_at(std::int32_t id, Vec3 position) {
@@ -79,8 +80,7 @@ class HierarchyDescent {
 /// The same, whatever the box. @param view a kept_view()
 template <class F>
 void for_each_near(const HierarchyView& view, Vec3 at, double reach, const F& f) {
-  detail::with_metric(view.box(),
-                      [&](const auto& metric) { HierarchyDescent(metric, view, at, reach, f); });
+  detail::with_metric(view.box(), [&](const auto& metric) { HierarchyDescent(metric, view, at, reach, f); });
 }
 
 }  // namespace dch::kinetic

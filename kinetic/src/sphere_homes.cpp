@@ -27,7 +27,7 @@ constexpr double kLook = 0.5, kHome = 10, kPairOfHome = 3, kSearch = 500;
 /// nobody is near.
 constexpr double kGain = 0.1, kMostShare = 4, kLeap = 1.4;
 /// Balls that touch so many others are not widened.
-constexpr double kCrowd = 64, kCrowdOfAnchor = 512;
+constexpr double kCrowd = 64, kCrowdOfAnchor = 160;
 /// Exits are taken this share of the room early, which is far more than roots and distances round.
 constexpr double kEarly = 1e-6;
 
