@@ -39,7 +39,7 @@ class SphereEngine {
 
  private:
   /// The flight since a sphere's last collision.
-  struct Sphere {
+  struct alignas(64) Sphere {
     Vec3 position{};
     double time = 0;
     Vec3 velocity{};
