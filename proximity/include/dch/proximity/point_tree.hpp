@@ -39,6 +39,8 @@ class PointTree {
   explicit PointTree(const HierarchyView& view);
 
   std::size_t size() const { return ids_.size(); }  ///< number of points
+  /// One more than the largest id that the hierarchy had in use.
+  std::size_t capacity() const { return positions_.size(); }
   /// The root first, children behind their parents; fewer than two a point, none without points.
   const std::vector<Node>& nodes() const { return nodes_; }
   const Node& node(std::int32_t k) const { return nodes_[static_cast<std::size_t>(k)]; }

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "simd/sum_kernels_loops.hpp"
+
+namespace dch::detail {
+
+const SumKernels kSumAvx2{translate, potential};
+
+}  // namespace dch::detail

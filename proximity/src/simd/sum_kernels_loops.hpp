@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+//
+// The loops of sum_kernels.hpp, for the compiler to vectorize: included once for each instruction set. No
+// function of a library is called, since one compiled for a wider set could then be linked into all.
+#pragma once
+
+#include "simd/sum_kernels.hpp"
+
+namespace dch::detail {
+namespace {
+
+using DoubleLanes __attribute__((vector_size(kSumLanes * sizeof(double)))) = double;
+using WordLanes __attribute__((vector_size(kSumLanes * sizeof(double)))) = std::uint64_t;
+
+// Vectors are handed on by reference: how they are returned depends on the set.
+inline void load_lanes(const double* from, DoubleLanes& to) { __builtin_memcpy(&to, from, sizeof to); }
+
+/// 1 / sqrt(a) for positive normal numbers: a guess by its exponent, off by at most 3.5 %, and four steps of
+/// Newton, each of which squares that and multiplies by 1.5.
+inline void inverse_root(const DoubleLanes& a, DoubleLanes& y) {
+  WordLanes bits;
+  __builtin_memcpy(&bits, &a, sizeof bits);
+  bits = 0x5FE6EB50C7B537A9u - (bits >> 1);
+  __builtin_memcpy(&y, &bits, sizeof bits);
+  const DoubleLanes half = 0.5 * a;
+  for (int k = 0; k < 4; ++k) y *= 1.5 - half * y * y;
+}
+
+/// exp(a) for a <= 0, to 2e-16 of it; below -708, of that.
+inline void exponential(const DoubleLanes& a, DoubleLanes& result) {
+  const DoubleLanes least = DoubleLanes{} - 708.0, x = a > least ? a : least;
+  constexpr double kShift = 0x1.8p52;
+  const DoubleLanes shifted = x * 1.4426950408889634 + kShift, n = shifted - kShift;
+  const DoubleLanes f = (x - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b39p-40;
+  DoubleLanes sum = DoubleLanes{} + 1.0;
+  for (int k = 13; k > 0; --k) sum = 1.0 + sum * f * (1.0 / k);
+  WordLanes bits, power;
+  __builtin_memcpy(&power, &shifted, sizeof power);
+  __builtin_memcpy(&bits, &sum, sizeof bits);
+  bits += power << 52;
+  __builtin_memcpy(&result, &bits, sizeof bits);
+}
+
+/// (1/r d/dr)^k of the kernel times the distance, at distance 1: k! over odd numbers, screened or not.
+inline void radial_derivatives(const TranslationTables& tables, const FarGroup& group, DoubleLanes* radial) {
+  DoubleLanes screening, before;
+  load_lanes(group.decay, radial[0]);
+  load_lanes(group.screening, screening);
+  before = screening * radial[0];
+  if (tables.order > 0) radial[1] = -(radial[0] + before);
+  const DoubleLanes square = screening * screening;
+  for (std::int32_t k = 2; k <= tables.order; ++k)
+    radial[k] = square * radial[k - 2] - static_cast<double>(2 * k - 1) * radial[k - 1];
+}
+
+/// All derivatives of the kernel, of a distance of 1; the radial ones come first.
+inline void derivatives(const TranslationTables& tables, const FarGroup& group, DoubleLanes* work) {
+  radial_derivatives(tables, group, work);
+  DoubleLanes direction[3];
+  for (int axis = 0; axis < 3; ++axis) load_lanes(group.direction[axis], direction[axis]);
+  for (std::int32_t k = 0; k < tables.steps; ++k) {
+    const DerivativeStep& step = tables.step[k];
+    work[step.to] = direction[step.axis] * work[step.minus_one] + step.factor * work[step.minus_two];
+  }
+  for (std::int32_t k = 0; k < tables.traces; ++k) {
+    const std::int32_t* const trace = tables.trace + 3 * k;
+    work[trace[0]] = -(work[trace[1]] + work[trace[2]]);
+  }
+}
+
+/// Eight values from each of eight places, lane by lane: a transposition of blocks of 1, of 2 and of 4.
+inline void load_transposed(const double* const* from, std::int32_t first, DoubleLanes* to) {
+  DoubleLanes a[kSumLanes], b[kSumLanes];
+  for (int k = 0; k < kSumLanes; ++k) load_lanes(from[k] + first, a[k]);
+  for (int k = 0; k < kSumLanes; k += 2) {
+    b[k] = __builtin_shufflevector(a[k], a[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    b[k + 1] = __builtin_shufflevector(a[k], a[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < kSumLanes; ++k) {
+    if ((k & 2) != 0) continue;
+    a[k] = __builtin_shufflevector(b[k], b[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    a[k + 2] = __builtin_shufflevector(b[k], b[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  for (int k = 0; k < kSumLanes / 2; ++k) {
+    to[k] = __builtin_shufflevector(a[k], a[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    to[k + 4] = __builtin_shufflevector(a[k], a[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+inline void load_moments(const TranslationTables& tables, const FarGroup& group, DoubleLanes* moments) {
+  for (std::int32_t k = 0; k < tables.coefficients; k += kSumLanes)
+    load_transposed(group.moments, k, moments + k);
+  DoubleLanes size, power;
+  load_lanes(group.source_size, size);
+  power = size;
+  for (std::int32_t degree = 1; degree <= tables.order; ++degree) {
+    for (std::int32_t k = tables.degree_end[degree - 1]; k < tables.degree_end[degree]; ++k)
+      moments[k] *= power;
+    power *= size;
+  }
+}
+
+inline void translate(const TranslationTables& tables, const FarGroup& group, double* work, double* sums) {
+  DoubleLanes* const moments = reinterpret_cast<DoubleLanes*>(work);
+  DoubleLanes* const of_kernel = moments + padded(tables.coefficients);
+  DoubleLanes* const local = reinterpret_cast<DoubleLanes*>(sums);
+  load_moments(tables, group, moments);
+  derivatives(tables, group, of_kernel);
+  DoubleLanes size, power;
+  load_lanes(group.target_size, size);
+  load_lanes(group.inverse, power);
+  const std::int32_t* derivative = tables.derivative;
+  for (std::int32_t degree = 0, k = 0; degree <= tables.order; ++degree) {
+    const std::int32_t terms = tables.degree_end[tables.order - degree];
+    for (; k < tables.degree_end[degree]; ++k, derivative += terms) {
+      DoubleLanes even{}, odd{};
+      std::int32_t term = 0;
+      for (; term + 1 < terms; term += 2) {
+        even += of_kernel[derivative[term]] * moments[term];
+        odd += of_kernel[derivative[term + 1]] * moments[term + 1];
+      }
+      if (term < terms) even += of_kernel[derivative[term]] * moments[term];
+      local[k] += power * (even + odd);
+    }
+    power *= size;
+  }
+}
+
+template <bool kScreened>
+double potential_of(const NearCharges& charges, double x, double y, double z) {
+  DoubleLanes sum{};
+  for (std::int32_t k = 0; k < charges.count; k += kSumLanes) {
+    DoubleLanes dx, dy, dz, q, inverse;
+    load_lanes(charges.x + k, dx);
+    load_lanes(charges.y + k, dy);
+    load_lanes(charges.z + k, dz);
+    load_lanes(charges.q + k, q);
+    dx -= x;
+    dy -= y;
+    dz -= z;
+    const DoubleLanes r2 = dx * dx + dy * dy + dz * dz;
+    const DoubleLanes one = DoubleLanes{} + 1.0, zero{};
+    const auto is_other = r2 > charges.least2;
+    const DoubleLanes safe = is_other ? r2 : one;
+    inverse_root(safe, inverse);
+    if constexpr (kScreened) {
+      DoubleLanes decay;
+      exponential(-charges.kappa * (safe * inverse), decay);
+      inverse *= decay;
+    }
+    sum += is_other ? q * inverse : zero;
+  }
+  double total = 0;
+  for (int lane = 0; lane < kSumLanes; ++lane) total += sum[lane];
+  return total;
+}
+
+inline double potential(const NearCharges& charges, double x, double y, double z) {
+  return charges.kappa > 0 ? potential_of<true>(charges, x, y, z) : potential_of<false>(charges, x, y, z);
+}
+
+}  // namespace
+}  // namespace dch::detail
