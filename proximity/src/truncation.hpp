@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "charged_tree.hpp"
@@ -30,9 +31,10 @@ struct Expanded {
 ///
 /// Those beyond the order p sum up to at most
 ///
-///   t^(p+1) / (R - d) (exp(-x) e_(p+1)(x) + t x^(p+2) / (p+2)! exp(-(1 - t) x)),
+///   t^(p+1) / (R - d) (exp(-x) e_(p+1)(x) + t x^(p+2) / (p+2)! exp(-x) g),
 ///
-/// for 1/r to t^(p+1) / (R - d). The mean over charges of d^(p+1) is, by Minkowski's inequality, at most that
+/// for 1/r to t^(p+1) / (R - d), where g is the smaller one of exp(t x) and, if that is positive,
+/// 1 / (1 - t x / (p + 3)). The mean over charges of d^(p+1) is, by Minkowski's inequality, at most that
 /// of the sum of the target's radius and of the power mean of the charges' distances from b.
 class Truncation {
  public:
@@ -48,13 +50,14 @@ class Truncation {
     if (!(gap > 0)) return {};
     const double t = (radius + source.reach) / apart, x = kappa_ * apart;
     const double decay = kappa_ > 0 ? std::exp(-x) : 1;
-    const double of_gap = kappa_ > 0 ? std::exp(-kappa_ * gap) : 1, rest = farthest / apart * of_gap;
+    const double of_gap = kappa_ > 0 ? std::exp(-kappa_ * gap) : 1, ratio = kappa_ * farthest;
     const double left_out = source.weight / gap * of_gap;
     if (left_out <= kShareOfLower * most) return {true, -1, left_out};
     double power = source.weight / gap * t, term = x, sum = 1 + x;
     for (int order = 0; order <= order_; ++order) {
       const double next = term * x / (order + 2);
-      const double error = power * (decay * sum + rest * next);
+      const double growth = ratio < order + 3 ? std::min(of_gap, decay / (1 - ratio / (order + 3))) : of_gap;
+      const double error = power * (decay * sum + farthest / apart * next * growth);
       if (error <= (order < order_ ? kShareOfLower * most : most)) return {true, order, error};
       power *= t;
       term = next;

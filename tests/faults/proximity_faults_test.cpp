@@ -9,6 +9,7 @@
 
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/proximity/closest_pair.hpp>
+#include <dch/proximity/far_sums.hpp>
 #include <dch/proximity/k_center.hpp>
 #include <dch/proximity/neighbors_within.hpp>
 #include <dch/proximity/point_tree.hpp>
@@ -72,6 +73,11 @@ TEST(ProximityFaults, QueriesOfTrees) {
     return k_centers(of, std::vector<std::int64_t>{2, 9, 30}).radius;
   });
   sweep_query(tree, [](const PointTree& of) { return Answer{closest_pair(of).distance2}; });
+  sweep_query(tree, [](const PointTree& of) {
+    FarSumParams params;
+    params.kappa = 8;
+    return far_sums(of, Answer(of.capacity(), 1.0), params).potentials;
+  });
 }
 
 TEST(ProximityFaults, NeighborsAtAnyRadius) {
