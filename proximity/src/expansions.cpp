@@ -34,46 +34,39 @@ Expansions::Expansions(int order, bool is_harmonic)
 // the derivatives of it, those of D_(i + x) of G_m are x D_i + i_x D_(i - x) of G_(m+1), as x G_(m+1) is the
 // derivative of G_m along x.
 void Expansions::list_steps() {
+  // The order of the workspace: radial derivatives, all derivatives of G_0, traces, and twice the room for
+  // those of another G, since those of G_m take no others than those of G_(m+1).
   const MultiIndices& derived = short_;
-  // Of degree d there are those of G_0 .. G_(order - d), degree by degree.
-  std::vector<int> first(static_cast<std::size_t>(order_) + 1);
-  int end = order_ + 1;
-  for (int degree = 1; degree <= order_; ++degree) {
-    first[static_cast<std::size_t>(degree)] = end;
-    end += (derived.up_to(degree) - derived.up_to(degree - 1)) * (order_ + 1 - degree);
-  }
+  const MultiIndices needed(order_, is_harmonic_ ? 2 : order_);
+  const int radials = order_ + 1, room = derived.size(), behind = radials + needed.size();
   const auto place = [&](MultiIndex index, int m) {
-    const int degree = index.degree();
-    if (degree == 0) return m;
-    const int in_degree = derived.place(index) - derived.up_to(degree - 1);
-    return first[static_cast<std::size_t>(degree)] + in_degree * (order_ + 1 - degree) + m;
+    if (index.degree() == 0) return m;
+    return derived.place(index) + (m == 0 ? radials : behind + m % 2 * room);
   };
-  for (const MultiIndex index : derived.all()) {
-    if (index.degree() == 0) continue;
-    const int axis = index.c > 0 ? 2 : index.b > 0 ? 1 : 0, rest = exponent(index, axis) - 1;
-    for (int m = 0; m + index.degree() <= order_; ++m) {
+  for (int m = order_ - 1; m >= 0; --m) {
+    for (int k = 1; k < derived.up_to(order_ - m); ++k) {
+      const MultiIndex index = derived[k];
+      const int axis = index.c > 0 ? 2 : index.b > 0 ? 1 : 0, rest = exponent(index, axis) - 1;
       const int minus_one = place(lowered(index, axis, 1), m + 1);
       const int minus_two = rest > 0 ? place(lowered(index, axis, 2), m + 1) : minus_one;
       steps_.push_back({place(index, m), minus_one, minus_two, axis, static_cast<double>(rest)});
     }
   }
   // With z^1 in both expansions, derivatives by z^2 are needed as well.
-  MultiIndices needed(order_, is_harmonic_ ? 2 : order_);
-  std::vector<int> place_of(static_cast<std::size_t>(needed.size()));
-  for (int k = 0; k < needed.size(); ++k) {
-    const MultiIndex index = needed[k];
-    if (!is_harmonic_ || index.c < 2) {
-      place_of[static_cast<std::size_t>(k)] = place(index, 0);
-      continue;
-    }
-    place_of[static_cast<std::size_t>(k)] = end;
-    traces_.push_back(end++);
+  int next = radials + derived.size();
+  std::vector<int> place_of;
+  for (const MultiIndex index : needed.all()) {
+    const bool is_trace = is_harmonic_ && index.c == 2;
+    place_of.push_back(is_trace ? next++ : place(index, 0));
+    if (!is_trace) continue;
+    traces_.push_back(place_of.back());
     for (const MultiIndex other : others_of(index)) traces_.push_back(place(other, 0));
   }
   for (const MultiIndex local : short_.all())
     for (int j = 0; j < short_.up_to(order_ - local.degree()); ++j)
-      derivative_.push_back(place_of[static_cast<std::size_t>(needed.place(local + short_[j]))]);
-  work_size_ = static_cast<std::size_t>((padded(short_.size()) + end) * kSumLanes);
+      derivative_.push_back(
+          static_cast<std::uint16_t>(place_of[static_cast<std::size_t>(needed.place(local + short_[j]))]));
+  work_size_ = static_cast<std::size_t>((padded(short_.size()) + behind + 2 * room) * kSumLanes);
 }
 
 TranslationTables Expansions::tables() const {

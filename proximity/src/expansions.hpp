@@ -68,7 +68,8 @@ class Expansions {
   std::vector<int> place_in_whole_;              ///< of short ones
   std::vector<std::array<int, 3>> translation_;  ///< whole ones: i + j, i, j
   std::vector<DerivativeStep> steps_;
-  std::vector<std::int32_t> traces_, degree_end_, derivative_;
+  std::vector<std::int32_t> traces_, degree_end_;
+  std::vector<std::uint16_t> derivative_;
 };
 
 }  // namespace dch::detail

@@ -54,14 +54,17 @@ class Truncation {
     const double left_out = source.weight / gap * of_gap;
     if (left_out <= kShareOfLower * most) return {true, -1, left_out};
     double power = source.weight / gap * t, term = x, sum = 1 + x;
-    for (int order = 0; order <= order_; ++order) {
-      const double next = term * x / (order + 2);
-      const double growth = ratio < order + 3 ? std::min(of_gap, decay / (1 - ratio / (order + 3))) : of_gap;
-      const double error = power * (decay * sum + farthest / apart * next * growth);
+    for (int order = 0; order <= order_; ++order, power *= t) {
+      double terms = 1;
+      if (kappa_ > 0) {
+        const double growth =
+            ratio < order + 3 ? std::min(of_gap, decay / (1 - ratio / (order + 3))) : of_gap;
+        term *= x / (order + 2);
+        terms = decay * sum + farthest / apart * term * growth;
+        sum += term;
+      }
+      const double error = power * terms;
       if (error <= (order < order_ ? kShareOfLower * most : most)) return {true, order, error};
-      power *= t;
-      term = next;
-      sum += term;
     }
     return {};
   }

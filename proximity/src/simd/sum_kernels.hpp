@@ -28,7 +28,7 @@ struct TranslationTables {
   const DerivativeStep* step;        ///< in this order
   const std::int32_t* trace;         ///< traces times three: to = -(second + third)
   const std::int32_t* degree_end;    ///< by degree: coefficients up to it
-  const std::int32_t* derivative;    ///< for each local coefficient and each multipole one that it takes
+  const std::uint16_t* derivative;   ///< for each local coefficient and each multipole one that it takes
 };
 
 /// Up to kSumLanes sources of one target. Lanes without a source have inverse distance 0.

@@ -109,7 +109,7 @@ inline void translate(const TranslationTables& tables, const FarGroup& group, do
   DoubleLanes size, power;
   load_lanes(group.target_size, size);
   load_lanes(group.inverse, power);
-  const std::int32_t* derivative = tables.derivative;
+  const std::uint16_t* derivative = tables.derivative;
   for (std::int32_t degree = 0, k = 0; degree <= tables.order; ++degree) {
     const std::int32_t terms = tables.degree_end[tables.order - degree];
     for (; k < tables.degree_end[degree]; ++k, derivative += terms) {
