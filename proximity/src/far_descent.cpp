@@ -72,6 +72,18 @@ std::vector<SumSource> root_sources(const SumScene& scene) {
 
 std::vector<double> least_potentials(const ChargedTree& tree, const std::vector<Vec3>& images,
                                      const Truncation& truncation) {
+  // Images that are far for the size of the whole are taken once for all points; there may be very many.
+  const ChargedNode& root = tree.node(0);
+  std::vector<Vec3> near;
+  double by_far_images = 0;
+  for (const Vec3 image : images) {
+    const double apart = std::sqrt(norm2(image));
+    if (apart > 3 * root.radius) {
+      by_far_images += truncation.least(root, apart, root.radius);
+    } else {
+      near.push_back(image);
+    }
+  }
   std::vector<double> least(tree.nodes().size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = least.size(); k-- > 0;) {  // children before their parents
     const ChargedNode& node = tree.nodes()[k];
@@ -79,8 +91,8 @@ std::vector<double> least_potentials(const ChargedTree& tree, const std::vector<
       least[k] = std::min(least[k], least[static_cast<std::size_t>(child)]);
     if (!node.is_bottom()) continue;
     LeastPotential potential(tree, truncation, node);
-    for (const Vec3 image : images) potential.add(0, image);
-    least[k] = potential.sum();
+    for (const Vec3 image : near) potential.add(0, image);
+    least[k] = potential.sum() + by_far_images;
   }
   return least;
 }

@@ -22,7 +22,7 @@ struct FarSumParams {
 struct FarSums {
   std::vector<double> potentials;  ///< by id; 0 for an id that there is not [charge / length]
   /// No potential is farther off, relative to the sum of |q_j| K(r_ij) at its point: proven, beside rounding.
-  /// At most the tolerance; 0 if every pair was summed directly.
+  /// At most the tolerance; 0 if every pair was summed directly, without a periodic box.
   double error_bound = 0;
   int order = 0;                ///< degree up to which expansions go
   int images = 1;               ///< of all charges that were summed over; 1 without a periodic box
