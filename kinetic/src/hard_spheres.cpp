@@ -71,7 +71,7 @@ struct HardSpheres::Impl {
         now(start),
         count(positions.size()) {}
 
-  std::size_t place(std::int32_t id) const { return static_cast<std::size_t>(id); }
+  static std::size_t place(std::int32_t id) { return static_cast<std::size_t>(id); }
   double mass(std::int32_t id) const { return params.masses.empty() ? 1 : params.masses[place(id)]; }
   template <class F>
   void for_each(const F& f) const {

@@ -66,7 +66,8 @@ void Expansions::list_steps() {
     for (int j = 0; j < short_.up_to(order_ - local.degree()); ++j)
       derivative_.push_back(
           static_cast<std::uint16_t>(place_of[static_cast<std::size_t>(needed.place(local + short_[j]))]));
-  work_size_ = static_cast<std::size_t>((padded(short_.size()) + behind + 2 * room) * kSumLanes);
+  const int rows = padded(short_.size()) + behind + 2 * room;
+  work_size_ = static_cast<std::size_t>(rows) * kSumLanes;
 }
 
 TranslationTables Expansions::tables() const {

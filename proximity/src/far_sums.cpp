@@ -68,7 +68,10 @@ FarSums far_sums(const PointTree& tree, Span<const double> charges, const FarSum
   detail::PotentialSums sums(charged, expansions);
   // The share was found by some of the targets, so that now and then it is too large for others.
   double error = sums.add_up(scene, params.executor);
-  for (; error > most; error = sums.add_up(scene, params.executor)) scene.share *= 0.5;
+  while (error > most) {
+    scene.share *= 0.5;
+    error = sums.add_up(scene, params.executor);
+  }
   result.error_bound = error + of_images;
   result.far_pairs = sums.counts().far_pairs;
   result.near_pairs = sums.counts().near_pairs;

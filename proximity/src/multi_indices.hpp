@@ -18,7 +18,8 @@ inline MultiIndex operator+(MultiIndex i, MultiIndex j) { return {i.a + j.a, i.b
 class MultiIndices {
  public:
   MultiIndices(int order, int most_c) : side_(order + 1) {
-    place_.assign(static_cast<std::size_t>(side_ * side_ * side_), -1);
+    const auto side = static_cast<std::size_t>(side_);
+    place_.assign(side * side * side, -1);
     for (int degree = 0; degree <= order; ++degree) {
       for (int c = 0; c <= degree && c <= most_c; ++c)
         for (int b = 0; b + c <= degree; ++b) {
@@ -40,7 +41,8 @@ class MultiIndices {
 
  private:
   std::size_t cell(MultiIndex index) const {
-    return static_cast<std::size_t>((index.a * side_ + index.b) * side_ + index.c);
+    const int place = (index.a * side_ + index.b) * side_ + index.c;
+    return static_cast<std::size_t>(place);
   }
 
   int side_;

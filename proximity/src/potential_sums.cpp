@@ -119,11 +119,12 @@ class PotentialSums::Worker {
     const double inverse = node.radius > 0 ? 1 / node.radius : 0;
     double potential = 0;
     for (std::int32_t k = 0; k < node.points; ++k) {
-      const Vec3 at = scene_.tree.at(node.first + k);
+      const std::int32_t place = node.first + k;
+      const Vec3 at = scene_.tree.at(place);
       if (k < node.charges)
         potential = sums_.expansions_.potential(task.local.data(), inverse * (at - node.center)) +
                     kernels_.potential(charges, at.x, at.y, at.z);
-      sums_.potentials_[static_cast<std::size_t>(node.first + k)] = potential;
+      sums_.potentials_[static_cast<std::size_t>(place)] = potential;
     }
   }
 

@@ -22,8 +22,10 @@ class SampledDescent {
     const std::size_t taken = std::min(kTargets, bottom.size());
     for (std::size_t k = 0; k < taken; ++k) is_wanted_[bottom[k * bottom.size() / taken]] = true;
     for (std::size_t k = nodes.size(); k-- > 0;)
-      for (std::int32_t child = 0; child < nodes[k].children; ++child)
-        if (is_wanted_[static_cast<std::size_t>(nodes[k].first_child + child)]) is_wanted_[k] = true;
+      for (std::int32_t c = 0; c < nodes[k].children; ++c) {
+        const std::int32_t child = nodes[k].first_child + c;
+        if (is_wanted_[static_cast<std::size_t>(child)]) is_wanted_[k] = true;
+      }
   }
 
   /// The largest error over the potential.

@@ -101,9 +101,9 @@ inline void load_moments(const TranslationTables& tables, const FarGroup& group,
 }
 
 inline void translate(const TranslationTables& tables, const FarGroup& group, double* work, double* sums) {
-  DoubleLanes* const moments = reinterpret_cast<DoubleLanes*>(work);
+  auto* const moments = reinterpret_cast<DoubleLanes*>(work);
   DoubleLanes* const of_kernel = moments + padded(tables.coefficients);
-  DoubleLanes* const local = reinterpret_cast<DoubleLanes*>(sums);
+  auto* const local = reinterpret_cast<DoubleLanes*>(sums);
   load_moments(tables, group, moments);
   derivatives(tables, group, of_kernel);
   DoubleLanes size, power;

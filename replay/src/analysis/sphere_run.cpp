@@ -48,6 +48,7 @@ std::vector<std::int32_t> types_of(const std::vector<double>& radii) {
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<std::int32_t> types;
+  types.reserve(radii.size());
   for (const double radius : radii)
     types.push_back(
         static_cast<std::int32_t>(std::lower_bound(known.begin(), known.end(), radius) - known.begin()) + 1);

@@ -62,9 +62,9 @@ std::vector<Vec3> lattice(std::size_t spheres, double edge, Random& random) {
   const double spacing = edge / static_cast<double>(side), quarter = 0.25 * spacing, half = 0.5 * spacing;
   std::vector<Vec3> sites;
   for (std::int64_t k = 0; k < side * side * side; ++k) {
-    const Vec3 corner{spacing * static_cast<double>(k % side) + quarter,
-                      spacing * static_cast<double>(k / side % side) + quarter,
-                      spacing * static_cast<double>(k / side / side) + quarter};
+    const std::int64_t x = k % side, y = k / side % side, z = k / side / side;
+    const Vec3 corner{spacing * static_cast<double>(x) + quarter, spacing * static_cast<double>(y) + quarter,
+                      spacing * static_cast<double>(z) + quarter};
     for (const Vec3 face : {Vec3{}, Vec3{0, half, half}, Vec3{half, 0, half}, Vec3{half, half, 0}})
       sites.push_back(corner + face);
   }
