@@ -37,6 +37,17 @@ function(dch_target_defaults target)
   endif()
 endfunction()
 
+# dch_join_sources(<target>)
+#   With DCH_JOIN_SOURCES eight sources are compiled as one. Then a type of one of them looks like that of a header, and
+#   GCC 12 inlines so much more that it warns wrongly about elements of std::initializer_list. A name that two sources of
+#   a folder have, in a namespace without one, is a mistake there.
+function(dch_join_sources target)
+  if(DCH_JOIN_SOURCES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-maybe-uninitialized>")
+  endif()
+endfunction()
+
 # dch_instruction_sets(<target>)
 #   The inner loops once for each instruction set, each in a source file whose name ends with that of the set; which one
 #   runs is decided at run time. Elsewhere than on x86-64 the portable ones alone are compiled.
@@ -86,6 +97,7 @@ function(dch_add_library name)
                                        PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_compile_features(${target} PUBLIC cxx_std_17)
   dch_target_defaults(${target})
+  dch_join_sources(${target})
   add_library(${target}_internals INTERFACE)
   target_include_directories(${target}_internals INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   install(TARGETS ${target} EXPORT ${ARG_EXPORT})

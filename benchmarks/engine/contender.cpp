@@ -20,7 +20,7 @@ constexpr double kLevelRatios[] = {1.4, 1.7, 2.0, 2.5, 3.2, 4.5, 8.0};
 constexpr double kHopeless = 1.5;
 constexpr int kTrials = 5;
 /// Dense cells beyond this many a particle only cost time and memory.
-constexpr double kMostCells = 50;
+constexpr double kMaxCells = 50;
 
 double cells_in(const Scene& scene, double width) { return scene.box.volume() / (width * width * width); }
 
@@ -37,7 +37,7 @@ double least_seconds(double best, const Call& call) {
 
 /// The width of cells that is fastest, relative to the list radius; 0 if none can be used.
 double best_width(const Scene& scene, double radius, SimdGrid::Cells cells) {
-  const double most_cells = kMostCells * static_cast<double>(scene.positions.size());
+  const double most_cells = kMaxCells * static_cast<double>(scene.positions.size());
   NeighborList list;
   double best = kNever, best_so_far = 0;
   for (const double width : kWidths) {
@@ -60,7 +60,7 @@ double best_width(const Scene& scene, double radius, SimdGrid::Cells cells) {
 std::vector<ListParams> requests_of(const Scene& scene, bool superset) {
   std::vector<ListParams> requests;
   ListParams request;
-  request.order = RowOrder::by_structure;
+  request.order = RowOrder::unsorted;
   request.superset = superset;
   request.exclusions = scene.exclusions.empty() ? nullptr : &scene.exclusions;
   for (const double radius : scene.list_radii) {

@@ -43,6 +43,8 @@ class Contender {
   virtual bool makes_supersets() const { return false; }
   /// Updates so far by what they took; null for one that keeps nothing.
   virtual const SearchStats* stats() const { return nullptr; }
+  /// Which engine it took at last, and why; empty for one that has no choice.
+  virtual std::string choice() const { return {}; }
   /// What is broken in the structure it keeps; empty if nothing is, or if it keeps none.
   virtual std::string validate() { return {}; }
 };
@@ -50,7 +52,7 @@ class Contender {
 /// Contender::every() of those that are slow.
 inline constexpr int kSeldom = 5;
 
-/// Lists by structure from a hierarchy that is kept up.
+/// Unsorted lists from a hierarchy that is kept up.
 class DchContender : public Contender {
  public:
   struct Mode {
@@ -109,6 +111,7 @@ class EngineContender : public Contender {
   void list(const Scene&, std::vector<NeighborList>& lists) override { search_->lists(requests_, lists); }
   void reset() override { search_ = make_search(engine_, params_); }
   std::size_t memory_bytes() const override { return search_->stats().memory_bytes; }
+  std::string choice() const override { return search_->choice(); }
   std::string validate() override { return search_->validate(); }
 
  private:

@@ -13,8 +13,8 @@
 namespace dch::bench {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
-constexpr double kMeltRadius = 2.8;
+constexpr std::uint64_t kDrivenSeed = 1;
+constexpr double kDrivenRadius = 2.8;
 /// Time between two configurations in reduced units: 10 steps of 0.005.
 constexpr double kTime = 0.05;
 
@@ -29,9 +29,9 @@ double normal(std::mt19937_64& engine) {
 
 std::unique_ptr<RandomScene> make_swollen_chain(double scale) {
   constexpr double kListRadius = 1.52, kDiameter = 0.9;
-  auto scene = std::make_unique<RandomScene>(kSeed);
+  auto scene = std::make_unique<RandomScene>(kDrivenSeed);
   const auto beads = static_cast<std::int32_t>(20000 * scale);
-  scene->positions = necklace::self_avoiding_walk(beads, kDiameter, kSeed).positions;
+  scene->positions = necklace::self_avoiding_walk(beads, kDiameter, kDrivenSeed).positions;
   Vec3 low = scene->positions.front(), high = low;
   for (const Vec3& p : scene->positions)
     for (int axis = 0; axis < 3; ++axis) {
@@ -54,7 +54,7 @@ std::unique_ptr<RandomScene> make_swollen_chain(double scale) {
 }
 
 std::unique_ptr<RandomScene> make_sheared_lattice(double scale) {
-  auto scene = make_shaken_lattice(32000 * scale, kMeltRadius);
+  auto scene = make_shaken_lattice(32000 * scale, kDrivenRadius);
   scene->strain = 1.0 / 40;                     // a rate of 0.5
   const double width = scene->box.vector(0).x;  // tilted from the first configuration on
   scene->box = Box::triclinic({width, 0, 0}, {width / 4, width, 0}, {0, 0, width});
@@ -64,7 +64,7 @@ std::unique_ptr<RandomScene> make_sheared_lattice(double scale) {
 }
 
 std::unique_ptr<RandomScene> make_glass(double scale) {
-  auto scene = make_shaken_lattice(32000 * scale, kMeltRadius);
+  auto scene = make_shaken_lattice(32000 * scale, kDrivenRadius);
   // Evenly up to this has the mean square T/k of an oscillator at T = 0.1 with k = 250, about that of an atom
   // in a Lennard-Jones solid of this density.
   scene->step_length = std::sqrt(3 * 0.1 / 250);
@@ -75,8 +75,8 @@ std::unique_ptr<RandomScene> make_glass(double scale) {
 
 std::unique_ptr<RandomScene> make_hot_gas(double scale) {
   constexpr double kDensity = 0.05, kTemperature = 10;
-  auto scene = std::make_unique<RandomScene>(kSeed);
-  std::mt19937_64 engine(kSeed);
+  auto scene = std::make_unique<RandomScene>(kDrivenSeed);
+  std::mt19937_64 engine(kDrivenSeed);
   const auto atoms = static_cast<std::size_t>(32000 * scale);
   const double width = std::cbrt(static_cast<double>(atoms) / kDensity);
   const double flight = kTime * std::sqrt(kTemperature);
@@ -87,7 +87,7 @@ std::unique_ptr<RandomScene> make_hot_gas(double scale) {
     scene->drift.push_back({flight * u, flight * v, flight * w});
   }
   scene->box = Box::orthorhombic({width, width, width});
-  scene->list_radii = {kMeltRadius};
+  scene->list_radii = {kDrivenRadius};
   scene->origin = "atoms of density 0.05 that fly as at temperature 10";
   scene->start();
   return scene;

@@ -16,9 +16,6 @@
 
 namespace dch::bench {
 
-using detail::kBlock;
-using detail::kChunk;
-
 namespace {
 
 constexpr std::int32_t kGroup = kChunk / 2;
@@ -77,7 +74,7 @@ void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::
   for (std::int32_t k = 0; k < count; k += kGroup) {
     Numbers v;
     load(words + k, v);
-    store(v & (kMostParticles - 1), numbers + k);
+    store(v & (kMaxParticles - 1), numbers + k);
     const Floats units = __builtin_convertvector(v >> kNumberBits, Floats) * per_code + 0.5f;
     store(__builtin_convertvector(__builtin_convertvector(units, Numbers), Shorts), radii + k);
   }
@@ -137,7 +134,7 @@ template <class Test>
 [[gnu::always_inline]] inline std::int32_t test_rows(const Test& test, const detail::BlockPoints& points,
                                                      const std::int16_t* reach, std::int32_t count,
                                                      std::int16_t band, std::uint32_t* mask,
-                                                     std::int32_t stride, detail::Unsettled* unsettled) {
+                                                     std::int32_t stride, Unsettled* unsettled) {
   std::int32_t open = 0;
   for (std::int32_t r = 0; r < kBlock; ++r) {
     const Row row{points.x[r], points.y[r], points.z[r], reach[r], band};
@@ -157,7 +154,7 @@ template <class Test>
 DCH_AVX512 std::int32_t test_rows_avx512(const detail::BlockPoints& points, const std::int16_t* reach,
                                          const detail::Candidates& candidates, const std::int16_t* radii,
                                          std::int32_t count, std::int16_t band, std::uint32_t* mask,
-                                         std::int32_t stride, detail::Unsettled* unsettled) {
+                                         std::int32_t stride, Unsettled* unsettled) {
   return test_rows([&](const Row& row, std::int32_t first)
                        DCH_AVX512 { return test_avx512(row, candidates, radii, first); },
                    points, reach, count, band, mask, stride, unsettled);
@@ -168,8 +165,7 @@ DCH_AVX512 std::int32_t test_rows_avx512(const detail::BlockPoints& points, cons
 
 std::int32_t test_radii(const detail::BlockPoints& points, const std::int16_t* reach,
                         const detail::Candidates& candidates, const std::int16_t* radii, std::int32_t count,
-                        std::int16_t band, std::uint32_t* mask, std::int32_t stride,
-                        detail::Unsettled* unsettled) {
+                        std::int16_t band, std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
 #if defined(__x86_64__)
   if (instruction_set() == InstructionSet::avx512)
     return test_rows_avx512(points, reach, candidates, radii, count, band, mask, stride, unsettled);

@@ -6,15 +6,15 @@
 
 #include <dch/base/span.hpp>
 
-#include "simd/list_kernels.hpp"
+#include "frozen/frozen_kernels.hpp"
 
 namespace dch::bench {
 
 /// A particle's number and its radius, relative to the largest one, in one word, so that the kernels that
 /// move candidates about need not know of radii.
 inline constexpr int kNumberBits = 20;
-inline constexpr std::int32_t kMostParticles = 1 << kNumberBits;
-inline constexpr int kLargestCode = (1 << (31 - kNumberBits)) - 1;
+inline constexpr std::int32_t kMaxParticles = 1 << kNumberBits;
+inline constexpr int kMaxCode = (1 << (31 - kNumberBits)) - 1;
 
 // The next three read and overwrite up to kChunk / 2 entries beyond `count`, which spares loops for what is
 // left.
@@ -41,7 +41,6 @@ void unpack(const std::int32_t* words, float per_code, std::int32_t count, std::
 /// open.
 std::int32_t test_radii(const detail::BlockPoints& points, const std::int16_t* reach,
                         const detail::Candidates& candidates, const std::int16_t* radii, std::int32_t count,
-                        std::int16_t band, std::uint32_t* mask, std::int32_t stride,
-                        detail::Unsettled* unsettled);
+                        std::int16_t band, std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled);
 
 }  // namespace dch::bench

@@ -3,31 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include "block_span.hpp"
 #include "grid_kernels.hpp"
+#include "leaves/rounding.hpp"
 
 namespace dch::bench {
 
-using detail::BlockPoints;
-using detail::BlockSpan;
-using detail::kBlock;
-using detail::kChunk;
-
-namespace {
-
-constexpr double kLargest = 32700;
-
-std::int16_t rounded(double v) {
-  const double shifted = v + 0x1.8p52;
-  std::int64_t bits;
-  std::memcpy(&bits, &shifted, sizeof bits);
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
-}
-
-}  // namespace
+using detail::rounded;
 
 void SimdGrid::Candidates::make_room(std::size_t count) {
   if (id.size() >= count) return;
@@ -56,7 +40,7 @@ void SimdGrid::lay_out(Span<const Vec3> positions, const Box& box) {
       throw std::invalid_argument("SimdGrid: the box is too small for its stencil");
     widest = std::max(widest, (reach_[k] + 1) * cell_[axis]);
   }
-  unit_ = widest * (1 + 1e-9) / kLargest;
+  unit_ = detail::finest_unit(widest);
   const double in_units = radius_ / unit_, limit = in_units * in_units / 0x1p15;
   const double off = std::sqrt(27.0) / 2;
   const double band = (2 * off * in_units + off * off) / 0x1p15 + 1.5 + 1e-6;
@@ -171,7 +155,7 @@ SimdGrid::Run SimdGrid::points_of(std::int64_t first, std::int64_t last) const {
 void SimdGrid::list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions,
                     NeighborList& out) {
   exclusions_ = exclusions.empty() ? nullptr : &exclusions;
-  kernels_ = &detail::list_kernels(instruction_set());
+  kernels_ = &frozen_kernels(instruction_set());
   lay_out(positions, box);
   make_stencil();
   sort_points(positions);
@@ -245,7 +229,7 @@ void SimdGrid::rows_of_cell(Run own, const Cell& at, Span<const Vec3> positions,
   for (const Row& row : stencil_) append_row(at, row.dy, row.dz, -row.dx, row.dx);
   const BlockSpan span = span_of(sorted_.at(static_cast<std::size_t>(own.begin)), own.end - own.begin);
   near_.make_room(static_cast<std::size_t>(count_) + kChunk);
-  count_ = kernels_->filter(span, out_, around_.at(0), nullptr, count_, around_.at(0));
+  count_ = kernels_->filter(span, out_, around_.at(0), count_, around_.at(0));
   const auto chunks = static_cast<std::size_t>(count_ / kChunk + 1);
   if (mask_.size() < kBlock * chunks) {
     mask_.resize(kBlock * chunks);
@@ -268,7 +252,7 @@ void SimdGrid::rows_of_block(Run block, std::int32_t before, Span<const Vec3> po
   const detail::Candidates near = near_.at(0);
   const std::int32_t count =
       kernels_->filter(span_of(sorted_.at(first), rows), out_, around_.at(static_cast<std::size_t>(before)),
-                       nullptr, count_ - before, near);
+                       count_ - before, near);
   const std::int32_t chunks = (count + kChunk - 1) / kChunk;
   const std::int32_t left =
       kernels_->test(points, near, count, in_, out_, mask_.data(), chunks, unsettled_.data());

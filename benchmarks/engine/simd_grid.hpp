@@ -11,7 +11,7 @@
 #include <dch/lists/neighbor_list.hpp>
 
 #include "base/aligned_vector.hpp"
-#include "simd/list_kernels.hpp"
+#include "frozen/frozen_kernels.hpp"
 
 namespace dch::bench {
 
@@ -31,7 +31,7 @@ class SimdGrid {
   SimdGrid(double radius, double cell_width, Cells cells)
       : radius_(radius), width_(cell_width), kind_(cells) {}
 
-  /// Half list by structure of all pairs within the radius that are not excluded.
+  /// Unsorted half list of all pairs within the radius that are not excluded.
   /// @throws std::invalid_argument if the periodic box is too narrow for cells of this width.
   void list(Span<const Vec3> positions, const Box& box, const Exclusions& exclusions, NeighborList& out);
   /// Held now.
@@ -93,8 +93,8 @@ class SimdGrid {
   std::int32_t count_ = 0;  ///< of around_
   std::vector<std::int32_t> next_;
   std::vector<std::uint32_t> mask_;
-  std::vector<detail::Unsettled> unsettled_;
-  const detail::ListKernels* kernels_ = nullptr;
+  std::vector<Unsettled> unsettled_;
+  const FrozenKernels* kernels_ = nullptr;
   const Exclusions* exclusions_ = nullptr;  ///< of the list being made; null if there are none
 };
 

@@ -10,14 +10,10 @@
 
 namespace dch::bench {
 
-using detail::BlockPoints;
-using detail::kBlock;
-using detail::kChunk;
-
 namespace {
 
 /// Largest difference of coordinates in units, below 2^15.
-constexpr double kLargestUnits = 32000;
+constexpr double kMaxUnits = 32000;
 /// The shift that makes units of side / 2^16.
 constexpr int kWholeBox = 16;
 /// Coordinates are cut off to whole units, so a difference is off by less than one along each axis.
@@ -36,7 +32,7 @@ SizeGrid::SizeGrid(Span<const double> radii, double skin, const Box& box, double
     : radii_(radii), skin_(skin), side_(box.vector(0).x) {
   if (box != Box::orthorhombic({side_, side_, side_}))
     throw std::invalid_argument("SizeGrid: the box is no periodic cube");
-  if (radii.size() > static_cast<std::size_t>(kMostParticles))
+  if (radii.size() > static_cast<std::size_t>(kMaxParticles))
     throw std::invalid_argument("SizeGrid: too many particles");
   std::vector<std::int32_t> order(radii.size());
   std::iota(order.begin(), order.end(), 0);
@@ -44,7 +40,7 @@ SizeGrid::SizeGrid(Span<const double> radii, double skin, const Box& box, double
   // In the order of their numbers within a layer, so that positions are read as they lie in memory.
   const double smallest = *std::min_element(radii.begin(), radii.end());
   largest_ = *std::max_element(radii.begin(), radii.end());
-  per_code_ = largest_ / kLargestCode;
+  per_code_ = largest_ / kMaxCode;
   for (double from = smallest; from <= largest_; from *= level_ratio) {
     std::vector<std::int32_t> members;
     std::copy_if(order.begin(), order.end(), std::back_inserter(members),
@@ -72,7 +68,7 @@ void SizeGrid::fit_units(std::size_t which) {
   }
   layer.shift = 0;
   const auto unit = [&] { return std::ldexp(side_, layer.shift - 32); };
-  while (layer.shift < kWholeBox && longest > kLargestUnits * unit()) ++layer.shift;
+  while (layer.shift < kWholeBox && longest > kMaxUnits * unit()) ++layer.shift;
   layer.unit = unit();
   layer.blur = kCoordinateBlur;
   if (which > 0 || layer.least < layer.most) layer.blur += 1 + per_code_ / 2 / layer.unit;
@@ -92,7 +88,7 @@ std::int16_t SizeGrid::limit(const Layer& layer, double distance) const {
 }
 
 void SizeGrid::list(Span<const Vec3> positions, const Box& box, NeighborList& out) {
-  kernels_ = &detail::list_kernels(instruction_set());
+  kernels_ = &frozen_kernels(instruction_set());
   out.kind = ListKind::half;
   out.first.assign(1, 0);
   out.particle.clear();
@@ -128,7 +124,7 @@ void SizeGrid::rows_of_cell(std::size_t which, std::int32_t cell, const Scene& s
   append(layer, layer, own);
   layer.half_stencil(at, [&](Run run) { append(layer, layer, run); });
   count_ = kernels_->filter(span_of(around_.at(0), own.end - own.begin), limit(layer, 2 * layer.most + skin_),
-                            around_.at(0), nullptr, count_, around_.at(0));
+                            around_.at(0), count_, around_.at(0));
   const Vec3 low{at[0] * layer.width, at[1] * layer.width, at[2] * layer.width};
   add_smaller(which, own, low, low + Vec3{layer.width, layer.width, layer.width});
   for (std::int32_t begin = own.begin; begin < own.end; begin += kBlock)
@@ -146,7 +142,7 @@ void SizeGrid::rows_of_particle(std::size_t which, std::int32_t place, const Sce
   add_smaller(which, {place, place + 1}, at, at);
   rows_of_block(layer, {place, place + 1}, 0, scene);
   const auto number = [&](std::int32_t k) {
-    return layer.word[static_cast<std::size_t>(k)] & (kMostParticles - 1);
+    return layer.word[static_cast<std::size_t>(k)] & (kMaxParticles - 1);
   };
   for (std::int32_t other = place + 1; other < layer.size(); ++other) {
     if (!in_list(number(place), number(other), scene)) continue;
@@ -164,8 +160,8 @@ void SizeGrid::add_smaller(std::size_t which, Run own, Vec3 low, Vec3 high) {
     const double distance = layer.most + layers_[b].most + skin_;
     const std::int32_t before = count_;
     layers_[b].near_box(low, high, distance, [&](Run run) { append(layer, layers_[b], run); });
-    count_ = before + kernels_->filter(span, limit(layer, distance), around_.at(before), nullptr,
-                                       count_ - before, around_.at(before));
+    count_ = before + kernels_->filter(span, limit(layer, distance), around_.at(before), count_ - before,
+                                       around_.at(before));
   }
 }
 
@@ -180,16 +176,16 @@ void SizeGrid::rows_of_block(const Layer& layer, Run block, std::int32_t before,
   std::copy_n(own.z, rows, points.z);
   std::int16_t reach[kBlock] = {};
   for (std::int32_t row = 0; row < rows; ++row) {
-    const std::int32_t i = layer.word[first + static_cast<std::size_t>(row)] & (kMostParticles - 1);
+    const std::int32_t i = layer.word[first + static_cast<std::size_t>(row)] & (kMaxParticles - 1);
     reach[row] =
         static_cast<std::int16_t>(std::lround((radii_[static_cast<std::size_t>(i)] + skin_) / layer.unit));
   }
   near_.make_room(static_cast<std::size_t>(count_ - before + kChunk));
   const std::int32_t count = kernels_->filter(span_of({points.x, points.y, points.z, nullptr}, rows),
                                               limit(layer, 2 * layer.most + skin_), around_.at(before),
-                                              nullptr, count_ - before, near_.at(0));
+                                              count_ - before, near_.at(0));
   const std::int32_t chunks = (count + kChunk - 1) / kChunk;
-  settle(block, test_block(layer, points, reach, count), chunks, layer, scene);
+  decide(block, test_block(layer, points, reach, count), chunks, layer, scene);
   NeighborList& out = scene.out;
   auto written = static_cast<std::size_t>(out.first.back());
   const std::size_t most = written + static_cast<std::size_t>(kBlock * kChunk * chunks + kChunk);
@@ -233,12 +229,12 @@ std::int32_t SizeGrid::test_block(const Layer& layer, const BlockPoints& points,
 }
 
 /// Decides in double what the integers left open.
-void SizeGrid::settle(Run block, std::int32_t open, std::int32_t chunks, const Layer& layer,
+void SizeGrid::decide(Run block, std::int32_t open, std::int32_t chunks, const Layer& layer,
                       const Scene& scene) {
   for (std::int32_t u = 0; u < open; ++u) {
     const auto [row, chunk, lanes] = unsettled_[static_cast<std::size_t>(u)];
     if (block.begin + row >= block.end) continue;
-    const std::int32_t i = layer.word[static_cast<std::size_t>(block.begin + row)] & (kMostParticles - 1);
+    const std::int32_t i = layer.word[static_cast<std::size_t>(block.begin + row)] & (kMaxParticles - 1);
     for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
       const int lane = __builtin_ctz(rest);
       const std::int32_t j = number_[static_cast<std::size_t>(chunk * kChunk + lane)];

@@ -18,7 +18,7 @@ namespace dch::bench {
 /// kernels that the hierarchy's lists use. Particles of one grid meet by the half stencil; larger ones look
 /// for smaller ones among the cells around them. Built from scratch for every list.
 ///
-/// Periodic cubes, at most kMostParticles particles.
+/// Periodic cubes, at most kMaxParticles particles.
 class SizeGrid {
  public:
   /// @param level_ratio of the largest to the smallest radius in one grid, above 1; the smallest particles
@@ -27,7 +27,7 @@ class SizeGrid {
   /// @throws std::invalid_argument if the box is no periodic cube, or there are too many particles
   SizeGrid(Span<const double> radii, double skin, const Box& box, double level_ratio, double cell_width);
 
-  /// Half list by structure of all pairs within r_i + r_j + skin.
+  /// Unsorted half list of all pairs within r_i + r_j + skin.
   void list(Span<const Vec3> positions, const Box& box, NeighborList& out);
   std::size_t memory_bytes() const;
   /// Number of grids.
@@ -64,7 +64,7 @@ class SizeGrid {
   void rows_of_block(const Layer& layer, Run block, std::int32_t before, const Scene& scene);
   std::int32_t test_block(const Layer& layer, const detail::BlockPoints& points, const std::int16_t* reach,
                           std::int32_t count);
-  void settle(Run block, std::int32_t open, std::int32_t chunks, const Layer& layer, const Scene& scene);
+  void decide(Run block, std::int32_t open, std::int32_t chunks, const Layer& layer, const Scene& scene);
   bool in_list(std::int32_t i, std::int32_t j, const Scene& scene) const;
 
   Span<const double> radii_;
@@ -75,8 +75,8 @@ class SizeGrid {
   std::vector<std::int32_t> number_;
   std::vector<std::int16_t> radius_;
   std::vector<std::uint32_t> mask_;
-  std::vector<detail::Unsettled> unsettled_;
-  const detail::ListKernels* kernels_ = nullptr;
+  std::vector<Unsettled> unsettled_;
+  const FrozenKernels* kernels_ = nullptr;
 };
 
 }  // namespace dch::bench

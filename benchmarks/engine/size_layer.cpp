@@ -15,7 +15,7 @@ void SizeLayer::set_up(std::vector<std::int32_t> members, Span<const double> rad
   for (const std::int32_t i : members_) {
     least = std::min(least, radius(i));
     most = std::max(most, radius(i));
-    const auto code = static_cast<std::int32_t>(std::lround(radius(i) / largest_of_all * kLargestCode));
+    const auto code = static_cast<std::int32_t>(std::lround(radius(i) / largest_of_all * kMaxCode));
     words_.push_back(code << kNumberBits | i);
   }
   cells_ = std::max(1, static_cast<std::int32_t>(side / at_least));

@@ -10,7 +10,7 @@
 namespace dch::bench {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kSizedSeed = 1;
 /// Of the smallest spheres, whose diameter is the unit of length.
 constexpr double kSmallest = 0.5;
 /// Contacts stay listed while each sphere moves a quarter of this unit.
@@ -27,7 +27,7 @@ class Packing {
         cells_(std::max(1, static_cast<int>(side / (4 * kSmallest)))),
         width_(side / cells_),
         box_(Box::orthorhombic({side, side, side})),
-        engine_(kSeed) {}
+        engine_(kSizedSeed) {}
 
   /// A place at random for a sphere no larger than those before.
   Vec3 place(double radius) {
@@ -84,8 +84,8 @@ class Packing {
 
 std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio) {
   constexpr double kLargeFraction = 0.25, kSmallFraction = 0.3;
-  auto scene = std::make_unique<RandomScene>(kSeed);
-  std::mt19937_64 engine(kSeed);
+  auto scene = std::make_unique<RandomScene>(kSizedSeed);
+  std::mt19937_64 engine(kSizedSeed);
   // The large ones on an fcc lattice, four in each of its cubes, so that few of them fit the box without
   // overlap.
   const double large = ratio * kSmallest;
@@ -126,7 +126,7 @@ std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio) {
 
 std::unique_ptr<RandomScene> make_continuous_sizes(double scale, double ratio) {
   constexpr double kFraction = 0.5;
-  auto scene = std::make_unique<RandomScene>(kSeed);
+  auto scene = std::make_unique<RandomScene>(kSizedSeed);
   const int count = static_cast<int>(30000 * scale);
   double volume = 0;
   for (int k = 0; k < count; ++k) {

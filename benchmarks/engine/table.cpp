@@ -29,9 +29,9 @@ struct Options {
 /// Large scenes get fewer configurations, so that each repetition makes lists for about as many particles.
 int configurations(const Scene& scene, const Options& options) {
   constexpr double kParticles = 32000;
-  constexpr int kFewest = 20;  // so that there are repairs among them
+  constexpr int kMinLists = 20;  // so that there are repairs among them
   const double fitting = options.lists * kParticles / static_cast<double>(scene.positions.size());
-  return std::clamp(static_cast<int>(fitting), std::min(options.lists, kFewest), options.lists);
+  return std::clamp(static_cast<int>(fitting), std::min(options.lists, kMinLists), options.lists);
 }
 
 /// One repetition: all contenders take turns, each configuration in another order, so that none always finds
@@ -94,6 +94,7 @@ SceneResult measure(const std::string& name, const Options& options, Executor* e
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     Measurement& m = result.measurements[c];
     m.bytes = static_cast<double>(contenders[c]->memory_bytes()) / static_cast<double>(result.particles);
+    m.choice = contenders[c]->choice();
     m.keeps_structure = contenders[c]->stats() != nullptr;
     if (m.keeps_structure) m.stats = *contenders[c]->stats();
   }

@@ -31,6 +31,7 @@ nlohmann::json json_of(const Measurement& m) {
       {"contender", m.contender},     {"ns_per_particle", m.ns}, {"update_ns_per_particle", m.update_ns},
       {"median", m.median()},         {"least", m.least()},      {"first", m.first_ns},
       {"bytes_per_particle", m.bytes}};
+  if (!m.choice.empty()) json["choice"] = m.choice;
   if (m.keeps_structure)
     json["updates"] = {{"refreshes", m.stats.refreshes},
                        {"repairs", m.stats.repairs},
@@ -53,8 +54,15 @@ const Measurement* SceneResult::find(const std::string& contender) const {
 const Measurement* SceneResult::best_grid() const {
   const Measurement* best = nullptr;
   for (const Measurement& m : measurements)
-    if (!m.keeps_structure && (!best || m.median() < best->median())) best = &m;
+    if (!m.keeps_structure && m.choice.empty() && (!best || m.median() < best->median())) best = &m;
   return best;
+}
+
+double SceneResult::choice_over_best() const {
+  const Measurement *chooser = find("auto"), *dch = find("dch"), *grid = find("grid");
+  if (!chooser || !dch || !grid || chooser->choice.empty()) return 0;
+  const bool by_grid = chooser->choice.starts_with("grid");
+  return std::max(1.0, by_grid ? median_ratio(*grid, *dch) : median_ratio(*dch, *grid));
 }
 
 double median_ratio(const Measurement& a, const Measurement& b) {
@@ -79,6 +87,26 @@ void print_scene(const SceneResult& result) {
   }
 }
 
+namespace {
+
+/// `auto` over the fastest grid and over the better of the two engines that it chooses from, and its choice.
+void print_choices(const std::vector<SceneResult>& results) {
+  fmt::print("\n{:<14}{:>10}{:>10}{:>10}   {}\n", "scene", "to grid", "to best", "choice", "chosen at last");
+  for (const SceneResult& result : results) {
+    const Measurement *chooser = result.find("auto"), *dch = result.find("dch"), *grid = result.find("grid"),
+                      *fastest = result.best_grid();
+    if (!chooser || !dch || !grid) continue;
+    fmt::print("{:<14}{:>10.2f}{:>10.2f}{:>10.2f}   {}\n", result.scene, median_ratio(*chooser, *fastest),
+               std::max(median_ratio(*chooser, *dch), median_ratio(*chooser, *grid)),
+               result.choice_over_best(), chooser->choice);
+  }
+  fmt::print(
+      "auto over the fastest grid, and over the better of dch and grid; the engine that it took at last over "
+      "the better one.\n");
+}
+
+}  // namespace
+
 void print_summary(const std::vector<SceneResult>& results) {
   fmt::print("\n{:<14}{:>10}{:>12}{:>12}{:>8}   {}\n", "scene", "particles", "dch", "best grid", "ratio",
              "grid");
@@ -93,6 +121,7 @@ void print_summary(const std::vector<SceneResult>& results) {
   }
   fmt::print(
       "Times in ns for one particle and the lists of one configuration, medians of the repetitions.\n");
+  print_choices(results);
 }
 
 void write_json(const std::string& path, const std::vector<SceneResult>& results) {

@@ -35,7 +35,7 @@ std::vector<TrialResult> planned(const Options& options) {
   for (const double skin : options.skins)
     for (const std::string& rule : options.rules) {
       const bool certified = make_rebuild_rule(rule, kMeltCutoff, skin)->is_certified();
-      trials.push_back({{rule, skin, ForcePrecision::full}, {}, {}});
+      trials.push_back({{rule, skin, ForcePrecision::double_precision}, {}, {}});
       if (certified) trials.push_back({{rule, skin, ForcePrecision::mixed}, {}, {}});
     }
   return trials;

@@ -21,7 +21,7 @@ double median_of(std::vector<double> values) {
 }
 
 const char* name_of(ForcePrecision precision) {
-  return precision == ForcePrecision::full ? "double" : "mixed";
+  return precision == ForcePrecision::double_precision ? "double" : "mixed";
 }
 
 nlohmann::json json_of(const TrialResult& result) {

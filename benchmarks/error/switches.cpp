@@ -46,7 +46,7 @@ ListParams request(double skin, bool superset) {
   ListParams params;
   params.cutoffs = TypeCutoffs(kMeltCutoff);
   params.skin = skin;
-  params.order = RowOrder::by_structure;
+  params.order = RowOrder::unsorted;
   params.superset = superset;
   return params;
 }

@@ -23,7 +23,7 @@ ListParams list_params(double skin) {
   ListParams params;
   params.cutoffs = TypeCutoffs(kMeltCutoff);
   params.skin = skin;
-  params.order = RowOrder::by_structure;
+  params.order = RowOrder::unsorted;
   return params;
 }
 

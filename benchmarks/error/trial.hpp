@@ -15,7 +15,7 @@ namespace dch::bench {
 struct Trial {
   std::string rule = "certified";  ///< of make_rebuild_rule()
   double skin = 0.3;               ///< [length]
-  ForcePrecision precision = ForcePrecision::full;
+  ForcePrecision precision = ForcePrecision::double_precision;
 };
 
 struct TrialLength {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Far sums beside direct ones: charges of both signs at random in a cube, 1/r in open space. Arguments: the
-// number of charges, and minus the decimal logarithm of the tolerance. The direct sum is the plain loop in
-// double, compiled for the processor that it runs on with all that compilers may do to it, to some of the
-// points; its time is that for all.
+// number of charges, and minus the decimal logarithm of the tolerance. The direct sum is a loop in double to
+// some of the points; its time is that for all. It comes in two forms (direct_sums.hpp).
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -14,6 +13,8 @@
 
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/proximity/far_sums.hpp>
+
+#include "direct_sums.hpp"
 
 namespace dch::bench {
 namespace {
@@ -39,26 +40,9 @@ struct Charges {
   std::vector<double> x, y, z, q;
 };
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define DCH_FOR_ANY_PROCESSOR \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), optimize("O3", "fast-math")))
-#else
-#define DCH_FOR_ANY_PROCESSOR
-#endif
-
 struct Sum {
   double potential = 0, of_absolute = 0;
 };
-
-DCH_FOR_ANY_PROCESSOR double direct_potential(const double* x, const double* y, const double* z,
-                                              const double* q, std::size_t count, Vec3 at) {
-  double sum = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double dx = x[k] - at.x, dy = y[k] - at.y, dz = z[k] - at.z, r2 = dx * dx + dy * dy + dz * dz;
-    sum += r2 > 0 ? q[k] / std::sqrt(r2) : 0.0;
-  }
-  return sum;
-}
 
 Sum exact_potential(const Charges& charges, Vec3 at) {
   Sum sum;
@@ -101,14 +85,16 @@ void far(benchmark::State& state) {
   state.counters["near_pairs"] = static_cast<double>(sums.near_pairs) / n;
 }
 
+template <double (*kPotential)(const DirectCharges&, double, double, double)>
 void direct(benchmark::State& state) {
   const Charges charges(state.range(0));
+  const DirectCharges all{charges.x.data(), charges.y.data(), charges.z.data(), charges.q.data(),
+                          charges.q.size()};
   double sum = 0;
   std::int64_t points = 0;
   for (auto _ : state)
     for_some(charges, [&](std::size_t, Vec3 at) {
-      sum += direct_potential(charges.x.data(), charges.y.data(), charges.z.data(), charges.q.data(),
-                              charges.q.size(), at);
+      sum += kPotential(all, at.x, at.y, at.z);
       ++points;
     });
   benchmark::DoNotOptimize(sum);
@@ -118,7 +104,8 @@ void direct(benchmark::State& state) {
 }
 
 BENCHMARK(far)->ArgsProduct({{2000, 20000, 100000}, {1, 2, 3, 4, 6, 8}})->Unit(benchmark::kMillisecond);
-BENCHMARK(direct)->Args({2000, 0})->Args({20000, 0})->Args({100000, 0})->Unit(benchmark::kMillisecond);
+BENCHMARK(direct<plain_potential>)->Arg(2000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(direct<vectorized_potential>)->Arg(2000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dch::bench

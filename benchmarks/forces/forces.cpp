@@ -62,7 +62,7 @@ class Melt {
     if (steps_since_search_++ == kStepsBetweenLists) search();
     pairs.refresh(positions, box);
     std::fill(force_.begin(), force_.end(), dch::Vec3{});
-    potential_.add_forces(pairs, dch::ForcePrecision::full, force_);
+    potential_.add_forces(pairs, dch::ForcePrecision::double_precision, force_);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       velocity_[i] = velocity_[i] + kTimeStep * force_[i];
       positions[i] = positions[i] + kTimeStep * velocity_[i];
@@ -84,7 +84,7 @@ class Melt {
   std::int64_t count_useful() {
     dch::ListParams within = request();
     within.skin = 0;
-    within.order = dch::RowOrder::by_structure;
+    within.order = dch::RowOrder::unsorted;
     dch::NeighborList list;
     search_->list(within, list);
     return list.pairs();
@@ -213,11 +213,11 @@ void neighbor_list(benchmark::State& state) {
   params.radius = kCutoff + kSkin;
   const auto search = dch::make_dch_search(params);
   search->update(melt.positions, melt.box);
-  dch::ListParams by_structure = request();
-  by_structure.order = dch::RowOrder::by_structure;
+  dch::ListParams unsorted = request();
+  unsorted.order = dch::RowOrder::unsorted;
   dch::NeighborList list;
   for (auto _ : state) {
-    search->list(by_structure, list);
+    search->list(unsorted, list);
     benchmark::DoNotOptimize(list.j.data());
   }
   report_per(state, "time/atom", melt.atoms());

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
+#include <dch/kinetic/contacts_between.hpp>
 #include <dch/kinetic/kinetic_hierarchy.hpp>
 #include <dch/kinetic/sphere_growth.hpp>
 
@@ -107,6 +109,83 @@ void passing_points(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(passing_points)->Arg(500)->Arg(10648)->Arg(97336)->Unit(benchmark::kMicrosecond);
+
+/// Two frames of points between which each moves by up to a share of the cutoff along each axis.
+struct TwoFrames {
+  TwoFrames(std::int64_t least, double way) : scene(least, 0.45), box(scene.params.box) {
+    Random random;
+    for (const FlightPlan& plan : scene.plans) {
+      before.push_back(plan.position + random.in_cube(0.3));
+      after.push_back(before.back() + random.in_cube(way));
+    }
+  }
+  Spheres scene;
+  Box box;
+  std::vector<Vec3> before, after;
+};
+
+/// The same contacts three times: what the list of a frame alone costs; the list and closed forms of the
+/// interval; the events of points in linear motion. An item is an interval.
+void list_of_a_frame(benchmark::State& state) {
+  TwoFrames frames(state.range(0), 0.01 * static_cast<double>(state.range(1)));
+  HierarchyParams structure;
+  structure.radius = 1.25;
+  const auto search = make_search("auto", structure);
+  ListParams params;
+  params.cutoffs = TypeCutoffs(1.25);
+  NeighborList list;
+  for (auto _ : state) {
+    search->update(frames.before, frames.box);
+    search->list(params, list);
+    frames.before.swap(frames.after);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+std::int64_t count_events(const PassingContacts& found) {
+  std::int64_t events = 0;
+  for (const PassingContact& contact : found.contacts)
+    events += (contact.is_shown_before ? 0 : 1) + (contact.is_shown_after ? 0 : 1);
+  return events;
+}
+
+void contacts_between(benchmark::State& state) {
+  const TwoFrames frames(state.range(0), 0.01 * static_cast<double>(state.range(1)));
+  ContactsBetween between(1.25);
+  std::int64_t events = 0;
+  for (auto _ : state)
+    events = count_events(between.find(frames.before, frames.box, frames.after, frames.box));
+  state.counters["events"] = static_cast<double>(events);
+  state.SetItemsProcessed(state.iterations());
+}
+
+void events_between(benchmark::State& state) {
+  const TwoFrames frames(state.range(0), 0.01 * static_cast<double>(state.range(1)));
+  KineticParams params;
+  params.box = frames.box;
+  params.cutoff = 1.25;
+  std::vector<FlightPlan> plans;
+  for (std::size_t k = 0; k < frames.before.size(); ++k)
+    plans.push_back({0, frames.before[k], frames.box.nearest_image(frames.after[k] - frames.before[k]), {}});
+  std::int64_t events = 0;
+  for (auto _ : state) {
+    events = 0;
+    const auto edges = make_kinetic_edges(params, plans, 0);
+    edges->advance_to(1, [&](const EdgeEvent&) { ++events; });
+  }
+  ContactsBetween between(1.25);
+  if (events != count_events(between.find(frames.before, frames.box, frames.after, frames.box)))
+    state.SkipWithError("both tell of other events");
+  state.counters["events"] = static_cast<double>(events);
+  state.SetItemsProcessed(state.iterations());
+}
+void intervals(benchmark::internal::Benchmark* benchmark) {
+  for (const int way : {2, 20, 100}) benchmark->Args({10648, way});
+  benchmark->Args({97336, 20})->Args({64, 20})->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(list_of_a_frame)->Apply(intervals);
+BENCHMARK(contacts_between)->Apply(intervals);
+BENCHMARK(events_between)->Apply(intervals);
 
 /// Points of a cube that fly through it and on, until they have been past each other.
 void reference_counts(benchmark::State& state) {

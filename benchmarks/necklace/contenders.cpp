@@ -78,7 +78,7 @@ class Search : public Contender {
         search_(std::move(search)) {
     params_.cutoffs = TypeCutoffs(scene.reach());
     params_.exclusions = &exclusions_;
-    params_.order = RowOrder::by_structure;
+    params_.order = RowOrder::unsorted;
   }
   std::string name() const override { return name_; }
   void update(const std::vector<Vec3>& positions) override { search_->update(positions, Box::none()); }

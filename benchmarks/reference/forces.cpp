@@ -124,7 +124,8 @@ Answer by_list(const Scene& scene) {
 }
 
 Answer by_clusters(const Scene& scene, ForcePrecision precision) {
-  const char* name = precision == ForcePrecision::full ? "cluster pairs, double" : "cluster pairs, mixed";
+  const char* name =
+      precision == ForcePrecision::double_precision ? "cluster pairs, double" : "cluster pairs, mixed";
   Answer answer{name, std::vector<Vec3>(scene.positions.size()), 0};
   const ListParams request = scene.request();
   HierarchyParams params;
@@ -154,7 +155,7 @@ void write_answers(const std::string& path, const std::vector<Answer>& answers) 
 
 int run(const std::string& from, const std::string& to) {
   const Scene scene = read_scene(from);
-  write_answers(to, {by_list(scene), by_clusters(scene, ForcePrecision::full),
+  write_answers(to, {by_list(scene), by_clusters(scene, ForcePrecision::double_precision),
                      by_clusters(scene, ForcePrecision::mixed)});
   return kOk;
 }

@@ -163,7 +163,7 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
     throw InvalidParameter(
         "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision; use "
         "other "
-        "units or ForcePrecision::full");
+        "units or ForcePrecision::double_precision");
   if (pairs.tasks.size() < 2) return;
   if (precision == ForcePrecision::mixed) {
     run(pairs, charges, mixed_, scratch_float_, forces, sums);

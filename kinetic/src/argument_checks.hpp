@@ -5,7 +5,9 @@
 #include <string>
 
 #include <dch/base/error.hpp>
+#include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
+#include <dch/geometry/box.hpp>
 #include <dch/hierarchy/hierarchy_params.hpp>
 #include <dch/kinetic/flight_plan.hpp>
 
@@ -35,5 +37,8 @@ inline void check_length(double length, const std::string& what) {
                          detail::describe(kMinListRadius) + ".." + detail::describe(kMaxListRadius) +
                          "; use another unit of length");
 }
+
+/// @throws InvalidParameter, InvalidPosition for plans that make_kinetic_edges() does not take.
+void check_plans(Span<const FlightPlan> plans, double start, const Box& box);
 
 }  // namespace dch::kinetic

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "largest_distance.hpp"
+
 namespace dch::kinetic {
 namespace {
 
@@ -18,11 +20,6 @@ constexpr std::size_t kStrays = 64, kPointsPerStray = 64;
 /// Of the room of a point that has met nobody; and how many others it may have near it then.
 constexpr double kGrowth = 4;
 constexpr std::size_t kCrowd = 32;
-
-double largest_distance(const KineticParams& params) {
-  return params.radii.empty() ? params.cutoff
-                              : 2 * *std::max_element(params.radii.begin(), params.radii.end());
-}
 
 /// With two points in their balls and tracked, the image that is meant stays the nearest one.
 double choose_most_room(const KineticParams& params) {

@@ -12,10 +12,10 @@ namespace dch::kinetic {
 /// @param slope x -> f'(x)
 template <class Value, class Slope>
 double bracketed_root(const Value& value, const Slope& slope, double low, double high) {
-  constexpr int kMostSteps = 200;  // halving alone gets to neighboring doubles sooner from brackets in use
+  constexpr int kMaxSteps = 200;  // halving alone gets to neighboring doubles sooner from brackets in use
   const bool rises = value(low) <= 0;
   double x = 0.5 * (low + high);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const double f = value(x);
     if ((f <= 0) == rises) {
       low = x;

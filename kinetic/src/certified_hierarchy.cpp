@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "largest_distance.hpp"
 #include "passage.hpp"
 
 namespace dch::kinetic {
@@ -11,11 +12,6 @@ namespace {
 
 /// c of rho_i = 2 c R_i: above 1.05, so that edges of parents come well before those of children.
 constexpr double kStretch = 1.25;
-
-double largest_distance(const KineticParams& params) {
-  return params.radii.empty() ? params.cutoff
-                              : 2 * *std::max_element(params.radii.begin(), params.radii.end());
-}
 
 Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 

@@ -35,10 +35,10 @@ void check_sizes(const HardSphereParams& params, std::size_t spheres) {
       throw InvalidParameter("mass of sphere " + std::to_string(i) + " = " + describe(params.masses[i]) +
                              " is not within " + describe(1 / kMaxMagnitude) + ".." +
                              describe(kMaxMagnitude) + "; give a mass above 0, in another unit if need be");
-  const double limit = kLargestShareOfBox * params.box.max_cutoff();
+  const double limit = kMaxShareOfBox * params.box.max_cutoff();
   if (largest > limit)
     throw CutoffTooLarge("the largest diameter = " + describe(largest) + " exceeds " + describe(limit) +
-                         ", " + describe(kLargestShareOfBox) +
+                         ", " + describe(kMaxShareOfBox) +
                          " of half the smallest height of the periodic box; take smaller spheres or more of "
                          "them in a larger box");
 }

@@ -8,6 +8,9 @@
 
 namespace dch::kinetic {
 
+/// Images that rounding may have put a little beyond a limit are looked at too.
+inline constexpr double kMargin = 1 + 1e-9;
+
 /// Which image of a point is meant, as a lattice vector that does not depend on how the image was found.
 class Images {
  public:

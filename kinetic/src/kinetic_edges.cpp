@@ -36,14 +36,16 @@ double check_distances(const KineticParams& params, std::size_t points) {
       check_length(params.radii[i], "radius of point " + std::to_string(i));
     largest = 2 * *std::max_element(params.radii.begin(), params.radii.end());
   }
-  const double limit = kLargestShareOfBox * params.box.max_cutoff();
+  const double limit = kMaxShareOfBox * params.box.max_cutoff();
   if (largest > limit)
     throw CutoffTooLarge("the largest distance of a pair = " + describe(largest) + " exceeds " +
-                         describe(limit) + ", " + describe(kLargestShareOfBox) +
+                         describe(limit) + ", " + describe(kMaxShareOfBox) +
                          " of half the smallest height of the periodic box, the rest being room for motion; "
                          "lower it or replicate the system");
   return largest;
 }
+
+}  // namespace
 
 void check_plans(Span<const FlightPlan> plans, double start, const Box& box) {
   check_time(start, "start");
@@ -62,8 +64,6 @@ void check_plans(Span<const FlightPlan> plans, double start, const Box& box) {
   }
   detail::check_positions(positions, box);
 }
-
-}  // namespace
 
 KineticEdges::KineticEdges(const KineticParams& params, Span<const FlightPlan> plans, double start)
     : params_(params), plans_(plans.begin(), plans.end()), now_(start) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/lists/neighbor_list.hpp>
+
 namespace dch::kinetic {
 
 /// Pairs of points, in the rows of both, in no order that counts.
@@ -15,6 +17,17 @@ class MutualRows {
 
   const std::vector<std::int32_t>& of(std::int32_t id) const { return rows_[static_cast<std::size_t>(id)]; }
 
+  /// Makes the pairs of a half list those of all points.
+  void replace_all(const NeighborList& list) {
+    for (std::vector<std::int32_t>& row : rows_) row.clear();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const std::int32_t a = list.particle.empty() ? static_cast<std::int32_t>(k) : list.particle[k];
+      for (const std::int32_t b : list.row(k)) {
+        rows_[static_cast<std::size_t>(a)].push_back(b);
+        rows_[static_cast<std::size_t>(b)].push_back(a);
+      }
+    }
+  }
   /// Makes a row that of a point, and tells of the partners that it had not, and had, before.
   template <class Added, class Dropped>
   void replace(std::int32_t id, const std::vector<std::int32_t>& row, const Added& added,

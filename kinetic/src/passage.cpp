@@ -9,9 +9,6 @@
 namespace dch::kinetic {
 namespace {
 
-/// Images that rounding may have put a little beyond a limit are looked at too.
-constexpr double kMargin = 1 + 1e-9;
-
 /// The motions of all images that are within a limit now.
 std::vector<PairMotion> near_images(const Images& images, const FlightPlan& p, const FlightPlan& q,
                                     double distance, Vec3 apart, double limit) {

@@ -22,7 +22,7 @@ constexpr std::int64_t kCollisionsOfRun = 32;
 constexpr std::int32_t kHurried = 20;
 constexpr double kUsualShare = 1e-5;
 /// Of a relative speed: where rounding has spheres touch that pass each other, this much parts them.
-constexpr double kLeastApproach = 1e-15;
+constexpr double kMinApproach = 1e-15;
 
 }  // namespace
 
@@ -173,7 +173,7 @@ Collision SphereEngine::collide(std::int32_t a, std::int32_t b) {
   const Vec3 relative = q.velocity - p.velocity;
   const double approach = growth_ * (p.radius + q.radius) - dot(relative, normal);
   const double first = masses_[static_cast<std::size_t>(a)], second = masses_[static_cast<std::size_t>(b)];
-  const double change = (1 + restitution_) * std::max(approach, kLeastApproach * std::sqrt(norm2(relative)));
+  const double change = (1 + restitution_) * std::max(approach, kMinApproach * std::sqrt(norm2(relative)));
   p.velocity = p.velocity - (change * second / (first + second)) * normal;
   q.velocity = q.velocity + (change * first / (first + second)) * normal;
   const double impulse = change * first / (first + second) * second;

@@ -71,6 +71,8 @@ class SphereEngine {
   void find_first_homes();
   void leave_home(std::int32_t id);
   void give_anchor(std::int32_t id);
+  void search_for_anchor(std::int32_t id);
+  bool give_all_anchors();
   void take_candidates(std::int32_t id);
   void set_ball(std::int32_t id);
   void join_near(std::int32_t id);

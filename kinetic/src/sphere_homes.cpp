@@ -19,13 +19,15 @@ using detail::describe;
 /// Of a sphere's radius: the first guess of its room around its home, and around its anchor.
 constexpr double kHomeRoom = 0.4, kAnchorRoom = 1.2;
 /// Room around a home below this share of the radius makes no list shorter.
-constexpr double kLeastRoom = 0.02;
+constexpr double kMinRoom = 0.02;
 /// What it costs in predictions of a pair to look at a candidate, to give a home, the same for each of its
 /// pairs with candidates about four times as many, and to search for a place.
 constexpr double kLook = 0.5, kHome = 10, kPairOfHome = 3, kSearch = 500;
+/// And for a sphere's share of what it costs to list the candidates of all.
+constexpr double kShareOfList = 40;
 /// A room changes by this share for each share that its use is off; and by how much it is widened where
 /// nobody is near.
-constexpr double kGain = 0.1, kMostShare = 4, kLeap = 1.4;
+constexpr double kGain = 0.1, kMaxShare = 4, kLeap = 1.4;
 /// Balls that touch so many others are not widened.
 constexpr double kCrowd = 64, kCrowdOfAnchor = 160;
 /// Exits are taken this share of the room early, which is far more than roots and distances round.
@@ -36,7 +38,7 @@ constexpr double kEarly = 1e-6;
 /// @param touching how many others the ball touched
 void adapt(double& room, double radius, double use, double cost, double touching, double crowd) {
   const double share = use / (cost * (radius + room) / (2 * room));
-  if (share > 1 || touching <= crowd) room *= 1 + kGain * (1 - std::min(share, kMostShare));
+  if (share > 1 || touching <= crowd) room *= 1 + kGain * (1 - std::min(share, kMaxShare));
   if (touching == 0) room *= kLeap;
 }
 
@@ -45,9 +47,9 @@ void adapt(double& room, double radius, double use, double cost, double touching
 /// With two spheres in balls that touch, the image that is meant stays the nearest one.
 double SphereEngine::most_room() const {
   const double diameter = 2 * largest_radius_ * scale_at(now_), limit = images_.box().max_cutoff();
-  if (diameter > kLargestShareOfBox * limit)
+  if (diameter > kMaxShareOfBox * limit)
     throw CutoffTooLarge("the largest diameter = " + describe(diameter) + " exceeds " +
-                         describe(kLargestShareOfBox * limit) + ", " + describe(kLargestShareOfBox) +
+                         describe(kMaxShareOfBox * limit) + ", " + describe(kMaxShareOfBox) +
                          " of half the smallest height of the periodic box; stop the growth sooner, or take "
                          "more spheres");
   return std::min(0.24 * (limit - diameter), kMaxListRadius / 16);
@@ -95,7 +97,7 @@ void SphereEngine::leave_home(std::int32_t id) {
   const auto pairs = static_cast<double>(rows_.of(id).size());
   adapt(rooms.home, radius(id), rooms.collisions * pairs, kHome + kPairOfHome * pairs, pairs, kCrowd);
   rooms.collisions = 0;
-  rooms.home = std::clamp(rooms.home, std::min(kLeastRoom * radius(id), most_room()), most_room());
+  rooms.home = std::clamp(rooms.home, std::min(kMinRoom * radius(id), most_room()), most_room());
   ++counters_.homes;
   ++rooms.homes;
   if (room_at_anchor(id) < 0.5 * rooms.home) give_anchor(id);
@@ -116,7 +118,45 @@ void SphereEngine::set_ball(std::int32_t id) {
   homes_[static_cast<std::size_t>(id)] = {position(id), radius(id) + std::min(room, most_room())};
 }
 
+/// Where many have left their anchors since all got theirs, all get new ones.
 void SphereEngine::give_anchor(std::int32_t id) {
+  if (anchors_.has_many_strays()) {
+    if (give_all_anchors()) return;
+    anchors_.refresh();
+  }
+  search_for_anchor(id);
+}
+
+/// One list has the candidates of all, at far less than a search for each would cost. Returns whether the box
+/// is wide enough for that.
+bool SphereEngine::give_all_anchors() {
+  const double widest = anchors_.widest_to_list();
+  std::vector<Ball> balls;
+  std::vector<double> anchor_rooms;
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const auto id = static_cast<std::int32_t>(i);
+    const Rooms& rooms = rooms_[i];
+    const auto candidates = static_cast<double>(candidates_.of(id).size());
+    double room = rooms.anchor;
+    adapt(room, radius(id), rooms.homes * kLook * candidates, kShareOfList + candidates, candidates,
+          kCrowdOfAnchor);
+    room = std::max(1.5 * rooms.home, std::min(room, widest - radius(id)));
+    // The ball around the home, which stays, is in that around the anchor.
+    const double home = std::sqrt(images_.box().distance2(homes_[i].center, position(id))) + homes_[i].radius;
+    balls.push_back({position(id), std::max(home, radius(id) + room)});
+    if (balls.back().radius > widest) return false;
+    anchor_rooms.push_back(room);
+  }
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    rooms_[i].anchor = anchor_rooms[i];
+    rooms_[i].homes = 0;
+  }
+  anchors_.set_all(balls);
+  candidates_.replace_all(anchors_.find_all_touching());
+  return true;
+}
+
+void SphereEngine::search_for_anchor(std::int32_t id) {
   Rooms& rooms = rooms_[static_cast<std::size_t>(id)];
   const auto candidates = static_cast<double>(candidates_.of(id).size());
   adapt(rooms.anchor, radius(id), rooms.homes * kLook * candidates, kSearch + candidates, candidates,

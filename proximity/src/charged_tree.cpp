@@ -11,7 +11,10 @@ namespace dch::detail {
 namespace {
 
 /// Of a node without children; expansions of smaller ones cost more than the pairs that they save.
-constexpr std::int32_t kMostPoints = 64;
+constexpr std::int32_t kMaxPoints = 32;
+
+/// A point far from all others halves a node unevenly. Nodes deeper than that are halved by number.
+constexpr int kMaxDepth = 64;
 
 /// Of squares of shorter distances, and the inverses of these, little would be left.
 constexpr double kNearest = 1e-140;
@@ -24,74 +27,100 @@ Vec3 image_near(const Box& box, Vec3 anchor, Vec3 p) {
 
 }  // namespace
 
-ChargedTree::ChargedTree(const PointTree& tree, Span<const double> charges, int power)
-    : at_(tree.size()), charges_(tree.size()), weights_(tree.size()) {
+ChargedTree::ChargedTree(const PointTree& tree, Span<const double> charges, int degree) {
   if (tree.size() == 0) return;
   const double radius = tree.node(0).radius;
   if (radius > 0) unit_ = std::ldexp(1.0, std::ilogb(radius));
   const double nearest = std::max(kNearest, tree.rounding() / unit_);
   least2_ = nearest * nearest;
-  for (std::size_t k = 0; k < charges_.size(); ++k) {
-    charges_[k] = charges[static_cast<std::size_t>(tree.ids()[k])];
-    weights_[k] = std::abs(charges_[k]);
-  }
-  take(tree);
-  for (ChargedNode& node : nodes_) measure(node, power);
-}
-
-void ChargedTree::take(const PointTree& tree) {
-  struct Taken {
-    std::int32_t node;
-    Vec3 anchor;  ///< its center, in the image of its parent
-  };
-  std::vector<Taken> taken{{0, tree.node(0).center}};
-  for (std::size_t k = 0; k < taken.size(); ++k) {
-    const Taken of = taken[k];
-    const PointTree::Node& node = tree.node(of.node);
-    ChargedNode charged;
-    charged.first = node.first_point;
-    charged.points = charged.charges = node.points;
-    if (node.points <= kMostPoints || node.radius == 0) {
-      place_points(tree, node, of.anchor);
-      if (node.radius == 0) charged.charges = 1;
-    } else {
-      charged.first_child = static_cast<std::int32_t>(taken.size());
-      charged.children = node.children;
-      for (std::int32_t child = node.first_child; child < node.first_child + node.children; ++child)
-        taken.push_back({child, image_near(tree.box(), of.anchor, tree.node(child).center)});
-    }
-    nodes_.push_back(charged);
+  place_charges(tree, charges);
+  split();
+  MeasureMoments moments(degree);
+  for (ChargedNode& node : nodes_) {
+    measure(node, degree + 1);
+    measure_moments(node, moments);
   }
 }
 
-void ChargedTree::place_points(const PointTree& tree, const PointTree::Node& node, Vec3 anchor) {
-  const auto first = static_cast<std::size_t>(node.first_point);
-  const std::size_t end = first + static_cast<std::size_t>(node.points);
-  for (std::size_t k = first; k < end; ++k)
-    at_[k] = (1 / unit_) * image_near(tree.box(), anchor, tree.box().wrap(tree.position(tree.ids()[k])));
-  if (node.radius > 0) return;
-  for (std::size_t k = first + 1; k < end; ++k) {
-    at_[k] = at_[first];
-    charges_[first] += std::exchange(charges_[k], 0.0);
-    weights_[first] += std::exchange(weights_[k], 0.0);
+void ChargedTree::place_charges(const PointTree& tree, Span<const double> charges) {
+  charges_.reserve(tree.size());
+  for (const std::int32_t id : tree.ids()) {
+    const double charge = charges[static_cast<std::size_t>(id)];
+    const Vec3 at = image_near(tree.box(), tree.node(0).center, tree.box().wrap(tree.position(id)));
+    charges_.push_back({(1 / unit_) * at, charge, std::abs(charge), id});
+  }
+}
+
+void ChargedTree::split() {
+  ChargedNode root;
+  root.points = root.charges = static_cast<std::int32_t>(charges_.size());
+  nodes_.push_back(root);
+  std::vector<int> depth{0};
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    ChargedNode& node = nodes_[k];
+    Vec3 low = at(node.first), high = low;
+    for (std::int32_t place = node.first; place < node.first + node.points; ++place)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], at(place)[axis]);
+        high[axis] = std::max(high[axis], at(place)[axis]);
+      }
+    if (low == high) join(node);
+    if (low == high || node.points <= kMaxPoints) continue;
+    ChargedNode first, second;
+    first.first = node.first;
+    first.points = first.charges = halve(node, low, high, depth[k] < kMaxDepth);
+    second.first = node.first + first.points;
+    second.points = second.charges = node.points - first.points;
+    node.first_child = static_cast<std::int32_t>(nodes_.size());
+    node.children = 2;
+    nodes_.push_back(first);  // `node` is no more
+    nodes_.push_back(second);
+    depth.insert(depth.end(), 2, depth[k] + 1);
+  }
+}
+
+/// Puts the points of one half in front of the others and returns their number.
+std::int32_t ChargedTree::halve(const ChargedNode& node, Vec3 low, Vec3 high, bool by_length) {
+  int axis = 0;
+  for (int other = 1; other < 3; ++other)
+    if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
+  const double middle = 0.5 * low[axis] + 0.5 * high[axis];
+  const auto begin = charges_.begin() + node.first, end = begin + node.points;
+  if (by_length && middle > low[axis])
+    return static_cast<std::int32_t>(
+        std::partition(begin, end, [&](const Charge& c) { return c.at[axis] < middle; }) - begin);
+  const std::int32_t half = node.points / 2;
+  std::nth_element(begin, begin + half, end, [&](const Charge& a, const Charge& b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.id < b.id;
+  });
+  return half;
+}
+
+/// Of points that coincide the first one has all charge.
+void ChargedTree::join(ChargedNode& node) {
+  node.charges = 1;
+  Charge& first = charges_[static_cast<std::size_t>(node.first)];
+  for (std::int32_t place = node.first + 1; place < node.first + node.points; ++place) {
+    Charge& other = charges_[static_cast<std::size_t>(place)];
+    first.charge += std::exchange(other.charge, 0.0);
+    first.weight += std::exchange(other.weight, 0.0);
   }
 }
 
 void ChargedTree::measure(ChargedNode& node, int power) const {
-  const auto first = static_cast<std::size_t>(node.first),
-             end = first + static_cast<std::size_t>(node.points);
-  for (std::size_t k = first; k < end; ++k) node.weight += weights_[k];
+  const auto begin = charges_.begin() + node.first, end = begin + node.points;
+  for (auto c = begin; c != end; ++c) node.weight += c->weight;
   Vec3 sum;
-  for (std::size_t k = first; k < end && node.weight > 0; ++k)
-    sum = sum + (weights_[k] / node.weight) * (at_[k] - at_[first]);
-  node.center = at_[first] + sum;
+  for (auto c = begin; c != end && node.weight > 0; ++c)
+    sum = sum + (c->weight / node.weight) * (c->at - begin->at);
+  node.center = begin->at + sum;
   double farthest2 = 0;
-  for (std::size_t k = first; k < end; ++k) farthest2 = std::max(farthest2, norm2(at_[k] - node.center));
+  for (auto c = begin; c != end; ++c) farthest2 = std::max(farthest2, norm2(c->at - node.center));
   if (farthest2 == 0) return;
   node.radius = std::sqrt(farthest2) * kInflate;
   double mean = 0;
-  for (std::size_t k = first; k < end && node.weight > 0; ++k) {
-    const double share = weights_[k] / node.weight, distance2 = norm2(at_[k] - node.center);
+  for (auto c = begin; c != end && node.weight > 0; ++c) {
+    const double share = c->weight / node.weight, distance2 = norm2(c->at - node.center);
     const double relative = std::sqrt(distance2) / node.radius;
     node.spread2 += share * distance2;
     double term = share;
@@ -100,6 +129,15 @@ void ChargedTree::measure(ChargedNode& node, int power) const {
   }
   node.spread2 *= kInflate;
   node.reach = node.radius * std::min(1.0, std::pow(mean, 1.0 / power) * kInflate);
+}
+
+void ChargedTree::measure_moments(ChargedNode& node, MeasureMoments& moments) const {
+  if (node.weight == 0) return;
+  moments.clear();
+  const double of_radius = node.radius > 0 ? 1 / node.radius : 0;
+  for (std::int32_t place = node.first; place < node.first + node.charges; ++place)
+    moments.add(charge(place) / node.weight, of_radius * (at(place) - node.center));
+  node.moments = moments.sizes(1);
 }
 
 std::vector<double> multipoles_of(const ChargedTree& tree, const Expansions& expansions) {

@@ -82,7 +82,7 @@ TranslationTables Expansions::tables() const {
 }
 
 void Expansions::set_monomials(Vec3 v, Monomials& monomials) const {
-  std::array<std::array<double, kMostOrder + 1>, 3> powers;
+  std::array<std::array<double, kMaxOrder + 1>, 3> powers;
   for (int axis = 0; axis < 3; ++axis) {
     auto& power = powers[static_cast<std::size_t>(axis)];
     power[0] = 1;

@@ -13,8 +13,6 @@
 
 namespace dch::detail {
 
-inline constexpr int kMostOrder = 14;
-
 /// Taylor expansions of a kernel K(x - y) up to a total degree, about a center of sources and one of targets:
 ///
 ///   K(x - y) = sum of D_(i+j)(R) (x - a)^i / i! (b - y)^j / j!,   R = a - b,  degree(i + j) <= order
@@ -54,7 +52,7 @@ class Expansions {
   double potential(const double* local, Vec3 from_center) const;
 
  private:
-  using Monomials = std::array<double, (kMostOrder + 1) * (kMostOrder + 2) * (kMostOrder + 3) / 6>;
+  using Monomials = std::array<double, (kMaxOrder + 1) * (kMaxOrder + 2) * (kMaxOrder + 3) / 6>;
   /// v^i / i! for all i.
   void set_monomials(Vec3 v, Monomials& monomials) const;
   /// Multiplies by `size` to the degree.

@@ -18,7 +18,7 @@
 namespace dch {
 namespace {
 
-constexpr double kLeastTolerance = 1e-12;
+constexpr double kMinTolerance = 1e-12;
 
 void check(const PointTree& tree, Span<const double> charges, const FarSumParams& params) {
   if (charges.size() != tree.capacity())
@@ -31,7 +31,7 @@ void check(const PointTree& tree, Span<const double> charges, const FarSumParams
       throw InvalidParameter("the charge of " + std::to_string(id) + " is " + detail::describe(charge) +
                              "; its magnitude must be at most 1e100");
   }
-  if (!(params.tolerance >= kLeastTolerance && params.tolerance < 1))
+  if (!(params.tolerance >= kMinTolerance && params.tolerance < 1))
     throw InvalidParameter("the tolerance of far sums is " + detail::describe(params.tolerance) +
                            "; it must be at least 1e-12, which rounding leaves, and below 1");
   if (!(params.kappa >= 0 && std::isfinite(params.kappa)))
@@ -40,9 +40,10 @@ void check(const PointTree& tree, Span<const double> charges, const FarSumParams
 }
 
 /// The order at which sums of that tolerance take least time, as measured.
-int order_for(double tolerance) {
+int order_for(double tolerance, bool is_harmonic) {
   const double digits = -std::log10(tolerance);
-  return std::clamp(static_cast<int>(std::lround(1 + 2 * digits)), 2, detail::kMostOrder);
+  return std::clamp(static_cast<int>(std::lround(is_harmonic ? 1 + 1.5 * digits : 1 + 2 * digits)), 2,
+                    detail::kMaxOrder);
 }
 
 }  // namespace
@@ -51,9 +52,10 @@ FarSums far_sums(const PointTree& tree, Span<const double> charges, const FarSum
   check(tree, charges, params);
   FarSums result;
   result.potentials.assign(tree.capacity(), 0.0);
-  result.order = order_for(params.tolerance);
+  result.order = order_for(params.tolerance, params.kappa == 0);
   if (tree.size() == 0) return result;
-  const detail::ChargedTree charged(tree, charges, result.order + 1);
+  const detail::Truncation unscaled(result.order, params.kappa);
+  const detail::ChargedTree charged(tree, charges, unscaled.degree());
   const double extent = 2 * charged.node(0).radius * charged.unit();
   const double of_images = tree.box().any_periodic() ? 0.01 * params.tolerance : 0;
   std::vector<Vec3> images = detail::sum_images(tree.box(), params.kappa, extent, of_images);
@@ -76,9 +78,9 @@ FarSums far_sums(const PointTree& tree, Span<const double> charges, const FarSum
   result.far_pairs = sums.counts().far_pairs;
   result.near_pairs = sums.counts().near_pairs;
   result.looked_at = sums.counts().looked_at;
-  for (std::size_t place = 0; place < tree.size(); ++place)
-    result.potentials[static_cast<std::size_t>(tree.ids()[place])] =
-        sums.potentials()[place] / charged.unit();
+  for (std::int32_t place = 0; place < static_cast<std::int32_t>(tree.size()); ++place)
+    result.potentials[static_cast<std::size_t>(charged.id(place))] =
+        sums.potentials()[static_cast<std::size_t>(place)] / charged.unit();
   return result;
 }
 

@@ -6,6 +6,8 @@
 
 namespace dch::detail {
 
+inline constexpr int kMaxOrder = 14;  ///< of expansions
+
 /// Exponents of the monomials x^a y^b z^c, by ascending degree.
 struct MultiIndex {
   int a = 0, b = 0, c = 0;

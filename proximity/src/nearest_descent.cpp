@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "geometry/metric.hpp"
@@ -32,7 +33,8 @@ void NearestDescent<Metric, Candidates>::search(Vec3 position, std::int32_t self
   const double reach = std::max(structure_.largest_reach, wrap_error_.reach(position));
   Query query{position, metric_.wrap(position), self, wrap_error_.bound(reach), &best, 0, 1 / (1 + epsilon)};
   set_limit(query);
-  dive(query);
+  push_roots(query);
+  if (query.limit == std::numeric_limits<double>::infinity()) dive(query);
   while (!waiting_.empty()) {
     const Subtree next = waiting_.back();
     waiting_.pop_back();
@@ -40,13 +42,18 @@ void NearestDescent<Metric, Candidates>::search(Vec3 position, std::int32_t self
   }
 }
 
-/// Down to the leaves with a few nodes of each level, so that the first leaf to be looked at is a near one.
 template <class Metric, class Candidates>
-void NearestDescent<Metric, Candidates>::dive(Query& query) {
+void NearestDescent<Metric, Candidates>::push_roots(const Query& query) {
   waiting_.clear();
   const Level& top = structure_.levels.back();
   for (std::int32_t root = 0; root < top.size(); ++root)
     if (top.is_alive(root)) push(query, structure_.top(), root);
+}
+
+/// Down to the leaves with a few nodes of each level, so that the first leaf to be looked at is a near one.
+/// Where there is a limit from the start, that is not needed.
+template <class Metric, class Candidates>
+void NearestDescent<Metric, Candidates>::dive(Query& query) {
   std::size_t first = 0;  // of this level
   for (int level = structure_.top(); level > 1; --level) {
     const auto begin = waiting_.begin() + static_cast<std::ptrdiff_t>(first);
@@ -149,5 +156,8 @@ template class NearestDescent<LatticeMetric, NearestCandidates>;
 template class NearestDescent<OpenMetric, WithinCandidates>;
 template class NearestDescent<OrthorhombicMetric, WithinCandidates>;
 template class NearestDescent<LatticeMetric, WithinCandidates>;
+template class NearestDescent<OpenMetric, ClosestCandidate>;
+template class NearestDescent<OrthorhombicMetric, ClosestCandidate>;
+template class NearestDescent<LatticeMetric, ClosestCandidate>;
 
 }  // namespace dch::detail

@@ -8,6 +8,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/proximity/nearest.hpp>
 
+#include "closest_candidate.hpp"
 #include "geometry/position_check.hpp"
 #include "hierarchy/structure.hpp"
 #include "hierarchy/subtree_balls.hpp"
@@ -50,6 +51,7 @@ class NearestDescent {
     double shrink;  ///< of that: how far off a subtree may be to be opened
   };
   static bool is_nearer(const Subtree& a, const Subtree& b) { return a.distance2 < b.distance2; }
+  void push_roots(const Query& query);
   void dive(Query& query);
   bool is_too_far(const Query& query, const Subtree& subtree) const;
   void push(const Query& query, int level, std::int32_t node);

@@ -36,7 +36,7 @@ class PotentialSums {
 
   /// Of the last sum.
   const SumCounts& counts() const { return counts_; }
-  /// By place in the order of the tree.
+  /// By place in the tree.
   const std::vector<double>& potentials() const { return potentials_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include <dch/base/error.hpp>
 #include <dch/proximity/nearest.hpp>
@@ -28,8 +29,8 @@ class Boruvka {
   Boruvka(const Metric& metric, const detail::Structure& structure, const NearestRows& rows)
       : structure_(structure),
         rows_(rows),
-        balls_(structure),
-        descent_(metric, structure, balls_),
+        measured_(structure.balls ? std::nullopt : std::optional<detail::SubtreeBalls>(structure)),
+        descent_(metric, structure, measured_ ? *measured_ : *structure.balls),
         components_(structure.slot_of_id.size()),
         next_(structure.slot_of_id.size(), 0) {}
 
@@ -80,7 +81,7 @@ class Boruvka {
 
   const detail::Structure& structure_;
   const NearestRows& rows_;
-  detail::SubtreeBalls balls_;
+  std::optional<detail::SubtreeBalls> measured_;  ///< unless the hierarchy keeps them up
   detail::ForeignDescent<Metric> descent_;
   detail::Components components_;
   std::vector<std::int32_t> next_;       ///< by id: place in its row

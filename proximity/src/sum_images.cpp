@@ -13,7 +13,7 @@
 namespace dch::detail {
 namespace {
 
-constexpr double kMostImages = 100000;
+constexpr double kMaxImages = 100000;
 
 /// The kernel's sum over lattice vectors longer than `radius` for two points at most `extent` apart, over the
 /// kernel at `nearest`. Lattice points are at least `period` apart, so within r of any of them there are
@@ -55,10 +55,10 @@ std::vector<Vec3> sum_images(const Box& box, double kappa, double extent, double
   double radius = extent + nearest;
   while (rest_of_lattice(box, kappa, extent, radius, nearest) > share) {
     radius += 0.25 * period;
-    if (vectors_within(box, radius) > kMostImages)
+    if (vectors_within(box, radius) > kMaxImages)
       throw InvalidParameter("kappa is " + describe(kappa) + "; in a box with a shortest period of " +
                              describe(period) + " the images of charges beyond " + describe(radius) +
-                             " would count, more than " + describe(kMostImages) +
+                             " would count, more than " + describe(kMaxImages) +
                              " of them: take a larger kappa, a wider box, or another method (Ewald's)");
   }
   std::vector<Vec3> images{Vec3{}};

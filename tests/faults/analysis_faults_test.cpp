@@ -141,9 +141,9 @@ TEST(AnalysisFaults, AMeltIsMadeOrNot) {
   MeltParams params;
   params.chains = 4;
   params.beads_per_chain = 20;
-  const Melt expected = make_melt(params);
-  expect_sound(sweep([] { return Melt(); }, [&](Melt& melt) { melt = make_melt(params); },
-                     [&](const Melt& melt, Ending ending) {
+  const necklace::Melt expected = make_melt(params);
+  expect_sound(sweep([] { return necklace::Melt(); }, [&](necklace::Melt& melt) { melt = make_melt(params); },
+                     [&](const necklace::Melt& melt, Ending ending) {
                        const bool is_right =
                            ending == Ending::threw
                                ? melt.positions.empty() && melt.bonds.empty()

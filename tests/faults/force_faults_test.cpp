@@ -12,7 +12,7 @@
 namespace dch::faults {
 namespace {
 
-constexpr std::size_t kPoints = 200;
+constexpr std::size_t kForcePoints = 200;
 
 ClusterPairs cluster_pairs_of(const Scene& scene, const ListParams& request) {
   ListedHierarchy hierarchy(params_for());
@@ -23,13 +23,13 @@ ClusterPairs cluster_pairs_of(const Scene& scene, const ListParams& request) {
 }
 
 void sweep_refresh(Executor* executor) {
-  const Scene scene(kPoints);
+  const Scene scene(kForcePoints);
   ListParams wide, request;
   wide.cutoffs = TypeCutoffs(0.8);
   wide.skin = 0.2;
   request.cutoffs = TypeCutoffs(0.8);
   Scene moved = scene.shaken(0.05);
-  for (std::size_t k = 0; k < kPoints; k += 3) moved.points[k] = moved.points[k] + moved.box.vector(0);
+  for (std::size_t k = 0; k < kForcePoints; k += 3) moved.points[k] = moved.points[k] + moved.box.vector(0);
   Box wider = Box::orthorhombic({4.01, 4.5, 5});
   for (const Box& now : {moved.box, wider}) {
     expect_sound(sweep([&] { return cluster_pairs_of(scene, wide); },
@@ -49,10 +49,10 @@ TEST(ForceFaults, ClusterPairsOnThreadsTakePositionsOnceMore) {
 }
 
 TEST(ForceFaults, APairListIsWholeOrEmpty) {
-  const Scene scene(kPoints);
+  const Scene scene(kForcePoints);
   Asked asked;
   asked.answer(scene);
-  const std::vector<std::int32_t> types(kPoints, 0);
+  const std::vector<std::int32_t> types(kForcePoints, 0);
   const auto make = [&](PairList& pairs) {
     make_pair_list(
         asked.expected, kRadius, scene.points, scene.box, types,
@@ -119,22 +119,22 @@ struct Forces {
 
 void sweep_forces(Executor* executor) {
   const Forces given;
-  for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
+  for (const ForcePrecision precision : {ForcePrecision::double_precision, ForcePrecision::mixed}) {
     LennardJones reference = Forces::potential(nullptr);
     const std::vector<Vec3> expected = given.add(reference, precision);
-    struct Subject {
+    struct Watched {
       LennardJones potential;
       std::vector<Vec3> forces;
     };
     expect_sound(
         sweep(
             [&] {
-              return Subject{Forces::potential(executor), std::vector<Vec3>(given.scene.points.size())};
+              return Watched{Forces::potential(executor), std::vector<Vec3>(given.scene.points.size())};
             },
-            [&](Subject& subject) {
+            [&](Watched& subject) {
               subject.potential.add_forces(given.pairs, precision, subject.forces, given.charges);
             },
-            [&](Subject& subject, Ending ending) -> std::string {
+            [&](Watched& subject, Ending ending) -> std::string {
               const std::vector<Vec3> none(given.scene.points.size());
               if (subject.forces != (ending == Ending::threw ? none : expected))
                 return after(ending, "the forces are neither as before nor right");

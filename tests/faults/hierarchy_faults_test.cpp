@@ -9,12 +9,12 @@
 namespace dch::faults {
 namespace {
 
-constexpr std::size_t kPoints = 80;
+constexpr std::size_t kHierarchyPoints = 80;
 
 /// A hierarchy that has its points, and the list of other ones.
 struct Changes {
   explicit Changes(const StructureParams& with, double shake = 0.3)
-      : params(with), first(kPoints), next(first.shaken(shake)) {
+      : params(with), first(kHierarchyPoints), next(first.shaken(shake)) {
     asked_first.answer(first);
     asked_next.answer(next);
   }
@@ -75,7 +75,7 @@ TEST(HierarchyFaults, BuildLeavesItEmpty) {
   }
 }
 
-void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, long least_failures) {
+void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, long least_allocations) {
   StructureParams params = params_for(executor);
   params.policy = policy;
   params.base_radius = 0.6;
@@ -86,7 +86,7 @@ void sweep_updates(MaintenancePolicy policy, double shake, Executor* executor, l
             [&](ListedHierarchy& hierarchy, Ending ending) {
               return changes.fault_of_next(hierarchy, ending);
             }),
-      least_failures);
+      least_allocations);
 }
 
 TEST(HierarchyFaults, PutOffRepairLeavesItEmpty) {
@@ -104,7 +104,7 @@ TEST(HierarchyFaults, RepairOnThreadsLeavesItEmpty) {
 }
 
 /// Gas, most of whose points stand on their own.
-TEST(HierarchyFaults, LonePointsLeaveItEmpty) {
+TEST(HierarchyFaults, SingletonsLeaveItEmpty) {
   StructureParams params = params_for();
   params.policy = MaintenancePolicy::always_repair;
   params.max_roots = 2;
@@ -153,7 +153,7 @@ TEST(HierarchyFaults, RepairThatWasPutOffLeavesItEmpty) {
 /// Some points come or go, in a hierarchy of `all` but these, which may keep up what queries need.
 template <class Change>
 void sweep_exchange(bool keeps_up, const Change& change, const std::vector<Vec3>& expected,
-                    long least_failures) {
+                    long least_allocations) {
   StructureParams params = params_for();
   params.base_radius = 0.6;
   const Changes changes(params);
@@ -178,11 +178,11 @@ void sweep_exchange(bool keeps_up, const Change& change, const std::vector<Vec3>
                        hierarchy.renumber(ids);  // without those that were removed
                        return after(ending, list_fault(hierarchy, asked));
                      }),
-               least_failures);
+               least_allocations);
 }
 
 TEST(HierarchyFaults, InsertLeavesItEmpty) {
-  const Scene scene(kPoints), more(30, 5);
+  const Scene scene(kHierarchyPoints), more(30, 5);
   std::vector<Vec3> expected = scene.points;
   expected.insert(expected.end(), more.points.begin(), more.points.end());
   for (const bool keeps_up : {false, true})
@@ -195,13 +195,14 @@ TEST(HierarchyFaults, InsertLeavesItEmpty) {
 }
 
 TEST(HierarchyFaults, RemoveLeavesItEmpty) {
-  const Scene scene(kPoints);
+  const Scene scene(kHierarchyPoints);
   constexpr std::size_t kLeft = 10;
   for (const bool keeps_up : {false, true})
     sweep_exchange(
         keeps_up,
         [&](ListedHierarchy& hierarchy) {
-          for (std::size_t id = kLeft; id < kPoints; ++id) hierarchy.remove(static_cast<std::int32_t>(id));
+          for (std::size_t id = kLeft; id < kHierarchyPoints; ++id)
+            hierarchy.remove(static_cast<std::int32_t>(id));
         },
         {scene.points.begin(), scene.points.begin() + kLeft}, 50);
 }
@@ -209,7 +210,7 @@ TEST(HierarchyFaults, RemoveLeavesItEmpty) {
 TEST(HierarchyFaults, RenumberLeavesItAsItWas) {
   const Changes changes(params_for());
   std::vector<std::int32_t> reversed;
-  for (std::size_t k = kPoints; k-- > 0;) reversed.push_back(static_cast<std::int32_t>(k));
+  for (std::size_t k = kHierarchyPoints; k-- > 0;) reversed.push_back(static_cast<std::int32_t>(k));
   Scene turned = changes.first;
   turned.points.assign(changes.first.points.rbegin(), changes.first.points.rend());
   Asked asked;

@@ -3,6 +3,8 @@
 // A list that memory did not suffice for is empty, and the next one is right: what the search keeps between
 // lists serves it again.
 #include <functional>
+#include <ostream>
+#include <string>
 
 #include "cluster_pair_check.hpp"
 #include "scene.hpp"
@@ -10,29 +12,31 @@
 namespace dch::faults {
 namespace {
 
-constexpr std::size_t kPoints = 120;
+constexpr std::size_t kListPoints = 120;
 
 struct NamedRequest {
   std::string name;
   std::function<void(Asked&)> ask;
 };
 
+std::ostream& operator<<(std::ostream& out, const NamedRequest& request) { return out << request.name; }
+
 void with_types(Asked& asked) {
-  for (std::size_t k = 0; k < kPoints; ++k) asked.types.push_back(static_cast<std::int32_t>(k % 3));
+  for (std::size_t k = 0; k < kListPoints; ++k) asked.types.push_back(static_cast<std::int32_t>(k % 3));
   asked.request.cutoffs = TypeCutoffs(3, {1, 0.8, 0.6, 0.8, 0.5, 0, 0.6, 0, 0.9});
   asked.request.types = asked.types;
 }
 
 void with_radii(Asked& asked) {
-  for (std::size_t k = 0; k < kPoints; ++k) asked.radii.push_back(k % 5 == 0 ? 0.45 : 0.2);
+  for (std::size_t k = 0; k < kListPoints; ++k) asked.radii.push_back(k % 5 == 0 ? 0.45 : 0.2);
   asked.request.radii = asked.radii;
   asked.request.skin = 0.1;
 }
 
 void with_exclusions(Asked& asked) {
   std::vector<IndexPair> bonds;
-  for (std::int32_t k = 1; k < static_cast<std::int32_t>(kPoints); ++k) bonds.push_back({k - 1, k});
-  asked.exclusions = Exclusions::from_bonds(kPoints, bonds, 2);
+  for (std::int32_t k = 1; k < static_cast<std::int32_t>(kListPoints); ++k) bonds.push_back({k - 1, k});
+  asked.exclusions = Exclusions::from_bonds(kListPoints, bonds, 2);
   asked.request.exclusions = &asked.exclusions;
 }
 
@@ -40,19 +44,19 @@ std::vector<NamedRequest> all_requests() {
   return {
       {"half", [](Asked&) {}},
       {"full", [](Asked& a) { a.request.kind = ListKind::full; }},
-      {"by_structure", [](Asked& a) { a.request.order = RowOrder::by_structure; }},
-      {"full_by_structure",
+      {"unsorted", [](Asked& a) { a.request.order = RowOrder::unsorted; }},
+      {"full_unsorted",
        [](Asked& a) {
          a.request.kind = ListKind::full;
-         a.request.order = RowOrder::by_structure;
+         a.request.order = RowOrder::unsorted;
        }},
       {"with_shell",
        [](Asked& a) {
-         a.request.order = RowOrder::by_structure;
+         a.request.order = RowOrder::unsorted;
          a.request.cutoffs = TypeCutoffs(0.8);
          a.request.skin = a.request.shell = 0.2;
        }},
-      {"with_ghosts", [](Asked& a) { a.request.first_ghost = static_cast<std::int32_t>(kPoints / 2); }},
+      {"with_ghosts", [](Asked& a) { a.request.first_ghost = static_cast<std::int32_t>(kListPoints / 2); }},
       {"with_exclusions", with_exclusions},
       {"with_types", with_types},
       {"with_radii", with_radii},
@@ -108,7 +112,7 @@ class ListFaults : public ::testing::TestWithParam<NamedRequest> {
     expect_sound(sweep([&] { return used(executor); }, call, fault), 20);
   }
 
-  Scene scene_{kPoints};
+  Scene scene_{kListPoints};
   Asked asked_;
 };
 
@@ -161,15 +165,15 @@ INSTANTIATE_TEST_SUITE_P(Requests, ListFaults, ::testing::ValuesIn(all_requests(
 
 /// A host's decision that throws is no different.
 TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
-  struct Refusing final : PairTest {
-    explicit Refusing(int after) : PairTest(0.09), left(after) {}
+  struct Refusing final : TieBreaker {
+    explicit Refusing(int after) : TieBreaker(0.09), left(after) {}
     bool accepts(std::int32_t, std::int32_t) const override {
       if (--left < 0) throw std::bad_alloc();
       return false;
     }
     mutable int left;
   };
-  const Scene scene(kPoints);
+  const Scene scene(kListPoints);
   Asked asked;
   asked.request.cutoffs = TypeCutoffs(0.9);
   asked.answer(scene);
@@ -178,7 +182,7 @@ TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
   for (int turn = 0; turn < 40; ++turn) {
     const Refusing refusing(turn);
     ListParams request = asked.request;
-    request.near_cutoff = &refusing;
+    request.tie_breaker = &refusing;
     NeighborList list;
     EXPECT_THROW(hierarchy.list(request, list), std::bad_alloc);
     EXPECT_EQ(list.size(), 0u);
@@ -187,7 +191,7 @@ TEST(ListsFaults, AListThatAHostEndedIsFollowedByARightOne) {
 }
 
 TEST(ListsFaults, SeveralListsAreRightTheNextTime) {
-  const Scene scene(kPoints);
+  const Scene scene(kListPoints);
   Asked wide, narrow, typed;
   narrow.request.cutoffs = TypeCutoffs(0.5);
   with_types(typed);

@@ -116,7 +116,7 @@ TEST(NecklaceFaults, AHierarchyIsMadeOrNot) {
                10);
 }
 
-void sweep_contacts(Executor* executor, std::size_t short_chains, long least_failures) {
+void sweep_contacts(Executor* executor, std::size_t short_chains, long least_allocations) {
   const Melt melt(short_chains);
   WrappedHierarchy hierarchy(melt.chains);
   hierarchy.update(melt.positions, melt.box);
@@ -130,7 +130,7 @@ void sweep_contacts(Executor* executor, std::size_t short_chains, long least_fai
                        if (ending == Ending::threw) call(found);
                        return after(ending, contact_fault(found, expected));
                      }),
-               least_failures);
+               least_allocations);
   struct Answer {
     bool any = false;
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries of trees of points and neighbors at any radius hold nothing when memory did not suffice, and give
-// the same answer as ever when asked again.
+// Queries of trees of points, neighbors at any radius, nearest neighbors and spanning trees hold nothing when
+// memory did not suffice, and give the same answer as ever when asked again.
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,9 +11,11 @@
 #include <dch/proximity/closest_pair.hpp>
 #include <dch/proximity/far_sums.hpp>
 #include <dch/proximity/k_center.hpp>
+#include <dch/proximity/nearest.hpp>
 #include <dch/proximity/neighbors_within.hpp>
 #include <dch/proximity/point_tree.hpp>
 #include <dch/proximity/spanner.hpp>
+#include <dch/proximity/spanning_tree.hpp>
 #include <dch/proximity/well_separated_pairs.hpp>
 
 #include "scene.hpp"
@@ -85,6 +87,55 @@ TEST(ProximityFaults, NeighborsAtAnyRadius) {
   sweep_query(hierarchy.view(), [](const HierarchyView& view) {
     return NeighborsWithin(view).of_points(std::vector<std::int32_t>{1, 2, 3}, 1.2).distance2;
   });
+}
+
+Answer answer_of(const NearestRows& rows) {
+  Answer answer = rows.distance2;
+  answer.insert(answer.end(), rows.id.begin(), rows.id.end());
+  return answer;
+}
+
+void sweep_nearest(const HierarchyView& view, Executor* executor) {
+  NearestParams params;
+  params.k = 3;
+  params.executor = executor;
+  sweep_query(view, [&](const HierarchyView& of) { return answer_of(Nearest(of).of_points(params)); });
+  const Scene others(20, 9);
+  sweep_query(view, [&](const HierarchyView& of) {
+    return answer_of(Nearest(of).of_positions(others.points, params));
+  });
+}
+
+TEST(ProximityFaults, NearestNeighbors) {
+  Hierarchy hierarchy = small_hierarchy();
+  sweep_nearest(hierarchy.view(), nullptr);
+  sweep_nearest(hierarchy.kept_view(), nullptr);
+}
+
+TEST(ProximityFaults, NearestNeighborsOnThreads) {
+  const auto pool = make_thread_pool(3);
+  Hierarchy hierarchy = small_hierarchy();
+  sweep_nearest(hierarchy.view(), pool.get());
+}
+
+TEST(ProximityFaults, SpanningTreesAndTheirClusters) {
+  const auto pool = make_thread_pool(2);
+  Hierarchy hierarchy = small_hierarchy();
+  for (Executor* executor : {static_cast<Executor*>(nullptr), pool.get()})
+    sweep_query(hierarchy.view(), [&](const HierarchyView& view) {
+      Answer answer;
+      for (const TreeEdge& edge : minimum_spanning_tree(view, executor).edges)
+        answer.insert(answer.end(), {edge.a + 0.0, edge.b + 0.0, edge.distance2});
+      return answer;
+    });
+  const SpanningTree whole = minimum_spanning_tree(hierarchy.view());
+  const SweepResult result =
+      sweep([] { return Clusters(); }, [&](Clusters& clusters) { clusters = clusters_at(whole, 0.8); },
+            [&](Clusters& clusters, Ending ending) -> std::string {
+              if (ending == Ending::threw) clusters = clusters_at(whole, 0.8);
+              return clusters.sizes == clusters_at(whole, 0.8).sizes ? "" : after(ending, "other clusters");
+            });
+  expect_sound(result, 3);
 }
 
 }  // namespace

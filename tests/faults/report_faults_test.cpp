@@ -74,6 +74,9 @@ TEST(ReportFaults, JsonOfAReplay) {
   Mismatch mismatch;
   mismatch.what = "missing";
   report.verify.first.push_back(mismatch);
+  IntervalRecord interval;
+  interval.undetermined = "a reason of more letters than a short text takes";
+  report.between.emplace().add(interval, {}, 1);
   expect_sound_text([&] { return render_json(report); }, 300);
 }
 

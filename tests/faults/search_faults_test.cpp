@@ -2,8 +2,12 @@
 //
 // Engines hold nothing after an update that memory did not suffice for, and everything after the next good
 // one; a list that threw is followed by a right one.
+//
+// More than 300 lines: one sweep a public function of the engines, all from the same frames.
 #include <functional>
 #include <numeric>
+#include <ostream>
+#include <string>
 
 #include <dch/engines/pair_search.hpp>
 #include <dch/engines/verlet_list.hpp>
@@ -14,13 +18,15 @@
 namespace dch::faults {
 namespace {
 
-constexpr std::size_t kPoints = 100;
+constexpr std::size_t kSearchPoints = 100;
 
 struct NamedEngine {
   std::string name;
   std::function<std::unique_ptr<PairSearch>()> make;
   bool only_notes_updates = false;  ///< until a list is asked for; that takes no memory for as many particles
 };
+
+std::ostream& operator<<(std::ostream& out, const NamedEngine& engine) { return out << engine.name; }
 
 std::vector<NamedEngine> engines() {
   return {
@@ -46,8 +52,8 @@ struct Frame {
   Asked asked;
   std::vector<std::uint64_t> keys;
 
-  Frame(std::size_t first, double shake) : scene(Scene(kPoints).shaken(shake)) {
-    for (std::size_t k = 0; k < kPoints; ++k) {
+  Frame(std::size_t first, double shake) : scene(Scene(kSearchPoints).shaken(shake)) {
+    for (std::size_t k = 0; k < kSearchPoints; ++k) {
       keys.push_back(first + k);
       asked.radii.push_back((first + k) % 4 == 0 ? 0.45 : 0.15);
     }
@@ -105,7 +111,7 @@ class SearchFaults : public ::testing::TestWithParam<NamedEngine> {
 TEST_P(SearchFaults, UpdateLeavesItEmpty) { sweep_updates(false); }
 /// What refuses an update takes memory for its message; to become empty then, none.
 TEST(SearchPartsFaults, ARefusedUpdateIsGivenUpWithoutMemory) {
-  const Scene scene(kPoints);
+  const Scene scene(kSearchPoints);
   std::vector<Vec3> broken = scene.points;
   broken[3].y = std::numeric_limits<double>::quiet_NaN();
   const auto update = [&](auto& subject) {
@@ -255,7 +261,7 @@ TEST(SearchPartsFaults, ASearchIsMadeOrNot) {
 }
 
 TEST(SearchPartsFaults, AStaleTestThatThrewIsStale) {
-  const Scene before(kPoints), now(2 * kPoints, 3);
+  const Scene before(kSearchPoints), now(2 * kSearchPoints, 3);
   expect_sound(sweep(
                    [&] {
                      StaleTest test(0.2);

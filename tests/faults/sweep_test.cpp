@@ -34,7 +34,8 @@ SweepResult sweep_of(const Grow& grow) {
                [&](TwoArrays& arrays, Ending) -> std::string {
                  grow(arrays);
                  return arrays.second.size() == arrays.first.size() ? "" : "one is shorter";
-               });
+               },
+               1);
 }
 
 TEST(FaultSweep, FindsAnArrayThatIsTooShort) {
@@ -68,7 +69,8 @@ TEST(FaultSweep, FailsEveryFormOfNew) {
       sweep([] { return Kept(); }, allocate,
             [](const Kept& kept, Ending ending) -> std::string {
               return (kept.lines != nullptr) == (ending == Ending::returned) ? "" : "it went on";
-            });
+            },
+            1);
   expect_sound(throwing, 8);
   const SweepResult silent = sweep(
       [] { return Kept(); },
@@ -78,7 +80,8 @@ TEST(FaultSweep, FailsEveryFormOfNew) {
         kept.line.reset(new (std::nothrow) Line());
         kept.lines.reset(new (std::nothrow) Line[3]());
       },
-      [](const Kept&, Ending ending) -> std::string { return ending == Ending::returned ? "" : "it threw"; });
+      [](const Kept&, Ending ending) -> std::string { return ending == Ending::returned ? "" : "it threw"; },
+      1);
   expect_sound(silent, 8);
 }
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The hierarchy under any sequence of its operations: every invariant holds after each of them, and lists are
-// those of all pairs.
+// The hierarchy under any sequence of its operations: every invariant holds after each of them, lists are
+// those of all pairs, and so are nearest neighbors, by what is kept up between the operations too.
+#include <limits>
+#include <memory>
+#include <utility>
+
 #include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
 #include <dch/lists/all_pairs.hpp>
+#include <dch/proximity/nearest.hpp>
 
 #include "fuzz_scene.hpp"
 #include "list_compare.hpp"
@@ -12,8 +18,8 @@
 namespace dch::fuzz {
 namespace {
 
-constexpr std::size_t kMostPoints = 48;
-constexpr int kMostOperations = 24;
+constexpr std::size_t kMaxPoints = 48;
+constexpr int kMaxOperations = 24;
 
 StructureParams choose_params(FuzzInput& input, double radius) {
   StructureParams params;
@@ -25,6 +31,8 @@ StructureParams choose_params(FuzzInput& input, double radius) {
                                              MaintenancePolicy::always_rebuild};
   params.policy = kPolicies[input.below(4)];
   params.max_roots = input.coin() ? 1 : 16;
+  static const std::unique_ptr<Executor> threads = make_thread_pool(3);
+  if (params.max_roots == 1) params.executor = threads.get();
   return params;
 }
 
@@ -36,7 +44,7 @@ class Run {
 
   void run() {
     build();
-    for (int k = 0; k < kMostOperations && !input_.empty(); ++k) {
+    for (int k = 0; k < kMaxOperations && !input_.empty(); ++k) {
       operate();
       require_none(hierarchy_.validate(), "validate() after operation " + std::to_string(k));
       if (input_.coin()) compare();
@@ -47,7 +55,7 @@ class Run {
  private:
   void build() {
     points_.clear();
-    for (std::size_t k = input_.below(kMostPoints); k > 0; --k)
+    for (std::size_t k = input_.below(kMaxPoints); k > 0; --k)
       points_.push_back(choose_point(input_, box_, points_));
     hierarchy_.build(points_, box_);
     ids_.resize(points_.size());
@@ -58,7 +66,7 @@ class Run {
     switch (input_.below(8)) {
       case 0:
       case 1:
-        if (ids_.size() < kMostPoints) insert();
+        if (ids_.size() < kMaxPoints) insert();
         break;
       case 2:
       case 3:
@@ -140,6 +148,26 @@ class Run {
     NeighborList list;
     hierarchy_.list(request, list);
     require_none(first_difference(list, by_id), "list()");
+    ask_for_nearest(Nearest(hierarchy_.view()), "view()");
+    ask_for_nearest(Nearest(hierarchy_.kept_view()), "kept_view()");
+  }
+
+  /// The nearest neighbor of each point beside that of all pairs: as near, to within rounding.
+  void ask_for_nearest(const Nearest& nearest, const std::string& view) {
+    constexpr double kRounding = 1e-9;
+    const NearestRows rows = nearest.of_points({});
+    for (const std::int32_t id : ids_) {
+      const auto row = static_cast<std::size_t>(id);
+      double expected2 = std::numeric_limits<double>::infinity();
+      for (const std::int32_t other : ids_)
+        if (other != id)
+          expected2 =
+              std::min(expected2, box_.distance2(points_[row], points_[static_cast<std::size_t>(other)]));
+      const double found2 = rows.distance2[row], slack = kRounding * (1 + radius_) * (1 + radius_);
+      const bool is_same =
+          found2 == expected2 || std::abs(found2 - expected2) <= kRounding * expected2 + slack;
+      if (!is_same) fail("nearest neighbor of " + std::to_string(id) + " by " + view);
+    }
   }
 
   FuzzInput& input_;

@@ -19,7 +19,7 @@
 namespace dch::fuzz {
 namespace {
 
-constexpr std::size_t kMostPoints = 80;
+constexpr std::size_t kMaxPoints = 80;
 
 StructureParams choose_hierarchy(FuzzInput& input, const Scene& scene) {
   StructureParams params;
@@ -52,7 +52,7 @@ void compare(PairSearch& search, const Scene& scene, const NeighborList& expecte
   const RestoreInstructionSet restore;
   ListParams superset = scene.request;
   superset.superset = true;
-  superset.order = RowOrder::by_structure;
+  superset.order = RowOrder::unsorted;
   NeighborList first_superset;
   for (const InstructionSet set : supported_sets()) {
     set_instruction_set(set);
@@ -85,10 +85,12 @@ void require_complete(const NeighborList& kept, const Scene& scene) {
 
 void run(FuzzInput& input) {
   Scene scene;
-  choose_scene(input, kMostPoints, scene);
+  choose_scene(input, kMaxPoints, scene);
   const StructureParams params = choose_hierarchy(input, scene);
   const auto by_hierarchy = make_dch_search(params);
   const auto by_cells = make_cell_search(params.radius);
+  const auto by_grid = make_grid_search(params.radius, params.executor);
+  const auto by_choice = make_auto_search(params);
   const bool can_be_cluster_pairs =
       scene.radii.empty() && scene.request.exclusions == nullptr && scene.request.first_ghost < 0;
   VerletList kept(make_dch_search(params), scene.request);
@@ -104,9 +106,13 @@ void run(FuzzInput& input) {
       by_hierarchy->cluster_pairs(scene.request, pairs);
       require_none(cluster_pair_fault(pairs, scene.points, scene.box, scene.request), "cluster pairs");
     }
-    by_cells->update(scene.points, scene.box);
-    require_none(first_difference(by_cells->list(scene.request), expected),
-                 "cells, step " + std::to_string(step));
+    by_grid->update(scene.points, scene.box);
+    compare(*by_grid, scene, expected, "grid, step " + std::to_string(step));
+    for (PairSearch* search : {by_cells.get(), by_choice.get()}) {
+      search->update(scene.points, scene.box);
+      require_none(first_difference(search->list(scene.request), expected),
+                   search->name() + ", step " + std::to_string(step));
+    }
     if (input.empty()) break;
   }
 }

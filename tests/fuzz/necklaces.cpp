@@ -20,7 +20,7 @@ using necklace::ContactQuery;
 using necklace::Necklace;
 using necklace::WrappedHierarchy;
 
-constexpr std::size_t kMostBeads = 60;
+constexpr std::size_t kMaxBeads = 60;
 
 /// Chains of beads one after the other, open and closed, and some particles in none.
 Chains choose_chains(FuzzInput& input, std::size_t particles) {
@@ -78,7 +78,7 @@ void compare(WrappedHierarchy& wrapped, ContactFinder& finder, const std::vector
 
 void run(FuzzInput& input) {
   const Box box = choose_box(input);
-  const std::size_t count = 1 + input.below(kMostBeads);
+  const std::size_t count = 1 + input.below(kMaxBeads);
   const double largest = std::min(0.8, 0.2 * box.max_cutoff()) * input.uniform();
   std::vector<double> radii(count);
   for (double& radius : radii) radius = largest * std::pow(20, -input.uniform());

@@ -65,6 +65,7 @@ FILES = {
     "hierarchy/points/singletons.cpp": HIERARCHY,
     "lists/stale_test.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
+    "simd/list_rows_loops.hpp": LIST_KERNELS,
     "lists/pair_filter.cpp": PAIR_FILTER,
     "geometry/lattice.cpp": LATTICE,
     "lists/list_limits.cpp": LIST_LIMITS,
@@ -94,6 +95,10 @@ def objects_of(build, programs):
             sys.exit(f"{folder} holds no objects: build {pathlib.Path(program).name} first")
         found += objects
     return found
+
+
+def includes(path, name):
+    return f'#include "{name}"' in path.read_text()
 
 
 class Program:
@@ -129,9 +134,12 @@ class Program:
         """Those that are compiled anew: the file, or those that include it."""
         if self.file.endswith(".cpp"):
             return [SOURCES / self.file]
-        include = f'#include "{self.file}"'
-        return [p for p in sorted((SOURCES / self.file).parent.glob("*.cpp"))
-                if include in p.read_text() and str(p) in self.commands]
+        folder = (SOURCES / self.file).parent
+        headers = [self.file]  # and those beside it that include it
+        for name in headers:
+            headers += [str(p.relative_to(SOURCES)) for p in sorted(folder.glob("*.hpp")) if includes(p, name)]
+        return [p for p in sorted(folder.glob("*.cpp"))
+                if str(p) in self.commands and any(includes(p, name) for name in headers)]
 
     def compile(self, source, bad_lines):
         relative = source.relative_to(SOURCES)

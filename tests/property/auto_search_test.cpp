@@ -13,28 +13,23 @@
 
 #include "cluster_pair_check.hpp"
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "scenes.hpp"
 
 namespace dch {
 namespace {
 
-constexpr double kRadius = 1.5, kSide = 70;
+constexpr double kAutoRadius = 1.5, kAutoSide = 70;
 constexpr std::size_t kPoints = 600;
 constexpr int kUpdates = 40;  ///< of a phase, more than between two looks
 
-ListParams within(double radius) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(radius);
-  return params;
-}
-
 std::unique_ptr<PairSearch> search_for_auto() {
   HierarchyParams params;
-  params.radius = kRadius;
+  params.radius = kAutoRadius;
   return make_search("auto", params);
 }
 
-const Vec3 kMiddle{kSide / 2, kSide / 2, kSide / 2};
+const Vec3 kMiddle{kAutoSide / 2, kAutoSide / 2, kAutoSide / 2};
 
 /// Of density 1 where there is anything.
 std::vector<Vec3> even_ball(scenes::Random& random) {
@@ -46,7 +41,8 @@ std::vector<Vec3> even_ball(scenes::Random& random) {
 std::vector<Vec3> crowds(scenes::Random& random) {
   std::vector<Vec3> points;
   while (points.size() < kPoints) {
-    const Vec3 place{kSide * random.uniform(), kSide * random.uniform(), kSide * random.uniform()};
+    const Vec3 place{kAutoSide * random.uniform(), kAutoSide * random.uniform(),
+                     kAutoSide * random.uniform()};
     for (int k = 0; k < 6; ++k) points.push_back(place + random.in_ball(0.8));
   }
   return points;
@@ -61,7 +57,7 @@ struct Run {
 /// Even, crowded, even, crowded: the engines seen in each phase, one letter a change.
 std::string engines_seen(const Run& run) {
   const auto search = search_for_auto();
-  const Box box = Box::orthorhombic({kSide, kSide, kSide});
+  const Box box = Box::orthorhombic({kAutoSide, kAutoSide, kAutoSide});
   scenes::Random random(3);
   std::string seen;
   for (int phase = 0; phase < 4; ++phase) {
@@ -72,16 +68,16 @@ std::string engines_seen(const Run& run) {
       for (Vec3& p : points) p = p + random.in_cube(0.05);
       if (run.keys) keys[random.below(keys.size())] += kPoints * static_cast<std::uint64_t>(update + 1);
       search->update(points, box, run.keys ? Span<const std::uint64_t>(keys) : Span<const std::uint64_t>());
-      const NeighborList list = search->list(within(kRadius));
-      const std::string difference = first_difference(list, all_pairs(points, box, within(kRadius)));
+      const NeighborList list = search->list(within(kAutoRadius));
+      const std::string difference = first_difference(list, all_pairs(points, box, within(kAutoRadius)));
       if (!difference.empty()) return "update " + std::to_string(update) + ": " + difference;
       const std::string choice = search->choice().substr(0, search->choice().find(':'));
       if (seen.size() < choice.size() || seen.substr(seen.size() - choice.size()) != choice)
         seen += (seen.empty() ? "" : " ") + choice;
       if (!run.pairs || phase != 0 || update != 5) continue;
       ClusterPairs pairs;
-      search->cluster_pairs(within(kRadius), pairs);
-      const std::string fault = cluster_pair_fault(pairs, points, box, within(kRadius));
+      search->cluster_pairs(within(kAutoRadius), pairs);
+      const std::string fault = cluster_pair_fault(pairs, points, box, within(kAutoRadius));
       if (!fault.empty()) return fault;
     }
   }
@@ -104,12 +100,12 @@ TEST(AutoSearch, LooksAtOnceWhenTheNumberOrTheBoxChanges) {
   scenes::Random random(4);
   EXPECT_EQ(search->choice(), "");
   const std::vector<Vec3> even = even_ball(random), crowded = crowds(random);
-  for (const double side : {kSide, 2 * kSide, kSide}) {
+  for (const double side : {kAutoSide, 2 * kAutoSide, kAutoSide}) {
     const Box box = Box::orthorhombic({side, side, side});
-    const std::vector<Vec3>& points = side == kSide ? even : crowded;
+    const std::vector<Vec3>& points = side == kAutoSide ? even : crowded;
     search->update(points, box);
     EXPECT_EQ(first_difference(search->list(within(1)), all_pairs(points, box, within(1))), "");
-    EXPECT_EQ(search->choice().substr(0, 4), side == kSide ? "grid" : "dch:") << search->choice();
+    EXPECT_EQ(search->choice().substr(0, 4), side == kAutoSide ? "grid" : "dch:") << search->choice();
   }
   const std::vector<Vec3> few(even.begin(), even.begin() + 5);
   search->update(few, Box::none());
@@ -118,24 +114,25 @@ TEST(AutoSearch, LooksAtOnceWhenTheNumberOrTheBoxChanges) {
 
 TEST(AutoSearch, HoldsNothingAfterAThrow) {
   scenes::Random random(5);
-  const Box box = Box::orthorhombic({kSide, kSide, kSide});
+  const Box box = Box::orthorhombic({kAutoSide, kAutoSide, kAutoSide});
   for (const bool crowded : {false, true}) {
     const std::vector<Vec3> points = crowded ? crowds(random) : even_ball(random);
     const auto search = search_for_auto();
     search->update(points, box);
-    search->list(within(kRadius));
+    search->list(within(kAutoRadius));
     ASSERT_EQ(search->choice().substr(0, 4), crowded ? "dch:" : "grid");
     std::vector<Vec3> bad = points;
     bad[5].x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(search->update(bad, box), InvalidPosition);
-    EXPECT_EQ(search->list(within(kRadius)).size(), 0u);
+    EXPECT_EQ(search->list(within(kAutoRadius)).size(), 0u);
     ClusterPairs pairs;
-    search->cluster_pairs(within(kRadius), pairs);
+    search->cluster_pairs(within(kAutoRadius), pairs);
     EXPECT_TRUE(pairs.entries.empty());
     EXPECT_EQ(search->validate(), "");
-    EXPECT_THROW(search->list(within(1.01 * kRadius)), InvalidParameter);
+    EXPECT_THROW(search->list(within(1.01 * kAutoRadius)), InvalidParameter);
     search->update(points, box);
-    EXPECT_EQ(first_difference(search->list(within(kRadius)), all_pairs(points, box, within(kRadius))), "");
+    EXPECT_EQ(
+        first_difference(search->list(within(kAutoRadius)), all_pairs(points, box, within(kAutoRadius))), "");
   }
 }
 

@@ -16,26 +16,19 @@
 
 #include "effort.hpp"
 #include "liquid.hpp"
+#include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 TEST(ClosestPairs, EqualAllPairsInRandomScenes) {
   for (int k = 0; k < effort(600); ++k) {
     ProximityScene scene(7000000 + static_cast<std::uint64_t>(k), 200);
     for (int step = 0; step < 4; ++step) {
-      const std::vector<std::int32_t> ids = scene.ids();
-      const PointTree tree(scene.view());
-      std::tuple<double, std::int32_t, std::int32_t> expected{kFar, -1, -1};
-      for (std::size_t p = 0; p < ids.size(); ++p)
-        for (std::size_t q = p + 1; q < ids.size(); ++q)
-          expected = std::min(expected, {tree.distance2(ids[p], ids[q]), ids[p], ids[q]});
-      const ClosestPoints found = closest_pair(tree);
-      ASSERT_EQ(std::tuple(found.distance2, found.a, found.b), expected) << scene.what() << ", step " << step;
+      ASSERT_NO_FATAL_FAILURE(check_closest_pair(scene)) << "step " << step;
       scene.change(step);
     }
   }
@@ -61,9 +54,21 @@ TEST(ClosestPairs, OfFewerThanTwoPointsThereAreNone) {
   for (const std::size_t n : {0, 1}) {
     hierarchy.build(scenes::coincident(Box::none(), n), Box::none());
     const ClosestPoints found = closest_pair(PointTree(hierarchy.view()));
-    EXPECT_EQ(std::tuple(found.a, found.b, found.distance2), std::tuple(-1, -1, kFar));
+    EXPECT_EQ(std::tuple(found.a, found.b, found.distance2), std::tuple(-1, -1, kInfinity));
   }
 }
 
 }  // namespace
+
+void check_closest_pair(ProximityScene& scene) {
+  const std::vector<std::int32_t> ids = scene.ids();
+  const PointTree tree(scene.view());
+  std::tuple<double, std::int32_t, std::int32_t> expected{kInfinity, -1, -1};
+  for (std::size_t p = 0; p < ids.size(); ++p)
+    for (std::size_t q = p + 1; q < ids.size(); ++q)
+      expected = std::min(expected, {tree.distance2(ids[p], ids[q]), ids[p], ids[q]});
+  const ClosestPoints found = closest_pair(tree);
+  ASSERT_EQ(std::tuple(found.distance2, found.a, found.b), expected) << scene.what();
+}
+
 }  // namespace dch

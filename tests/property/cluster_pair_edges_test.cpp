@@ -10,27 +10,12 @@
 #include <vector>
 
 #include "cluster_pair_check.hpp"
+#include "list_params.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
 namespace dch {
 namespace {
-
-ListParams request_for(double cutoff) {
-  ListParams request;
-  request.cutoffs = TypeCutoffs(cutoff);
-  return request;
-}
-
-ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
-                             double base_radius = 0) {
-  StructureParams params;
-  params.radius = radius;
-  params.base_radius = base_radius;
-  ListedHierarchy hierarchy(params);
-  hierarchy.build(points, box);
-  return hierarchy;
-}
 
 /// Two nodes far apart, the points in turns in one and in the other one.
 struct TwoNodes {
@@ -49,7 +34,7 @@ struct TwoNodes {
 TEST(ClusterPairsEdges, GhostsAloneMakeNoPairs) {
   const std::vector<Vec3> points = scenes::uniform(60, {2, 2, 2}, 4);
   ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 1);
-  ListParams request = request_for(1);
+  ListParams request = within(1);
   for (const std::int32_t first_ghost : {0, 1, 59, 60}) {
     request.first_ghost = first_ghost;
     ClusterPairs pairs;
@@ -77,7 +62,7 @@ TEST(ClusterPairsEdges, SinglePrecisionLosesNoPairAtTheCutoffAndKeepsFewBeyond) 
         points.push_back(start + (1.9 + beyond) * direction);
       }
       ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 1, with_others ? 0.95 : 0.5);
-      ListParams request = request_for(1);
+      ListParams request = within(1);
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request, pairs);
       std::int64_t across = 0;
@@ -98,7 +83,7 @@ TEST(ClusterPairsEdges, OrdersOfPointsAreGoodForEightSearches) {
   std::reverse(moved.begin() + 2, moved.end());  // each to its own node, since they are in turns
   for (std::size_t k = 2; k + 1 < moved.size(); k += 2) std::swap(moved[k], moved[k + 1]);
   ClusterPairs pairs;
-  hierarchy.cluster_pairs(request_for(1), pairs);
+  hierarchy.cluster_pairs(within(1), pairs);
   ASSERT_EQ(pairs.origin.size(), 2u);
   const std::vector<std::int32_t> first = pairs.particle;
   const std::size_t half = first.size() / 2;
@@ -109,8 +94,8 @@ TEST(ClusterPairsEdges, OrdersOfPointsAreGoodForEightSearches) {
   };
   hierarchy.update(moved, Box::none());
   for (int search = 2; search <= 9; ++search) {
-    hierarchy.cluster_pairs(request_for(1), pairs);
-    ASSERT_EQ(cluster_pair_fault(pairs, moved, Box::none(), request_for(1)), "");
+    hierarchy.cluster_pairs(within(1), pairs);
+    ASSERT_EQ(cluster_pair_fault(pairs, moved, Box::none(), within(1)), "");
     ASSERT_EQ(pairs.particle.size(), first.size());
     EXPECT_EQ(is_kept(0), search <= 8) << search;
     EXPECT_EQ(is_kept(half), search <= 8) << search;
@@ -121,8 +106,8 @@ TEST(ClusterPairsEdges, OrdersOfPointsAreNotKeptWhenTheyComeAndGo) {
   TwoNodes nodes(24);
   ClusterPairs pairs;
   for (int step = 0; step < 12; ++step) {
-    nodes.hierarchy.cluster_pairs(request_for(1), pairs);
-    ASSERT_EQ(cluster_pair_fault(pairs, nodes.points, Box::none(), request_for(1)), "") << step;
+    nodes.hierarchy.cluster_pairs(within(1), pairs);
+    ASSERT_EQ(cluster_pair_fault(pairs, nodes.points, Box::none(), within(1)), "") << step;
     nodes.add();
   }
 }
@@ -130,18 +115,18 @@ TEST(ClusterPairsEdges, OrdersOfPointsAreNotKeptWhenTheyComeAndGo) {
 TEST(ClusterPairsEdges, OrdersOfPointsAreNotKeptForOtherPointsAsMany) {
   TwoNodes nodes(24);
   ClusterPairs pairs;
-  nodes.hierarchy.cluster_pairs(request_for(1), pairs);
+  nodes.hierarchy.cluster_pairs(within(1), pairs);
   std::swap(nodes.points[4], nodes.points[5]);
   nodes.hierarchy.update(nodes.points, Box::none());
-  nodes.hierarchy.cluster_pairs(request_for(1), pairs);
-  EXPECT_EQ(cluster_pair_fault(pairs, nodes.points, Box::none(), request_for(1)), "");
+  nodes.hierarchy.cluster_pairs(within(1), pairs);
+  EXPECT_EQ(cluster_pair_fault(pairs, nodes.points, Box::none(), within(1)), "");
 }
 
 TEST(ClusterPairsEdges, OrdersOfPointsAreNotKeptForThoseThatAreLeft) {
   TwoNodes nodes(10);
   ClusterPairs pairs;
   for (std::int32_t last = 11; last > 3; --last) {
-    nodes.hierarchy.cluster_pairs(request_for(1), pairs);
+    nodes.hierarchy.cluster_pairs(within(1), pairs);
     std::vector<std::int32_t> particles = pairs.particle;
     particles.erase(std::remove(particles.begin(), particles.end(), -1), particles.end());
     std::sort(particles.begin(), particles.end());
@@ -157,7 +142,7 @@ TEST(ClusterPairsEdges, ClustersAreNoPairUnlessPointsOfTheirsAre) {
   const std::vector<Vec3> points{{0, 0, 0}, {0.5, 0.5, 0}, {0.7, -0.2, 0}};
   ListedHierarchy hierarchy = hierarchy_of(points, Box::none(), 0.3, 0.72);
   ClusterPairs pairs;
-  hierarchy.cluster_pairs(request_for(0.3), pairs);
+  hierarchy.cluster_pairs(within(0.3), pairs);
   ASSERT_EQ(pairs.origin.size(), 2u);
   EXPECT_EQ(pairs.entries.size(), 1u) << "of the first node with itself";
 }

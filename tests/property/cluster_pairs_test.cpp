@@ -8,6 +8,7 @@
 
 #include "cluster_pair_check.hpp"
 #include "instruction_sets.hpp"
+#include "list_params.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
@@ -17,24 +18,6 @@ namespace {
 constexpr double kRadius = 1.0;
 
 class ClusterPairsScenes : public ::testing::TestWithParam<scenes::NamedBox> {};
-
-ListParams request_for(double cutoff, double skin = 0) {
-  ListParams request;
-  request.cutoffs = TypeCutoffs(cutoff);
-  request.skin = skin;
-  return request;
-}
-
-ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
-                             double base_radius = 0, Executor* executor = nullptr) {
-  StructureParams params;
-  params.radius = radius;
-  params.base_radius = base_radius;
-  params.executor = executor;
-  ListedHierarchy hierarchy(params);
-  hierarchy.build(points, box);
-  return hierarchy;
-}
 
 /// Entry by entry; images and masks included.
 bool same(const ClusterPairs& a, const ClusterPairs& b) {
@@ -60,8 +43,8 @@ TEST_P(ClusterPairsScenes, HoldEveryPairOnce) {
       for (const double base_radius : {0.0, 0.2 * kRadius, kRadius}) {
         ListedHierarchy hierarchy = hierarchy_of(scene.points, box, kRadius, base_radius);
         ClusterPairs pairs;
-        hierarchy.cluster_pairs(request_for(0.8, 0.2), pairs);
-        ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, request_for(0.8, 0.2)), "")
+        hierarchy.cluster_pairs(within_skin(0.8, 0.2), pairs);
+        ASSERT_EQ(cluster_pair_fault(pairs, scene.points, box, within_skin(0.8, 0.2)), "")
             << scene.name << ", n = " << n << ", R_0 = " << base_radius;
       }
 }
@@ -75,7 +58,7 @@ TEST_P(ClusterPairsScenes, LeaveOutExclusionsGhostsAndTypesWithoutACutoff) {
     for (std::size_t i = 0; i + 1 < types.size(); ++i)
       bonds.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1)});
     const Exclusions exclusions = Exclusions::from_bonds(types.size(), bonds, 2);
-    ListParams excluded = request_for(1), typed = request_for(1), ghosts = request_for(1);
+    ListParams excluded = within(1), typed = within(1), ghosts = within(1);
     excluded.exclusions = &exclusions;
     typed.cutoffs = TypeCutoffs(3, {0.5, 0.0, 1.0, 0.0, 0.0, 0.7, 1.0, 0.7, 0.9});
     typed.types = types;
@@ -107,7 +90,7 @@ TEST_P(ClusterPairsScenes, HoldEveryPairOnceInTheSmallestBox) {
   for (const double share : {1.0, 0.999, 0.9, 0.7})
     for (const double base_radius : {0.0, 0.3 * box.max_cutoff(), 3 * box.max_cutoff()})
       for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 150, box.max_cutoff() / 2.1)) {
-        const ListParams request = request_for(share * box.max_cutoff());
+        const ListParams request = within(share * box.max_cutoff());
         ListedHierarchy hierarchy = hierarchy_of(scene.points, box, box.max_cutoff(), base_radius);
         ClusterPairs pairs;
         hierarchy.cluster_pairs(request, pairs);
@@ -127,10 +110,10 @@ TEST_P(ClusterPairsScenes, AreTheSameOnEveryInstructionSetAndAnyNumberOfThreads)
       const auto pool = make_thread_pool(threads);
       ListedHierarchy hierarchy = hierarchy_of(points, box, 0.5, 0.6, pool.get());
       ClusterPairs pairs;
-      for (int repeat = 0; repeat < 2; ++repeat) hierarchy.cluster_pairs(request_for(0.5), pairs);
+      for (int repeat = 0; repeat < 2; ++repeat) hierarchy.cluster_pairs(within(0.5), pairs);
       if (expected.rows.empty()) {
         expected = pairs;
-        ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(0.5)), "");
+        ASSERT_EQ(cluster_pair_fault(pairs, points, box, within(0.5)), "");
       }
       ASSERT_TRUE(same(pairs, expected)) << threads << " threads, " << name(set);
     }
@@ -145,7 +128,7 @@ TEST_P(ClusterPairsScenes, StayCompleteUnderMotionWithinTheSkin) {
     if (scene.name == "one far point") continue;  // its motion is below rounding
     ListedHierarchy hierarchy = hierarchy_of(scene.points, box, kRadius);
     ClusterPairs pairs;
-    hierarchy.cluster_pairs(request_for(cutoff, skin), pairs);
+    hierarchy.cluster_pairs(within_skin(cutoff, skin), pairs);
     std::vector<Vec3> moved = scene.points;
     std::vector<Vec3> displacement(moved.size());
     for (Vec3& d : displacement) d = random.in_ball(0.5 * skin);
@@ -158,7 +141,7 @@ TEST_P(ClusterPairsScenes, StayCompleteUnderMotionWithinTheSkin) {
             moved[i] = moved[i] + (static_cast<double>(random.below(5)) - 2) * box.vector(axis);
       }
       pairs.refresh(moved, box);
-      ASSERT_EQ(cluster_pair_fault(pairs, moved, box, request_for(cutoff)), "") << scene.name << ", " << part;
+      ASSERT_EQ(cluster_pair_fault(pairs, moved, box, within(cutoff)), "") << scene.name << ", " << part;
     }
   }
 }
@@ -168,7 +151,7 @@ TEST_P(ClusterPairsScenes, RefreshGivesWhatANewSearchGives) {
   std::vector<Vec3> points = scenes::uniform_in(box, 400, 5);
   ListedHierarchy hierarchy = hierarchy_of(points, box, kRadius);
   ClusterPairs pairs;
-  hierarchy.cluster_pairs(request_for(kRadius), pairs);
+  hierarchy.cluster_pairs(within(kRadius), pairs);
   const auto before = pairs.at;
   pairs.refresh(points, box);
   for (std::size_t c = 0; c < before.size(); ++c)
@@ -195,8 +178,8 @@ TEST_P(ClusterPairsScenes, FollowTheStructureUnderMotion) {
     for (int step = 0; step < 12; ++step) {
       for (Vec3& p : points) p = p + random.in_cube((step < 8 ? 0.02 : 0.2) * radius);
       hierarchy.update(points, box);
-      hierarchy.cluster_pairs(request_for(radius), pairs);
-      ASSERT_EQ(cluster_pair_fault(pairs, points, box, request_for(radius)), "")
+      hierarchy.cluster_pairs(within(radius), pairs);
+      ASSERT_EQ(cluster_pair_fault(pairs, points, box, within(radius)), "")
           << "step " << step << ", radius " << radius;
     }
     EXPECT_GT(hierarchy.stats().refreshes, 0);
@@ -216,9 +199,9 @@ TEST(ClusterPairsTest, RefreshTakesAnotherShapeOfTheCell) {
     moved.push_back(strained.wrap(scenes::from_fractional(strained, box.fractional(p))));
   ListedHierarchy hierarchy = hierarchy_of(points, box, 1.2);
   ClusterPairs pairs;
-  hierarchy.cluster_pairs(request_for(1.2), pairs);
+  hierarchy.cluster_pairs(within(1.2), pairs);
   pairs.refresh(moved, strained);
-  EXPECT_EQ(cluster_pair_fault(pairs, moved, strained, request_for(0.9)), "");
+  EXPECT_EQ(cluster_pair_fault(pairs, moved, strained, within(0.9)), "");
 }
 
 TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
@@ -226,15 +209,14 @@ TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
   std::vector<Vec3> points = scenes::uniform_in(box, 50, 3);
   ListedHierarchy hierarchy = hierarchy_of(points, box, 1);
   ClusterPairs pairs;
-  EXPECT_THROW(hierarchy.cluster_pairs(request_for(1.1), pairs), InvalidParameter);
-  EXPECT_THROW(hierarchy.cluster_pairs(request_for(1e-10), pairs), InvalidParameter);
-  hierarchy.cluster_pairs(request_for(1), pairs);
+  EXPECT_THROW(hierarchy.cluster_pairs(within(1.1), pairs), InvalidParameter);
+  EXPECT_THROW(hierarchy.cluster_pairs(within(1e-10), pairs), InvalidParameter);
+  hierarchy.cluster_pairs(within(1), pairs);
   const double was = std::exchange(points[7].y, std::nan(""));
   EXPECT_THROW(pairs.refresh(points, box), InvalidPosition);
   points[7].y = was;
   pairs.refresh(points, box);
-  EXPECT_EQ(cluster_pair_fault(pairs, points, box, request_for(1)), "")
-      << "a refused position left something";
+  EXPECT_EQ(cluster_pair_fault(pairs, points, box, within(1)), "") << "a refused position left something";
   points.pop_back();
   EXPECT_THROW(pairs.refresh(points, box), InvalidParameter);
   points.push_back({});

@@ -17,7 +17,7 @@
 namespace dch {
 namespace {
 
-constexpr double kCutoff = 1.5;
+constexpr double kThreadCutoff = 1.5;
 
 class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
  protected:
@@ -35,7 +35,7 @@ class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
           charges.push_back(random.uniform(-1, 1));
         }
     random.shuffle(points);
-    request.cutoffs = TypeCutoffs(kCutoff);
+    request.cutoffs = TypeCutoffs(kThreadCutoff);
     request.skin = 0.2;
     HierarchyParams params;
     params.radius = request.list_radius();
@@ -64,9 +64,9 @@ class ForcesOnThreads : public ::testing::TestWithParam<scenes::NamedBox> {
 };
 
 TEST_P(ForcesOnThreads, AreTheSameBits) {
-  LennardJones potential({1, 0.9, kCutoff});
-  potential.set_coulomb({1, 0, {kCutoff}, 0, 0});
-  for (const ForcePrecision precision : {ForcePrecision::mixed, ForcePrecision::full}) {
+  LennardJones potential({1, 0.9, kThreadCutoff});
+  potential.set_coulomb({1, 0, {kThreadCutoff}, 0, 0});
+  for (const ForcePrecision precision : {ForcePrecision::mixed, ForcePrecision::double_precision}) {
     const Found expected = compute(potential, precision, nullptr);
     EXPECT_GT(norm2(expected.forces.front()), 0.0);
     for (const int threads : {1, 2, 3, 8, 1}) {

@@ -16,20 +16,20 @@
 namespace dch {
 namespace {
 
-constexpr double kRadius = 1.0;
+constexpr double kChurnRadius = 1.0;
 
 StructureParams params_with(EdgeRule rule, int max_roots) {
   StructureParams params;
-  params.radius = kRadius;
+  params.radius = kChurnRadius;
   params.edge_rule = rule;
-  if (rule == EdgeRule::additive) params.base_radius = kRadius / 2.1;  // small clusters: many levels
+  if (rule == EdgeRule::additive) params.base_radius = kChurnRadius / 2.1;  // small leaves: many levels
   params.max_roots = max_roots;
   return params;
 }
 
 ListParams whole_list() {
   ListParams params;
-  params.cutoffs = TypeCutoffs(kRadius);
+  params.cutoffs = TypeCutoffs(kChurnRadius);
   return params;
 }
 
@@ -193,7 +193,7 @@ TEST(HierarchyChurn, KeysCarryTheStructureThroughRenumbering) {
 }
 
 TEST(HierarchyChurn, RepeatedOrMissingKeysAreRefused) {
-  const auto search = make_dch_search(kRadius);
+  const auto search = make_dch_search(kChurnRadius);
   const std::vector<Vec3> points = scenes::uniform(5, {6, 6, 6}, 1);
   EXPECT_THROW(search->update(points, Box::none(), std::vector<std::uint64_t>{1, 2, 3, 4, 2}),
                InvalidParameter);

@@ -11,11 +11,10 @@
 #include "list_compare.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
+#include "shake.hpp"
 
 namespace dch {
 namespace {
-
-constexpr double kRadius = 1.0;
 
 std::vector<StructureParams> variants() {
   std::vector<StructureParams> all;
@@ -26,8 +25,7 @@ std::vector<StructureParams> variants() {
         params.radius = kRadius;
         params.edge_rule = rule;
         params.c = c;
-        if (rule == EdgeRule::additive)
-          params.base_radius = kRadius / (2 * c);  // small clusters: many levels
+        if (rule == EdgeRule::additive) params.base_radius = kRadius / (2 * c);  // small leaves: many levels
         params.max_roots = max_roots;
         all.push_back(params);
       }
@@ -86,13 +84,13 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
             ASSERT_EQ(first_difference(list, expected), "")
                 << scene.name << ", R_0 = " << base_radius << ", " << name(set);
             ListParams as_found = params;
-            as_found.order = RowOrder::by_structure;
+            as_found.order = RowOrder::unsorted;
             NeighborList other_order;
             hierarchy.list(as_found, other_order);
             if (set == InstructionSet::portable) first_set = other_order;
             ASSERT_EQ(first_difference(sorted_by_index(other_order, scene.points.size()), expected), "")
                 << scene.name << ", R_0 = " << base_radius << ", " << name(set);
-            ASSERT_EQ(first_difference(other_order, first_set), "") << "by structure, " << name(set);
+            ASSERT_EQ(first_difference(other_order, first_set), "") << "unsorted, " << name(set);
             for (std::size_t r = 0; params.first_ghost >= 0 && r < other_order.size(); ++r)
               ASSERT_TRUE(other_order.particle[r] < params.first_ghost || other_order.row(r).empty());
           }
@@ -102,8 +100,8 @@ TEST_P(HierarchyScenes, ListsEqualTheOracle) {
   }
 }
 
-// Clusters of hundreds of points, and of one or two; coordinates differ by many list radii within one.
-TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfClusters) {
+// Leaves of hundreds of points, and of one or two; coordinates differ by many list radii within one.
+TEST_P(HierarchyScenes, ListsDoNotDependOnTheSizeOfLeaves) {
   const Box box = GetParam().box;
   ListParams list_params;
   list_params.cutoffs = TypeCutoffs(0.5 * kRadius);
@@ -129,7 +127,7 @@ TEST_P(HierarchyScenes, ListsDoNotDependOnTheNumberOfThreads) {
   const std::vector<Vec3> points = scenes::uniform_in(box, 3000, 13);
   ListParams list_params;
   list_params.cutoffs = TypeCutoffs(0.4);
-  list_params.order = RowOrder::by_structure;
+  list_params.order = RowOrder::unsorted;
   NeighborList expected;
   for (const int threads : {1, 2, 3, 8}) {
     const auto pool = make_thread_pool(threads);

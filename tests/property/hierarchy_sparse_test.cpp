@@ -33,7 +33,7 @@ std::vector<Vec3> scene_in(const Box& box, std::size_t liquid, std::size_t gas, 
   return droplet_and_gas(Box::orthorhombic({kWide, kWide, kWide}), liquid, gas, seed);
 }
 
-std::vector<StructureParams> variants() {
+std::vector<StructureParams> sparse_variants() {
   StructureParams wide = repairing();
   wide.base_radius = 0;
   StructureParams lazy;
@@ -53,7 +53,7 @@ class HierarchySparse : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
   const Box box = GetParam().box;
-  for (const StructureParams& params : variants())
+  for (const StructureParams& params : sparse_variants())
     for (const double step : {0.01, 0.3, 3.0, 40.0}) {
       std::vector<Vec3> points = scene_in(box, 150, 120, 5);
       scenes::Random random(6);
@@ -64,14 +64,14 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
         for (Vec3& p : points) p = p + random.in_cube(step);
         hierarchy.update(points, box);
         ASSERT_EQ(hierarchy.validate(), "") << "step " << s << " of " << step;
-        NeighborList list, by_structure;
+        NeighborList list, unsorted;
         hierarchy.list(whole_list(), list);
         ASSERT_EQ(first_difference(list, all_pairs(points, box, whole_list())), "") << s << " of " << step;
         ListParams as_found = whole_list();
-        as_found.order = RowOrder::by_structure;
-        hierarchy.list(as_found, by_structure);
-        ASSERT_EQ(by_structure.size(), points.size()) << "every point has a row";
-        ASSERT_EQ(first_difference(sorted_by_index(by_structure, points.size()), list), "") << s;
+        as_found.order = RowOrder::unsorted;
+        hierarchy.list(as_found, unsorted);
+        ASSERT_EQ(unsorted.size(), points.size()) << "every point has a row";
+        ASSERT_EQ(first_difference(sorted_by_index(unsorted, points.size()), list), "") << s;
       }
     }
 }
@@ -79,7 +79,7 @@ TEST_P(HierarchySparse, ValidUnderMotionAndListsEqualTheOracle) {
 // Insertion next to a singleton expands it, removal of the other and a repair collapse it again.
 TEST_P(HierarchySparse, ValidUnderInsertionsAndRemovals) {
   const Box box = GetParam().box;
-  for (const StructureParams& params : variants()) {
+  for (const StructureParams& params : sparse_variants()) {
     const std::vector<Vec3> points = scene_in(box, 60, 100, 9);
     scenes::Random random(10);
     ListedHierarchy hierarchy(params);

@@ -16,7 +16,7 @@
 namespace dch {
 namespace {
 
-constexpr double kCutoff = 2.4, kSkin = 0.3;
+constexpr double kGasCutoff = 2.4, kGasSkin = 0.3;
 
 struct Terms {
   double switch_from = -1;  ///< negative: none
@@ -58,13 +58,13 @@ LennardJonesResult all_pairs_of(const Gas& gas, const Box& box, const Terms& ter
     for (std::size_t j = i + 1; j < gas.points.size(); ++j) {
       const Vec3 d = box.nearest_image(gas.points[j] - gas.points[i]);
       const double r = std::sqrt(norm2(d));
-      if (r >= kCutoff) continue;
+      if (r >= kGasCutoff) continue;
       const double sigma = (gas.particles[i].sigma + gas.particles[j].sigma) / 2;
       const double epsilon = std::sqrt(gas.particles[i].epsilon * gas.particles[j].epsilon);
       const double s6 = std::pow(sigma / r, 6);
       double energy = 4 * epsilon * (s6 * s6 - s6), force = 24 * epsilon * (2 * s6 * s6 - s6) / r;
       if (terms.switch_from >= 0 && r > terms.switch_from) {
-        const double width = kCutoff - terms.switch_from, t = (r - terms.switch_from) / width;
+        const double width = kGasCutoff - terms.switch_from, t = (r - terms.switch_from) / width;
         const double value = 1 - 10 * std::pow(t, 3) + 15 * std::pow(t, 4) - 6 * std::pow(t, 5);
         const double slope = (-30 * std::pow(t, 2) + 60 * std::pow(t, 3) - 30 * std::pow(t, 4)) / width;
         force = value * force - slope * energy;
@@ -91,12 +91,12 @@ LennardJones potential_of(const Gas& gas, const Terms& terms, bool by_particle) 
   std::vector<LennardJonesPair> matrix;
   for (const LennardJonesParticle& a : gas.of_kind)
     for (const LennardJonesParticle& b : gas.of_kind)
-      matrix.push_back({std::sqrt(a.epsilon * b.epsilon), 0.5 * (a.sigma + b.sigma), kCutoff});
+      matrix.push_back({std::sqrt(a.epsilon * b.epsilon), 0.5 * (a.sigma + b.sigma), kGasCutoff});
   LennardJones potential =
-      by_particle ? LennardJones(kCutoff, gas.particles) : LennardJones(static_cast<int>(side), matrix);
+      by_particle ? LennardJones(kGasCutoff, gas.particles) : LennardJones(static_cast<int>(side), matrix);
   CoulombTerm coulomb;
   coulomb.constant = 3.5;
-  coulomb.cutoffs.assign(by_particle ? 1 : side * side, kCutoff);
+  coulomb.cutoffs.assign(by_particle ? 1 : side * side, kGasCutoff);
   coulomb.quadratic = terms.quadratic;
   coulomb.offset = terms.offset;
   if (terms.has_charges) potential.set_coulomb(coulomb);
@@ -108,9 +108,9 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
                   const std::vector<double>& charges, const std::string& what) {
   const RestoreInstructionSet restore;
   for (const InstructionSet set : supported_sets())
-    for (const ForcePrecision precision : {ForcePrecision::full, ForcePrecision::mixed}) {
+    for (const ForcePrecision precision : {ForcePrecision::double_precision, ForcePrecision::mixed}) {
       set_instruction_set(set);
-      const bool full = precision == ForcePrecision::full;
+      const bool full = precision == ForcePrecision::double_precision;
       const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
       std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
       const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces, charges);
@@ -134,13 +134,13 @@ TEST(LennardJonesMixingTest, EqualsAllPairs) {
       const Box scatter = box.any_periodic() ? box : Box::orthorhombic({7, 7, 7});
       const Gas gas = make_gas(scatter, 300, kinds, static_cast<std::uint64_t>(kinds));
       HierarchyParams params;
-      params.radius = kCutoff + kSkin;
+      params.radius = kGasCutoff + kGasSkin;
       ListedHierarchy hierarchy(params);
       hierarchy.build(gas.points, box);
       ListParams request;
-      request.skin = kSkin;
+      request.skin = kGasSkin;
       const auto side = static_cast<std::size_t>(kinds);
-      request.cutoffs = TypeCutoffs(kinds, std::vector<double>(side * side, kCutoff));
+      request.cutoffs = TypeCutoffs(kinds, std::vector<double>(side * side, kGasCutoff));
       request.types = gas.kind;
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request, pairs);
@@ -174,7 +174,7 @@ TEST(LennardJonesMixingTest, FewerParticlesThanThreads) {
   const auto threads = make_thread_pool(8);
   potential.set_executor(threads.get());
   std::vector<Vec3> forces(2);
-  potential.add_forces(pairs, ForcePrecision::full, forces);
+  potential.add_forces(pairs, ForcePrecision::double_precision, forces);
   EXPECT_EQ(forces[1].x, 24);
   EXPECT_EQ(forces[0].x, -24);
 }
@@ -225,7 +225,7 @@ TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
   std::vector<Vec3> forces(3);
   LennardJones mixing(2, two), switched({1, 1, 2});
   switched.set_switch(1);
-  EXPECT_THROW(mixing.add_forces(pairs, ForcePrecision::full, forces), InvalidParameter);
+  EXPECT_THROW(mixing.add_forces(pairs, ForcePrecision::double_precision, forces), InvalidParameter);
   EXPECT_THROW(switched.add_forces(one_by_one, points, Box::none(), forces), InvalidParameter);
 }
 

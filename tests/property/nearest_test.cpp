@@ -21,6 +21,7 @@
 #include "error_message.hpp"
 #include "hierarchy/structure.hpp"
 #include "instruction_sets.hpp"
+#include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
 
@@ -46,47 +47,11 @@ std::vector<Neighbor> sorted_by_distance(const HierarchyView& view, Vec3 from, s
   return all;
 }
 
-class NearestScene {
+/// Queries of a scene as it is, with parameters drawn at random.
+class NearestQueries {
  public:
-  explicit NearestScene(std::uint64_t seed) : scene_(seed, 260) {
+  explicit NearestQueries(ProximityScene& scene) : scene_(scene) {
     threads_ = make_thread_pool(1 + static_cast<int>(scene_.random.below(3)));
-  }
-
-  void check() {
-    const RestoreInstructionSet restore;
-    const auto sets = supported_sets();
-    set_instruction_set(sets[scene_.random.below(sets.size())]);
-    for (int step = 0; step < 4; ++step) {
-      ASSERT_NO_FATAL_FAILURE(check_points(scene_.view()));
-      ASSERT_NO_FATAL_FAILURE(check_positions(scene_.view()));
-      scene_.change(step);
-    }
-  }
-
-  /// The same while the hierarchy keeps up what queries need, with nothing but insertions and removals
-  /// between.
-  void check_kept() {
-    scene_.kept_view();
-    for (int step = 0; step < 12; ++step) {
-      scene_.exchange();
-      if (step == 6) scene_.measured_view();
-      ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
-      if (step % 4 == 1) {
-        ASSERT_NO_FATAL_FAILURE(check_points(scene_.kept_view()));
-      }
-    }
-    scene_.move();
-    ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
-    scene_.exchange();
-    ASSERT_NO_FATAL_FAILURE(check_positions(scene_.kept_view()));
-  }
-
- private:
-  NearestParams ask() {
-    NearestParams params;
-    params.k = 1 + static_cast<std::int32_t>(scene_.random.below(scene_.random.below(4) == 0 ? 300 : 14));
-    params.executor = threads_.get();
-    return params;
   }
 
   void check_points(const HierarchyView& view) {
@@ -109,6 +74,14 @@ class NearestScene {
     for (std::size_t q = 0; q < queries.size(); ++q)
       ASSERT_NO_FATAL_FAILURE(check_row(rows, q, sorted_by_distance(view, queries[q], -1), params.epsilon));
   }
+
+ private:
+  NearestParams ask() {
+    NearestParams params;
+    params.k = 1 + static_cast<std::int32_t>(scene_.random.below(scene_.random.below(4) == 0 ? 300 : 14));
+    params.executor = threads_.get();
+    return params;
+  }
   void check_row(const NearestRows& rows, std::size_t row, const std::vector<Neighbor>& expected,
                  double epsilon) {
     const Span<const std::int32_t> ids = rows.row(row);
@@ -129,18 +102,48 @@ class NearestScene {
     }
   }
 
-  ProximityScene scene_;
+  ProximityScene& scene_;
   std::unique_ptr<Executor> threads_;
 };
 
 TEST(Nearest, EqualsAllPairsInRandomScenes) {
-  for (int k = 0; k < effort(400); ++k)
-    ASSERT_NO_FATAL_FAILURE(NearestScene(2000000 + static_cast<std::uint64_t>(k)).check());
+  const RestoreInstructionSet restore;
+  const auto sets = supported_sets();
+  for (int k = 0; k < effort(160); ++k) {
+    ProximityScene scene(2000000 + static_cast<std::uint64_t>(k), 260);
+    NearestQueries queries(scene);
+    set_instruction_set(sets[scene.random.below(sets.size())]);
+    for (int step = 0; step < 4; ++step) {
+      ASSERT_NO_FATAL_FAILURE(queries.check_points(scene.view()));
+      ASSERT_NO_FATAL_FAILURE(queries.check_positions(scene.view()));
+      scene.change(step);
+    }
+  }
+}
+
+/// The same while the hierarchy keeps up what queries need, with nothing but insertions and removals between.
+void check_kept(ProximityScene& scene) {
+  NearestQueries queries(scene);
+  scene.kept_view();
+  for (int step = 0; step < 12; ++step) {
+    scene.exchange();
+    if (step == 6) scene.measured_view();
+    ASSERT_NO_FATAL_FAILURE(queries.check_positions(scene.kept_view()));
+    if (step % 4 == 1) {
+      ASSERT_NO_FATAL_FAILURE(queries.check_points(scene.kept_view()));
+    }
+  }
+  scene.move();
+  ASSERT_NO_FATAL_FAILURE(queries.check_positions(scene.kept_view()));
+  scene.exchange();
+  ASSERT_NO_FATAL_FAILURE(queries.check_positions(scene.kept_view()));
 }
 
 TEST(Nearest, EqualsAllPairsWhereAHierarchyKeepsUp) {
-  for (int k = 0; k < effort(300); ++k)
-    ASSERT_NO_FATAL_FAILURE(NearestScene(3000000 + static_cast<std::uint64_t>(k)).check_kept());
+  for (int k = 0; k < effort(120); ++k) {
+    ProximityScene scene(3000000 + static_cast<std::uint64_t>(k), 260);
+    ASSERT_NO_FATAL_FAILURE(check_kept(scene));
+  }
 }
 
 Hierarchy hierarchy_of(const std::vector<Vec3>& points, double radius) {
@@ -250,4 +253,11 @@ TEST(Nearest, OfNothingIsNothing) {
 }
 
 }  // namespace
+
+void check_nearest(ProximityScene& scene) {
+  NearestQueries queries(scene);
+  ASSERT_NO_FATAL_FAILURE(queries.check_points(scene.view()));
+  ASSERT_NO_FATAL_FAILURE(queries.check_positions(scene.view()));
+}
+
 }  // namespace dch

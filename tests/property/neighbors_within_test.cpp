@@ -19,13 +19,13 @@
 #include "effort.hpp"
 #include "error_message.hpp"
 #include "liquid.hpp"
+#include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 std::vector<std::pair<double, std::int32_t>> all_within(const HierarchyView& view,
                                                         const std::vector<std::int32_t>& ids, Vec3 from,
@@ -47,27 +47,10 @@ std::vector<std::pair<double, std::int32_t>> row_of(const NeighborsWithinRows& r
 }
 
 TEST(NeighborsWithin, EqualAllPairsInRandomScenes) {
-  for (int k = 0; k < effort(400); ++k) {
+  for (int k = 0; k < effort(200); ++k) {
     ProximityScene scene(8000000 + static_cast<std::uint64_t>(k), 200);
     for (int step = 0; step < 4; ++step) {
-      const std::string what = scene.what() + ", step " + std::to_string(step);
-      const std::vector<std::int32_t> ids = scene.ids();
-      const HierarchyView view = scene.view();
-      const NeighborsWithin neighbors(view);
-      const double widest = std::min(10.0, scene.box().max_cutoff());
-      const double radius =
-          scene.random.below(5) == 0 ? widest : widest * std::pow(10, scene.random.uniform(-3, 0));
-      const NeighborsWithinRows of_points = neighbors.of_points(ids, radius);
-      ASSERT_EQ(of_points.size(), ids.size());
-      for (std::size_t p = 0; p < ids.size(); ++p)
-        ASSERT_EQ(row_of(of_points, p), all_within(view, ids, view.position(ids[p]), ids[p], radius))
-            << what << ", radius " << radius;
-      std::vector<Vec3> positions;
-      for (int q = 0; q < 10; ++q) positions.push_back(scene.somewhere());
-      const NeighborsWithinRows of_positions = neighbors.of_positions(positions, radius);
-      for (std::size_t q = 0; q < positions.size(); ++q)
-        ASSERT_EQ(row_of(of_positions, q), all_within(view, ids, positions[q], -1, radius))
-            << what << ", radius " << radius;
+      ASSERT_NO_FATAL_FAILURE(check_neighbors_within(scene)) << "step " << step;
       scene.change(step);
     }
   }
@@ -76,7 +59,7 @@ TEST(NeighborsWithin, EqualAllPairsInRandomScenes) {
 TEST(NeighborsWithin, AreAllPointsAtNoLimitInAnOpenBox) {
   Hierarchy hierarchy = liquid(4, Box::none());
   const NeighborsWithinRows rows =
-      NeighborsWithin(hierarchy.view()).of_points(std::vector<std::int32_t>{5, 63}, kFar);
+      NeighborsWithin(hierarchy.view()).of_points(std::vector<std::int32_t>{5, 63}, kInfinity);
   EXPECT_EQ(rows.row(0).size(), 63u);
   EXPECT_EQ(rows.row(1).size(), 63u);
 }
@@ -120,9 +103,29 @@ TEST(NeighborsWithin, BadInputIsNamed) {
   EXPECT_THAT(test::message_of<InvalidParameter>([&] { neighbors.of_points(none, 1); }),
               testing::HasSubstr("neighbors of point 64 were asked for, and there is no point with that id"));
   EXPECT_THROW(neighbors.of_points(std::vector<std::int32_t>{-1}, 1), InvalidParameter);
-  EXPECT_THROW(neighbors.of_positions(std::vector<Vec3>{{0, kFar, 0}}, 1), InvalidPosition);
+  EXPECT_THROW(neighbors.of_positions(std::vector<Vec3>{{0, kInfinity, 0}}, 1), InvalidPosition);
   EXPECT_EQ(neighbors.of_points({}, 1).size(), 0u);
 }
 
 }  // namespace
+
+void check_neighbors_within(ProximityScene& scene) {
+  const std::vector<std::int32_t> ids = scene.ids();
+  const HierarchyView view = scene.view();
+  const NeighborsWithin neighbors(view);
+  const double widest = std::min(10.0, scene.box().max_cutoff());
+  const double radius =
+      scene.random.below(5) == 0 ? widest : widest * std::pow(10, scene.random.uniform(-3, 0));
+  const std::string what = scene.what() + ", radius " + std::to_string(radius);
+  const NeighborsWithinRows of_points = neighbors.of_points(ids, radius);
+  ASSERT_EQ(of_points.size(), ids.size()) << what;
+  for (std::size_t p = 0; p < ids.size(); ++p)
+    ASSERT_EQ(row_of(of_points, p), all_within(view, ids, view.position(ids[p]), ids[p], radius)) << what;
+  std::vector<Vec3> positions;
+  for (int q = 0; q < 10; ++q) positions.push_back(scene.somewhere());
+  const NeighborsWithinRows of_positions = neighbors.of_positions(positions, radius);
+  for (std::size_t q = 0; q < positions.size(); ++q)
+    ASSERT_EQ(row_of(of_positions, q), all_within(view, ids, positions[q], -1, radius)) << what;
+}
+
 }  // namespace dch

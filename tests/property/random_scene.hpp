@@ -21,10 +21,10 @@
 namespace dch {
 
 /// A host that lists just some of the pairs that are near their cutoffs.
-class SomeNearCutoff : public PairTest {
+class SomeNearCutoff : public TieBreaker {
  public:
   SomeNearCutoff(double error, const std::vector<Vec3>& points, const Box& box, const ListParams& request)
-      : PairTest(error), points_(points), box_(box), request_(request) {}
+      : TieBreaker(error), points_(points), box_(box), request_(request) {}
 
   bool accepts(std::int32_t i, std::int32_t j) const override {
     const double off = std::sqrt(box_.distance2(points_[i], points_[j])) - cutoff(i, j) - request_.skin;
@@ -78,7 +78,7 @@ class RandomScene {
         engine->update(points_, box_.box);
         const NeighborList list = engine->list(request_);
         ASSERT_EQ(first_difference(
-                      request_.order == RowOrder::by_structure ? sorted_by_index(list, points_.size()) : list,
+                      request_.order == RowOrder::unsorted ? sorted_by_index(list, points_.size()) : list,
                       expected),
                   "")
             << engine->name() << ", step " << step << ", " << what_;
@@ -148,10 +148,10 @@ class RandomScene {
       request_.first_ghost = static_cast<std::int32_t>(random_.below(points_.size() + 1));
       what_ += ", ghosts from " + std::to_string(request_.first_ghost);
     }
-    if (request_.kind == ListKind::half && coin()) request_.order = RowOrder::by_structure;
+    if (request_.kind == ListKind::half && coin()) request_.order = RowOrder::unsorted;
     if (random_.below(4) == 0) {
-      near_cutoff_ = std::make_unique<SomeNearCutoff>(0.01 * reach_, points_, box_.box, request_);
-      request_.near_cutoff = near_cutoff_.get();
+      tie_breaker_ = std::make_unique<SomeNearCutoff>(0.01 * reach_, points_, box_.box, request_);
+      request_.tie_breaker = tie_breaker_.get();
       what_ += ", a test near the cutoff";
     }
   }
@@ -176,7 +176,7 @@ class RandomScene {
   std::vector<std::int32_t> types_;
   Exclusions exclusions_;
   ListParams request_;
-  std::unique_ptr<PairTest> near_cutoff_;
+  std::unique_ptr<TieBreaker> tie_breaker_;
   StructureParams hierarchy_;
   std::unique_ptr<Executor> threads_;
   std::string what_;

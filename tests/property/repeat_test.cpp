@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The same updates give the same structure, lists and cluster pairs, whatever else the machine does
-// meanwhile, on any number of threads and any instruction set.
+// The same updates give the same structure, lists, cluster pairs and choice of engine, whatever else the
+// machine does meanwhile, on any number of threads and any instruction set.
 #include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -25,10 +26,12 @@ struct Outcome {
   std::vector<std::int64_t> work;  ///< after each update
   std::vector<NeighborList> lists;
   std::vector<ClusterPairs> pairs;
+  std::vector<std::string> choices{};  ///< of the engine, each once
 };
 
 std::string first_difference(const Outcome& a, const Outcome& b) {
   if (a.work != b.work) return "other work was done";
+  if (a.choices != b.choices) return "other engines were chosen";
   for (std::size_t k = 0; k < a.lists.size(); ++k) {
     const NeighborList &p = a.lists[k], &q = b.lists[k];
     if (p.first != q.first || p.particle != q.particle ||
@@ -53,7 +56,7 @@ void pause_at_times(int update) {
   if (update % 5 == 3) std::this_thread::sleep_for(std::chrono::milliseconds(30));
 }
 
-/// Lists by structure of the grid, which keeps nothing.
+/// Unsorted lists of the grid, which keeps nothing.
 std::vector<NeighborList> grid_lists(const Box& box, Executor* executor) {
   const auto search = make_grid_search(kRadius, executor);
   std::vector<Vec3> points = scenes::uniform_in(box, 6000, 5);
@@ -61,7 +64,7 @@ std::vector<NeighborList> grid_lists(const Box& box, Executor* executor) {
   ListParams request;
   request.cutoffs = TypeCutoffs(0.9);
   request.skin = 0.1;
-  request.order = RowOrder::by_structure;
+  request.order = RowOrder::unsorted;
   request.shell = 0.1;
   std::vector<NeighborList> lists;
   for (int update = 0; update < 3; ++update) {
@@ -86,7 +89,7 @@ Outcome run(const Box& box, bool keys, Executor* executor, Pause pause) {
   Outcome outcome;
   ListParams request;
   request.cutoffs = TypeCutoffs(kRadius);
-  request.order = RowOrder::by_structure;
+  request.order = RowOrder::unsorted;
   for (int update = 0; update < kUpdates; ++update) {
     const double step = update % 4 == 0 ? 0.01 : update % 4 == 1 ? 0.3 : update % 4 == 2 ? 0.7 : 2;
     for (Vec3& p : points) p = p + random.in_cube(step);
@@ -103,6 +106,50 @@ Outcome run(const Box& box, bool keys, Executor* executor, Pause pause) {
   }
   EXPECT_GT(search->stats().builds + search->stats().repairs, 3) << "nothing was decided";
   return outcome;
+}
+
+/// A liquid that gathers in crowds and spreads again, followed by the engine that chooses.
+Outcome run_of_choice(const Box& box, Executor* executor, Pause pause) {
+  // Cells of the skewed box hold few points: more of them are needed for a grid to be worth it.
+  const bool is_skewed = box.kind() == Box::Kind::triclinic;
+  const std::size_t crowds = is_skewed ? 60 : 8, in_each = is_skewed ? 120 : 250;
+  constexpr int kUpdatesOfAPhase = 36;  // more than between two looks
+  HierarchyParams params;
+  params.radius = kRadius;
+  params.executor = executor;
+  const auto search = make_search("auto", params);
+  scenes::Random random(8);
+  ListParams request;
+  request.cutoffs = TypeCutoffs(kRadius);
+  request.order = RowOrder::unsorted;
+  const std::vector<Vec3> even = scenes::uniform_in(box, crowds * in_each, 5);
+  std::vector<Vec3> crowded;
+  while (crowded.size() < even.size())
+    crowded.push_back(even[crowded.size() / in_each] + random.in_ball(is_skewed ? 0.4 : 0.2));
+  Outcome outcome;
+  for (int update = 0; update < 3 * kUpdatesOfAPhase; ++update) {
+    std::vector<Vec3> points = update / kUpdatesOfAPhase == 1 ? crowded : even;
+    for (Vec3& p : points) p = p + random.in_cube(0.05);
+    pause(update);
+    search->update(points, box);
+    outcome.lists.push_back(search->list(request));
+    const SearchStats& s = search->stats();
+    outcome.work.insert(outcome.work.end(), {s.builds, s.repairs, s.refreshes, s.distances});
+    if (outcome.choices.empty() || outcome.choices.back() != search->choice())
+      outcome.choices.push_back(search->choice());
+  }
+  return outcome;
+}
+
+/// The engines alone.
+std::string engines_of(const Outcome& outcome) {
+  std::string engines, last;
+  for (const std::string& choice : outcome.choices) {
+    const std::string engine = choice.substr(0, choice.find(':')) + " ";
+    if (engine != last) engines += engine;  // the same engine may be chosen anew by other counts
+    last = engine;
+  }
+  return engines;
 }
 
 /// One of each metric.
@@ -155,6 +202,23 @@ TEST_P(Repeats, OfTheGrid) {
   for (const InstructionSet set : supported_sets()) {
     set_instruction_set(set);
     EXPECT_EQ(first_difference(expected, {{}, grid_lists(GetParam().box, nullptr), {}}), "") << name(set);
+  }
+}
+
+TEST_P(Repeats, OfTheChoiceOnAnyNumberOfThreads) {
+  const Outcome expected = run_of_choice(GetParam().box, nullptr, no_pause);
+  EXPECT_EQ(engines_of(expected), "grid dch grid ");
+  const auto pool = make_thread_pool(3);
+  EXPECT_EQ(first_difference(expected, run_of_choice(GetParam().box, pool.get(), no_pause)), "");
+}
+
+TEST_P(Repeats, OfTheChoiceWithPausesAndInstructionSets) {
+  const RestoreInstructionSet restore;
+  const Outcome expected = run_of_choice(GetParam().box, nullptr, no_pause);
+  EXPECT_EQ(first_difference(expected, run_of_choice(GetParam().box, nullptr, pause_at_times)), "");
+  for (const InstructionSet set : supported_sets()) {
+    set_instruction_set(set);
+    EXPECT_EQ(first_difference(expected, run_of_choice(GetParam().box, nullptr, no_pause)), "") << name(set);
   }
 }
 

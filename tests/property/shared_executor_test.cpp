@@ -99,7 +99,8 @@ TEST(SharedExecutor, ThreadsSumUpForcesSideBySide) {
     LennardJones potential({1, 0.9, 1.5});
     potential.set_executor(executor);
     std::vector<Vec3> forces(points.size());
-    for (int round = 0; round < 5; ++round) potential.add_forces(pairs, ForcePrecision::full, forces);
+    for (int round = 0; round < 5; ++round)
+      potential.add_forces(pairs, ForcePrecision::double_precision, forces);
     return forces;
   };
   const std::vector<Vec3> expected = forces_on(nullptr);

@@ -19,6 +19,7 @@
 #include "effort.hpp"
 #include "error_message.hpp"
 #include "liquid.hpp"
+#include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
 
@@ -57,31 +58,7 @@ TEST(Spanners, HaveShortPathsBetweenAllPairsInRandomScenes) {
   for (int k = 0; k < effort(200); ++k) {
     ProximityScene scene(4000000 + static_cast<std::uint64_t>(k), 70);
     for (int step = 0; step < 4; ++step) {
-      const std::vector<std::int32_t> ids = scene.ids();
-      const PointTree tree(scene.view());
-      const double epsilon = std::pow(10, scene.random.uniform(-1.5, 1.5));
-      const Spanner spanner(tree, epsilon);
-      const std::vector<double> expected = all_paths(spanner, ids);
-      const std::string what =
-          scene.what() + ", step " + std::to_string(step) + ", epsilon " + std::to_string(epsilon);
-      const double slack = 4 * static_cast<double>(ids.size()) * tree.rounding();
-      for (std::size_t p = 0; p < ids.size(); ++p) {
-        const std::vector<double> lengths = spanner.path_lengths(ids[p]);
-        for (std::size_t q = 0; q < ids.size(); ++q) {
-          const double distance = std::sqrt(tree.distance2(ids[p], ids[q]));
-          const double length = lengths[static_cast<std::size_t>(ids[q])];
-          ASSERT_LE(length, (1 + epsilon) * distance * (1 + 1e-12) + slack) << what;
-          ASSERT_NEAR(length, expected[p * ids.size() + q], 1e-12 * length) << what;
-        }
-      }
-      if (!ids.empty()) {
-        const std::int32_t from = ids[scene.random.below(ids.size())], to = ids.back();
-        const SpannerPath path = spanner.shortest_path(from, to);
-        ASSERT_EQ(path.points.front(), from) << what;
-        ASSERT_EQ(path.points.back(), to) << what;
-        ASSERT_EQ(path.length, spanner.path_lengths(from)[static_cast<std::size_t>(to)]) << what;
-        ASSERT_NO_FATAL_FAILURE(check_path(spanner, tree, path)) << what;
-      }
+      ASSERT_NO_FATAL_FAILURE(check_spanner(scene)) << "step " << step;
       scene.change(step);
     }
   }
@@ -156,4 +133,31 @@ TEST(Spanners, OfNothingAndOfOnePointThereAreNoEdges) {
 }
 
 }  // namespace
+
+void check_spanner(ProximityScene& scene) {
+  const std::vector<std::int32_t> ids = scene.ids();
+  const PointTree tree(scene.view());
+  const double epsilon = std::pow(10, scene.random.uniform(-1.5, 1.5));
+  const Spanner spanner(tree, epsilon);
+  const std::vector<double> expected = all_paths(spanner, ids);
+  const std::string what = scene.what() + ", epsilon " + std::to_string(epsilon);
+  const double slack = 4 * static_cast<double>(ids.size()) * tree.rounding();
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    const std::vector<double> lengths = spanner.path_lengths(ids[p]);
+    for (std::size_t q = 0; q < ids.size(); ++q) {
+      const double distance = std::sqrt(tree.distance2(ids[p], ids[q]));
+      const double length = lengths[static_cast<std::size_t>(ids[q])];
+      ASSERT_LE(length, (1 + epsilon) * distance * (1 + 1e-12) + slack) << what;
+      ASSERT_NEAR(length, expected[p * ids.size() + q], 1e-12 * length) << what;
+    }
+  }
+  if (ids.empty()) return;
+  const std::int32_t from = ids[scene.random.below(ids.size())], to = ids.back();
+  const SpannerPath path = spanner.shortest_path(from, to);
+  ASSERT_EQ(path.points.front(), from) << what;
+  ASSERT_EQ(path.points.back(), to) << what;
+  ASSERT_EQ(path.length, spanner.path_lengths(from)[static_cast<std::size_t>(to)]) << what;
+  ASSERT_NO_FATAL_FAILURE(check_path(spanner, tree, path)) << what;
+}
+
 }  // namespace dch

@@ -2,8 +2,10 @@
 //
 // Minimum spanning trees and the clusters in them, in all boxes and of hard point sets, against all pairs.
 #include <algorithm>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,8 @@
 #include <dch/proximity/spanning_tree.hpp>
 
 #include "effort.hpp"
+#include "proximity_checks.hpp"
+#include "proximity_scene.hpp"
 #include "scenes.hpp"
 
 namespace dch {
@@ -29,15 +33,14 @@ class Sets {
   std::vector<std::size_t> above_;
 };
 
-/// Kruskal's algorithm over all pairs.
-std::vector<TreeEdge> all_pairs_tree(const std::vector<Vec3>& points, const Box& box) {
+/// Kruskal's algorithm over all pairs of some points.
+std::vector<TreeEdge> all_pairs_tree(const HierarchyView& view, const std::vector<std::int32_t>& ids) {
   std::vector<TreeEdge> all, tree;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size(); ++j)
-      all.push_back(
-          {static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), box.distance2(points[i], points[j])});
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (std::size_t j = i + 1; j < ids.size(); ++j)
+      all.push_back({ids[i], ids[j], view.box().distance2(view.position(ids[i]), view.position(ids[j]))});
   std::sort(all.begin(), all.end());
-  Sets sets(points.size());
+  Sets sets(view.capacity());
   for (const TreeEdge& edge : all) {
     const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
     if (sets.of(a) == sets.of(b)) continue;
@@ -45,6 +48,25 @@ std::vector<TreeEdge> all_pairs_tree(const std::vector<Vec3>& points, const Box&
     tree.push_back(edge);
   }
   return tree;
+}
+
+void check_tree(const HierarchyView& view, const std::vector<std::int32_t>& ids, const std::string& what) {
+  const SpanningTree tree = minimum_spanning_tree(view);
+  const std::vector<TreeEdge> expected = all_pairs_tree(view, ids);
+  ASSERT_EQ(tree.points.size(), ids.size()) << what;
+  ASSERT_EQ(tree.edges.size(), expected.size()) << what;
+  for (std::size_t e = 0; e < expected.size(); ++e)
+    ASSERT_TRUE(!(tree.edges[e] < expected[e]) && !(expected[e] < tree.edges[e])) << what << ", edge " << e;
+}
+
+TEST(SpanningTreesThatChange, EqualThoseOfAllPairsInRandomScenes) {
+  for (int k = 0; k < effort(200); ++k) {
+    ProximityScene scene(9000000 + static_cast<std::uint64_t>(k), 120);
+    for (int step = 0; step < 4; ++step) {
+      ASSERT_NO_FATAL_FAILURE(check_spanning_tree(scene)) << "step " << step;
+      scene.change(step);
+    }
+  }
 }
 
 class SpanningTrees : public testing::TestWithParam<scenes::NamedBox> {};
@@ -61,13 +83,11 @@ TEST_P(SpanningTrees, EqualThatOfAllPairsAlsoAfterMotion) {
       hierarchy.build(points, box);
       scenes::Random random(n);
       for (int step = 0; step < 2; ++step) {
-        const SpanningTree tree = minimum_spanning_tree(hierarchy.view());
-        const std::vector<TreeEdge> expected = all_pairs_tree(points, box);
-        ASSERT_EQ(tree.points.size(), points.size());
-        ASSERT_EQ(tree.edges.size(), expected.size()) << set.name;
-        for (std::size_t e = 0; e < expected.size(); ++e)
-          ASSERT_TRUE(!(tree.edges[e] < expected[e]) && !(expected[e] < tree.edges[e]))
-              << set.name << ", " << points.size() << " points, step " << step << ", edge " << e;
+        std::vector<std::int32_t> ids(points.size());
+        std::iota(ids.begin(), ids.end(), 0);
+        ASSERT_NO_FATAL_FAILURE(check_tree(
+            hierarchy.view(), ids,
+            set.name + ", " + std::to_string(points.size()) + " points, step " + std::to_string(step)));
         for (Vec3& p : points) p = p + random.in_cube(0.05);
         hierarchy.update(points, box);
       }
@@ -110,4 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Boxes, SpanningTrees, testing::ValuesIn(scenes::all_box
                          [](const auto& box) { return box.param.name; });
 
 }  // namespace
+
+void check_spanning_tree(ProximityScene& scene) { check_tree(scene.view(), scene.ids(), scene.what()); }
+
 }  // namespace dch

@@ -19,6 +19,7 @@
 #include "effort.hpp"
 #include "error_message.hpp"
 #include "liquid.hpp"
+#include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
 
@@ -95,32 +96,40 @@ void check_pair(const PointTree& tree, const WellSeparatedPair& pair, double s, 
   }
 }
 
+struct PairsSeen {
+  std::int64_t in_one_image = 0, in_several = 0;
+};
+
+void check_pairs(ProximityScene& scene, PairsSeen& seen) {
+  const PointTree tree(scene.view());
+  ASSERT_NO_FATAL_FAILURE(check_tree(tree, scene.ids(), scene.what()));
+  const double s = std::pow(10, scene.random.uniform(-1, 1.3));
+  const std::string what = scene.what() + ", s = " + std::to_string(s);
+  const WellSeparatedPairs decomposition = well_separated_pairs(tree, s);
+  const std::vector<int> times = covers(tree, decomposition);
+  for (std::size_t p = 0; p < tree.size(); ++p)
+    for (std::size_t q = 0; q < tree.size(); ++q)
+      ASSERT_EQ(times[p * tree.size() + q], p < q ? 1 : 0) << what;
+  for (const WellSeparatedPair& pair : decomposition.pairs) {
+    ASSERT_NO_FATAL_FAILURE(check_pair(tree, pair, s, what));
+    ++(pair.has_one_image ? seen.in_one_image : seen.in_several);
+  }
+}
+
 TEST(WellSeparatedPairs, CoverEachPairOnceInRandomScenes) {
   int pending = 0;
-  std::int64_t in_one_image = 0, in_several = 0;
+  PairsSeen seen;
   for (int k = 0; k < effort(300); ++k) {
     ProximityScene scene(3000000 + static_cast<std::uint64_t>(k), 200);
     for (int step = 0; step < 4; ++step) {
-      const std::string what = scene.what() + ", step " + std::to_string(step);
       pending += scene.view().repair_pending();
-      const PointTree tree(scene.view());
-      ASSERT_NO_FATAL_FAILURE(check_tree(tree, scene.ids(), what));
-      const double s = std::pow(10, scene.random.uniform(-1, 1.3));
-      const WellSeparatedPairs decomposition = well_separated_pairs(tree, s);
-      const std::vector<int> times = covers(tree, decomposition);
-      for (std::size_t p = 0; p < tree.size(); ++p)
-        for (std::size_t q = 0; q < tree.size(); ++q)
-          ASSERT_EQ(times[p * tree.size() + q], p < q ? 1 : 0) << what << ", s = " << s;
-      for (const WellSeparatedPair& pair : decomposition.pairs) {
-        ASSERT_NO_FATAL_FAILURE(check_pair(tree, pair, s, what + ", s = " + std::to_string(s)));
-        ++(pair.has_one_image ? in_one_image : in_several);
-      }
+      ASSERT_NO_FATAL_FAILURE(check_pairs(scene, seen)) << "step " << step;
       scene.change(step);
     }
   }
   EXPECT_GT(pending, 20);
-  EXPECT_GT(in_several, 1000);
-  EXPECT_GT(in_one_image, in_several);
+  EXPECT_GT(seen.in_several, 1000);
+  EXPECT_GT(seen.in_one_image, seen.in_several);
 }
 
 // 13,824 points: where balls are s diameters apart, which is s = 2 here for the thesis's 1, its conflict
@@ -193,4 +202,10 @@ TEST(WellSeparatedPairs, OfNothingAndOfOnePointThereAreNone) {
 }
 
 }  // namespace
+
+void check_well_separated_pairs(ProximityScene& scene) {
+  PairsSeen seen;
+  check_pairs(scene, seen);
+}
+
 }  // namespace dch

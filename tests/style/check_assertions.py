@@ -35,9 +35,10 @@ def has_assertions(words):
 
 
 def wrong_sources(source, build, wanted):
-    """Of the sources of this project, not of those that a build generates."""
+    """Of the sources of this project, one by one or some together, not of those that a build generates."""
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    ours = [c for c in commands if source in pathlib.Path(c["file"]).parents and build not in pathlib.Path(c["file"]).parents]
+    ours = [c for c in commands if source in (file := pathlib.Path(c["file"])).parents
+            and (build not in file.parents or file.parent.name == "Unity")]
     found = [f"{c['file']}: compiled {'without' if wanted else 'with'} assertions" for c in ours
              if has_assertions(shlex.split(c["command"])) != wanted]
     return len(ours), found

@@ -9,10 +9,10 @@ import sys
 # From the ground up. A floor is the part of a path after src/ or include/dch/; the longest one that fits holds.
 FLOORS = {
     "lib": ["base", "simd", "geometry", "hierarchy", "leaves", "lists", "clusters", "engines", "grid"],
-    "necklace_polymer": ["chains", "balls", "cages", "contacts", "analysis", "generators"],
+    "necklace_polymer": ["chains", "balls", "cages", "contacts", "crossing", "analysis", "generators"],
     "trajectory": ["base", "files", "frames", "process", "lammps", "gromacs", "dcd", "h5md", "topology", ""],
     "replay": ["base", "options", "input", "engines", "plot", "report", "analysis", "commands"],
-    "lammps_pair_style": ["host", "points", "clusters", "lists", "verify", "neighbor", "styles", "plugin"],
+    "lammps_pair_style": ["host", "points", "crossings", "clusters", "lists", "verify", "neighbor", "styles", "plugin"],
 }
 # What a box may include of others, beside itself.
 BELOW = {
@@ -20,6 +20,8 @@ BELOW = {
     "forces": ["lib"],
     "proximity": ["lib"],
     "kinetic": ["lib"],
+    "zonotope": ["lib"],
+    "zonotope_fit": ["lib", "zonotope"],
     "necklace_polymer": ["lib"],
     "power_diagram": ["lib", "necklace_polymer"],
     "trajectory": ["lib"],

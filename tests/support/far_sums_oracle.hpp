@@ -17,7 +17,7 @@ struct DirectSum {
   double nearest = std::numeric_limits<double>::infinity();  ///< of those that do not coincide
 };
 
-/// Lattice vectors up to a length and some more.
+/// Lattice vectors up to a length.
 inline std::vector<Vec3> lattice_within(const Box& box, double length) {
   std::vector<Vec3> vectors{Vec3{}};
   for (int axis = 0; axis < box.rank(); ++axis) {
@@ -28,13 +28,14 @@ inline std::vector<Vec3> lattice_within(const Box& box, double length) {
       for (int n = -most; n <= most; ++n) wider.push_back(v + static_cast<double>(n) * box.reduced()[k]);
     vectors = std::move(wider);
   }
+  std::erase_if(vectors, [&](Vec3 v) { return norm2(v) > length * length; });
   return vectors;
 }
 
 inline DirectSum direct_sum(const PointTree& tree, const std::vector<double>& charges, double kappa,
                             std::int32_t id) {
   const Box& box = tree.box();
-  const double reach = box.any_periodic() ? 2 * box.shortest_period() + 45 / kappa : 0;
+  const double reach = box.any_periodic() ? 2 * box.shortest_period() + 40 / kappa : 0;
   const std::vector<Vec3> lattice = lattice_within(box, reach);
   const Vec3 at = box.wrap(tree.position(id));
   DirectSum sum;

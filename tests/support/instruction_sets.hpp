@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ostream>
 #include <vector>
 
 #include <dch/base/instruction_set.hpp>
 
 namespace dch {
+
+inline std::ostream& operator<<(std::ostream& out, InstructionSet set) { return out << name(set); }
 
 /// What this processor runs, the widest last.
 inline std::vector<InstructionSet> supported_sets() {

@@ -32,7 +32,7 @@ inline std::string first_difference(const NeighborList& actual, const NeighborLi
   return {};
 }
 
-/// A list ordered by structure, of n particles, with rows by index and neighbors ascending.
+/// An unsorted list, of n particles, with rows by index and neighbors ascending.
 inline NeighborList sorted_by_index(const NeighborList& list, std::size_t n) {
   std::vector<std::vector<std::int32_t>> rows(n);
   for (std::size_t r = 0; r < list.size(); ++r) {

@@ -43,4 +43,15 @@ class ListedHierarchy : public Hierarchy {
   ClusterPairMaker pairs_;
 };
 
+inline ListedHierarchy hierarchy_of(const std::vector<Vec3>& points, const Box& box, double radius,
+                                    double base_radius = 0, Executor* executor = nullptr) {
+  StructureParams params;
+  params.radius = radius;
+  params.base_radius = base_radius;
+  params.executor = executor;
+  ListedHierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  return hierarchy;
+}
+
 }  // namespace dch

@@ -19,7 +19,7 @@ struct MovingScene {
     const auto boxes = scenes::all_boxes(random.uniform(3, 7));
     const scenes::NamedBox& box = boxes[random.below(boxes.size())];
     params.box = box.box;
-    const double widest = std::min(1.2, kLargestShareOfBox * box.box.max_cutoff());
+    const double widest = std::min(1.2, kMaxShareOfBox * box.box.max_cutoff());
     params.cutoff = widest * random.uniform(0.3, 1);
     is_curved = random.below(2) == 0;
     speed = random.below(3) == 0 ? 20 : 1;

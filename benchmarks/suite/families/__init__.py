@@ -7,6 +7,7 @@ run(suite)    runs its programs and returns a record.Result; raises running.Fail
               running.Missing for what is not there
 """
 
-from . import drift, engine, error, forces, hard, lammps, misses, necklace, openmm, peers, reference
+from . import (closest, drift, engine, error, far_sums, forces, hard, kinetic, lammps, misses, necklace, openmm, peers,
+               reference)
 
-ALL = (engine, peers, forces, lammps, openmm, necklace, error, drift, misses, reference, hard)
+ALL = (engine, peers, forces, lammps, openmm, necklace, kinetic, closest, far_sums, error, drift, misses, reference, hard)

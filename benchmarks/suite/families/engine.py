@@ -39,6 +39,7 @@ def run(suite):
         if "list_hash" in scene:
             result.list_hash[scene["scene"]] = scene["list_hash"]
     result.tables.append(scenes_table(report["scenes"]))
+    result.tables.append(choices_table(report["scenes"]))
     result.plots.append(ratios_plot(result.measurements))
     result.plots += growth(suite, words, report["scenes"])
     result.measurements += instruction_sets(suite, words, result)
@@ -55,7 +56,7 @@ def table_command(suite):
 
 def measurements_of(scene):
     """Each contender against the fastest grid of the scene; the library's cell list where no other grid can be had."""
-    grids = [m for m in scene["measurements"] if "updates" not in m]
+    grids = [m for m in scene["measurements"] if "updates" not in m and "choice" not in m]
     best = min(grids, key=lambda m: m["median"], default=None)
     for m in scene["measurements"]:
         against = {} if best is None or m is best else {"baseline": best["contender"],
@@ -81,6 +82,30 @@ def scenes_table(scenes):
                  "Of 'dch, built anew' the sixth column is the build. Grids are built with the list, and where particles have radii "
                  "most of the structure is brought up to date with the list. Bytes are beyond the lists. A "
                  "refresh takes new positions alone, where the structure still holds.")
+
+
+def choices_table(scenes):
+    """The engine that chooses: against the fastest grid, and its choice against the two that it chooses from."""
+    rows = []
+    for scene in scenes:
+        by_name = {m["contender"]: m for m in scene["measurements"]}
+        grids = [m for m in scene["measurements"] if "updates" not in m and "choice" not in m]
+        if not {"auto", "dch", "grid"} <= by_name.keys():
+            continue
+        chooser, dch, grid = by_name["auto"], by_name["dch"], by_name["grid"]
+        fastest = min(grids, key=lambda m: m["median"])
+        taken, other = (grid, dch) if chooser["choice"].startswith("grid") else (dch, grid)
+        rows.append([scene["scene"], scene["particles"], ratio(chooser, fastest), fastest["contender"],
+                     max(ratio(chooser, dch), ratio(chooser, grid)), max(1, ratio(taken, other)), chooser["choice"]])
+    return Table("The choice of engine by counted work",
+                 ["scene", "particles", "auto / fastest grid", "fastest grid", "auto / better engine", "choice / better engine",
+                  "chosen at last"], rows,
+                 "'auto' chooses between 'dch' and 'grid'. The last ratio is that of the engine that it took at last, running "
+                 "alone from the start, to the better of the two: 1 where the choice is right. Medians over the repetitions.")
+
+
+def ratio(a, b):
+    return statistics.median(x / y for x, y in zip(a["ns_per_particle"], b["ns_per_particle"]))
 
 
 def ratios_plot(measurements):

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Cluster pairs and Lennard-Jones forces, in single and double precision, by instruction set."""
 
-import collections
-
-from .. import machine
+from .. import google_benchmark, machine
 from ..record import Measurement, Plot, Result, Table
 
 NAME = "forces"
@@ -13,18 +11,13 @@ SETS = tuple(machine.INSTRUCTION_SETS)  # as the program numbers them
 
 
 def run(suite):
-    words = [suite.program("benchmarks", "forces", "dch_bench_forces"), "--benchmark_out_format=json",
-             f"--benchmark_filter={suite.pick(tiny='^forces_(mixed|full)/20/0', quick='/20/', full='.')}",
-             f"--benchmark_repetitions={suite.pick(tiny=2, quick=5, full=9)}",
-             f"--benchmark_min_time={suite.pick(tiny=0.001, quick=0.02, full=0.5)}"]
-    report = suite.run_for_json(words, flag="--benchmark_out=")
+    by_name, refused = google_benchmark.repetitions(
+        suite, [suite.program("benchmarks", "forces", "dch_bench_forces")],
+        suite.pick(tiny=2, quick=5, full=9), suite.pick(tiny=0.001, quick=0.02, full=0.5),
+        suite.pick(tiny="^forces_(mixed|full)/20/0", quick="/20/", full="."))
     result = Result(seed=1, checked="Forces were compared with those of a cell list, pair by pair in long double: in single "
                     "precision within 2e-6 of their root mean square, in double within 1e-14.")
-    by_name = collections.defaultdict(list)
-    for one in report["benchmarks"]:
-        if one["run_type"] == "iteration" and not one.get("error_occurred"):
-            by_name[one["run_name"]].append(one)
-    times = {name: [one["cpu_time"] for one in runs] for name, runs in by_name.items()}
+    times = {name: google_benchmark.times(runs) for name, runs in by_name.items()}
     for name, values in times.items():
         double = name.replace("_mixed", "_full")
         baseline = double if double != name and len(times.get(double, ())) == len(values) else ""
@@ -34,8 +27,7 @@ def run(suite):
                                                times.get(baseline, [])))
     result.tables.append(error_table(by_name))
     result.plots.append(error_plot(by_name))
-    result.left_out += sorted({f"{set_of(one['run_name'])}: {one['error_message']}"
-                               for one in report["benchmarks"] if one.get("error_occurred")})
+    result.left_out += sorted({f"{set_of(name)}: {reason}" for name, reason in refused})
     return result
 
 

@@ -105,7 +105,7 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
 
 void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        ClusterList& list) {
-  params.order = dch::RowOrder::by_structure;
+  params.order = dch::RowOrder::unsorted;
   params.superset = true;
   search.list(params, rows_);
   const bool any = leaves_out_any(points);

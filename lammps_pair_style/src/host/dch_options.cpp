@@ -118,7 +118,7 @@ Request parse_precision(const std::vector<std::string>& words) {
                               : "'dch precision' does not know '" + words[1] + "'") +
            std::string("; give 'dch precision double' or 'dch precision mixed'"));
   }
-  request.precision = words[1] == "mixed" ? ForcePrecision::mixed : ForcePrecision::full;
+  request.precision = words[1] == "mixed" ? ForcePrecision::mixed : ForcePrecision::double_precision;
   expect_no_more(words, 2);
   return request;
 }

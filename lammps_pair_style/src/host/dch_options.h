@@ -20,10 +20,10 @@ struct Request {
   std::string engine = "dch";  ///< `on`: what fills lists, see dch::make_search
   bool has_c = false;          ///< `on c`, which has no effect any more
   int verify_every = 0;        ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
-  ForcePrecision precision = ForcePrecision::full;  ///< `precision`: of force styles of ours
-  bool tunes_skin = false;                          ///< `skin`: auto, not fixed
-  OrderAtoms order_atoms = OrderAtoms::automatic;   ///< `order`
-  int threads = 1;                                  ///< `threads`: of each process
+  ForcePrecision precision = ForcePrecision::double_precision;  ///< `precision`: of force styles of ours
+  bool tunes_skin = false;                                      ///< `skin`: auto, not fixed
+  OrderAtoms order_atoms = OrderAtoms::automatic;               ///< `order`
+  int threads = 1;                                              ///< `threads`: of each process
 };
 
 /// Parses the words after `dch`.

@@ -5,6 +5,7 @@
 // tell, not a version number.
 #include <lmptype.h>
 #include <type_traits>
+#include <utility>
 
 namespace dch::lammps {
 
@@ -31,6 +32,23 @@ template <class Style>
 bool wants_own_cutoff([[maybe_unused]] const Style& sub_style) {
   if constexpr (kHasTrim<Style>) return sub_style.trim_flag != 0;
   return false;
+}
+
+template <class Comm, class Style, class = void>
+inline constexpr bool kNamesCommByStyle = false;
+template <class Comm, class Style>
+inline constexpr bool kNamesCommByStyle<
+    Comm, Style, std::void_t<decltype(std::declval<Comm&>().forward_comm_fix(std::declval<Style*>(), 0))>> =
+    true;
+
+/// Sends numbers of a fix from owned atoms to their ghosts, so many for each atom.
+template <class Comm, class Style>
+void forward_communication(Comm& comm, Style* fix, int numbers) {
+  if constexpr (kNamesCommByStyle<Comm, Style>) {
+    comm.forward_comm_fix(fix, numbers);
+  } else {
+    comm.forward_comm(fix, numbers);
+  }
 }
 
 /// Copies whether the last coefficients come from mixing, which the log counts.

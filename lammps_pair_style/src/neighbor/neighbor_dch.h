@@ -167,7 +167,7 @@ class NeighborDCH : public Neighbor {
   std::vector<dch::lammps::ListNote> notes_;
   std::vector<ServedClusters> clusters_, requested_clusters_;  ///< of this run, of the next
   std::vector<dch::lammps::ListNote> requested_notes_;
-  dch::ForcePrecision precision_ = dch::ForcePrecision::full;
+  dch::ForcePrecision precision_ = dch::ForcePrecision::double_precision;
   dch::HierarchyParams params_;
 
   AtomPoints points_;

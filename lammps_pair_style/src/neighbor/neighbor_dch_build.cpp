@@ -69,7 +69,7 @@ void NeighborDCH::fill_lists() {
     dch::ListParams params = list_params(served);
     if (points_.in_box()) {
       images_.set_cutoffs(served.by_radius);
-      params.near_cutoff = &by_images;
+      params.tie_breaker = &by_images;
       params.exclusions = special_.never_seen(points_.size());
     }
     search_->list(params, served.rows);
@@ -113,7 +113,7 @@ dch::ListParams NeighborDCH::list_params(const ServedList& served) {
   // A pair through a ghost is in both rows if newton is off.
   const bool in_both_rows = served.full || (points_.in_box() && !served.newton);
   params.kind = in_both_rows ? dch::ListKind::full : dch::ListKind::half;
-  params.order = dch::RowOrder::by_structure;
+  params.order = dch::RowOrder::unsorted;
   params.first_ghost = served.ghost || points_.in_box() ? -1 : points_.owned();
   params.cutoffs = dch::TypeCutoffs(cutneighmax);
   params.shell = present_skin();

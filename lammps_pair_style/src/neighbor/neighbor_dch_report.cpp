@@ -9,6 +9,22 @@
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
+namespace {
+
+/// Each time becomes that of the process that took longest.
+void take_longest_times(dch::lammps::RunCounters& counters, MPI_Comm world) {
+  using Counters = dch::lammps::RunCounters;
+  constexpr std::array members{
+      &Counters::points_seconds,  &Counters::structure_seconds,       &Counters::rows_seconds,
+      &Counters::fill_seconds,    &Counters::verified_native_seconds, &Counters::verified_dch_seconds,
+      &Counters::clusters_seconds};
+  std::array<double, members.size()> times{};
+  for (std::size_t k = 0; k < members.size(); ++k) times[k] = counters.*members[k];
+  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
+  for (std::size_t k = 0; k < members.size(); ++k) counters.*members[k] = times[k];
+}
+
+}  // namespace
 
 dch::lammps::RunReport NeighborDCH::report() const {
   const dch::SearchStats now = search_stats();
@@ -34,10 +50,6 @@ dch::lammps::RunReport NeighborDCH::report() const {
                                       now.levels, now.refreshes - before_run_.refreshes};
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_LMP_BIGINT, MPI_MAX,
                 world);
-  std::array<double, 7> times{run_.points_seconds,  run_.structure_seconds,       run_.rows_seconds,
-                              run_.fill_seconds,    run_.verified_native_seconds, run_.verified_dch_seconds,
-                              run_.clusters_seconds};
-  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
 
   dch::lammps::RunReport report;
   report.enabled = enabled_;
@@ -55,13 +67,7 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.counters = run_;
   report.counters.entries = sums[0];
   report.counters.verified_entries = sums[1];
-  report.counters.points_seconds = times[0];
-  report.counters.structure_seconds = times[1];
-  report.counters.rows_seconds = times[2];
-  report.counters.fill_seconds = times[3];
-  report.counters.verified_native_seconds = times[4];
-  report.counters.verified_dch_seconds = times[5];
-  report.counters.clusters_seconds = times[6];
+  take_longest_times(report.counters, world);
   report.promotions = sums[2];
   report.demotions = sums[3];
   report.inserted = sums[4];

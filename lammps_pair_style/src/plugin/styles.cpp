@@ -6,6 +6,7 @@
 
 #include "bond_fene_dch.h"
 #include "compute_necklace_contact.h"
+#include "fix_necklace_crossing.h"
 #include "pair_lj_dch.h"
 
 namespace LAMMPS_NS {
@@ -50,10 +51,21 @@ std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
   return styles;
 }
 
+std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch() {
+  std::vector<StyleEntry<Fix, int, char**>> styles;
+#define FIX_CLASS
+#define FixStyle(key, Made) styles.push_back({#key, &create<Fix, Made, int, char**>})
+#include "fix_necklace_crossing.h"
+#undef FixStyle
+#undef FIX_CLASS
+  return styles;
+}
+
 void register_styles_dch(LAMMPS& lmp) {
   for (const auto& style : pair_styles_dch()) lmp.force->pair_map->emplace(style.name, style.create);
   for (const auto& style : bond_styles_dch()) lmp.force->bond_map->emplace(style.name, style.create);
   for (const auto& style : compute_styles_dch()) lmp.modify->compute_map->emplace(style.name, style.create);
+  for (const auto& style : fix_styles_dch()) lmp.modify->fix_map->emplace(style.name, style.create);
 }
 
 }  // namespace LAMMPS_NS

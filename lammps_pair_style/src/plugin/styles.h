@@ -8,6 +8,7 @@ namespace LAMMPS_NS {
 
 class Bond;
 class Compute;
+class Fix;
 class Pair;
 
 /// A style of ours, under the name that scripts give it.
@@ -17,10 +18,11 @@ struct StyleEntry {
   Base* (*create)(LAMMPS* lammps, Arguments... arguments);
 };
 
-/// All that the headers of styles enter by LAMMPS's macros PairStyle, BondStyle and ComputeStyle.
+/// All that the headers of styles enter by LAMMPS's macros PairStyle, BondStyle, ComputeStyle and FixStyle.
 std::vector<StyleEntry<Pair>> pair_styles_dch();
 std::vector<StyleEntry<Bond>> bond_styles_dch();
 std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch();
+std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch();
 
 /// Makes the styles known to this LAMMPS, if they are not yet.
 void register_styles_dch(LAMMPS& lmp);

@@ -67,9 +67,9 @@ class GhostImages : protected Pointers {
 };
 
 /// Has LAMMPS's own positions decide about pairs near the cutoff.
-class ImageTest : public dch::PairTest {
+class ImageTest : public dch::TieBreaker {
  public:
-  explicit ImageTest(const GhostImages& images) : PairTest(images.error()), images_(images) {}
+  explicit ImageTest(const GhostImages& images) : TieBreaker(images.error()), images_(images) {}
   bool accepts(std::int32_t i, std::int32_t j) const override { return images_.within_cutoff(i, j) >= 0; }
 
  private:

@@ -5,7 +5,6 @@
 #include <atom.h>
 #include <cmath>
 #include <comm.h>
-#include <cstdlib>
 #include <domain.h>
 #include <error.h>
 #include <string>
@@ -14,19 +13,13 @@
 #include <dch/base/error.hpp>
 
 #include "atom_points.h"
+#include "finite_number.h"
 
 namespace LAMMPS_NS {
 namespace {
 
 const std::string kName = "Compute necklace/contact: ";
 constexpr int kMaxSkip = 1000000;
-
-/// A finite number, else NaN.
-double number(const char* word) {
-  char* end = nullptr;
-  const double value = std::strtod(word, &end);
-  return end != word && *end == '\0' && std::isfinite(value) ? value : std::nan("");
-}
 
 }  // namespace
 
@@ -35,7 +28,7 @@ ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** 
   if (narg < 4)
     error->all(FLERR,
                kName + "the gap is missing; for example 'compute touch all necklace/contact 0.1 radius 0.5'");
-  query_.gap = number(arg[3]);
+  query_.gap = finite_number(arg[3]);
   if (!(query_.gap >= 0))
     error->all(FLERR, kName + "the gap is '" + arg[3] + "' but has to be a distance of 0 or more");
   read_keywords(narg, arg);
@@ -55,7 +48,7 @@ ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** 
 }
 
 double ComputeNecklaceContact::positive(const char* word, const char* what) {
-  const double value = number(word);
+  const double value = finite_number(word);
   if (!(value > 0)) error->all(FLERR, kName + what + " is '" + word + "' but has to be a number above 0");
   return value;
 }
@@ -73,7 +66,7 @@ int ComputeNecklaceContact::read_keyword(int narg, char** arg, int at) {
   if (keyword == "radius") return read_radii(narg, arg, at + 1);
   const std::string value = arg[at + 1];
   if (keyword == "skip") {
-    const double bonds = number(arg[at + 1]);
+    const double bonds = finite_number(arg[at + 1]);
     if (!(bonds >= 0 && bonds <= kMaxSkip && bonds == std::floor(bonds)))
       error->all(FLERR, kName + "skip is '" + value + "' but has to be a whole number from 0 to " +
                             std::to_string(kMaxSkip));
@@ -91,7 +84,7 @@ int ComputeNecklaceContact::read_keyword(int narg, char** arg, int at) {
 /// @return where the next keyword stands
 int ComputeNecklaceContact::read_radii(int narg, char** arg, int at) {
   std::vector<double> radii;
-  for (; at < narg && (radii.empty() || !std::isnan(number(arg[at]))); ++at)
+  for (; at < narg && (radii.empty() || !std::isnan(finite_number(arg[at]))); ++at)
     radii.push_back(positive(arg[at], "a radius"));
   const auto types = static_cast<std::size_t>(atom->ntypes);
   if (radii.size() != 1 && radii.size() != types)

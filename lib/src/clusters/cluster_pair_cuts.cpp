@@ -13,7 +13,6 @@
 namespace dch::detail {
 namespace {
 
-constexpr int kSlots = ClusterPairs::kSlots;
 /// Searches that the order of a node's points is good for. In a Lennard-Jones melt with a search every ten
 /// steps it takes a quarter of a search, and kept for eight adds 1 in 100 to the pairs of slots.
 constexpr std::int32_t kSearchesPerOrder = 8;

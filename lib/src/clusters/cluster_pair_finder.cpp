@@ -11,7 +11,6 @@
 namespace dch::detail {
 namespace {
 
-constexpr int kSlots = ClusterPairs::kSlots;
 constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a < b
 constexpr std::int32_t kMaxShifts = 0x10000;           ///< that the entries of a row can tell apart
 /// Slices of the work for each thread, so that none waits long for the last one.

@@ -20,6 +20,8 @@
 
 namespace dch::detail {
 
+inline constexpr int kSlots = ClusterPairs::kSlots;
+
 /// Makes ClusterPairs: cuts the points of each node of level 1 into clusters of four and finds those within
 /// reach of each other among the nodes that edges of level 1 join (Lemma 5.3.1(5)).
 ///

@@ -6,8 +6,6 @@
 namespace dch::detail {
 namespace {
 
-constexpr int kSlots = ClusterPairs::kSlots;
-
 std::size_t first_slot(std::int32_t cluster) { return static_cast<std::size_t>(cluster) * kSlots; }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace {
 using detail::describe;
 using detail::dual_basis;
 using detail::nearest_integer;
+using detail::norm;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinLength = 1e-100;  ///< shorter cell vectors would underflow when squared and multiplied
@@ -31,7 +32,6 @@ constexpr double kMaxAspect = 1e12;
 constexpr double kMaxImages = 1e7;
 constexpr const char* kVectorNames = "abc";
 
-double norm(Vec3 v) { return std::sqrt(norm2(v)); }
 Vec3 axis_vector(int axis, double length) {
   Vec3 v;
   v[axis] = length;

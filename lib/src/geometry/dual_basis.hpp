@@ -9,6 +9,8 @@
 
 namespace dch::detail {
 
+inline double norm(Vec3 v) { return std::sqrt(norm2(v)); }
+
 /// Vectors g with g[i] . v[j] = delta_ij in the span of the first `rank` vectors of v; the others are zero.
 /// The vectors are brought to a length of about 1 by powers of two, which is exact, since products of four of
 /// theirs would leave double precision from lengths of 1e77 on.
@@ -17,7 +19,7 @@ inline std::array<Vec3, 3> dual_basis(const std::array<Vec3, 3>& given, int rank
   std::array<double, 3> scale{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) {
     int exponent = 0;  // stays so for a vector that is 0 or not finite, which a box is refused for
-    std::frexp(std::sqrt(norm2(given[k])), &exponent);
+    std::frexp(norm(given[k]), &exponent);
     scale[k] = std::ldexp(1, 1 - exponent);
     v[k] = scale[k] * given[k];
   }

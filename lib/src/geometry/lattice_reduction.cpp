@@ -6,11 +6,10 @@
 #include <cstddef>
 
 #include "base/nearest_integer.hpp"
+#include "geometry/dual_basis.hpp"
 
 namespace dch::detail {
 namespace {
-
-double norm(Vec3 v) { return std::sqrt(norm2(v)); }
 
 /// A lattice vector together with its integer coordinates in the vectors it was made from, so that its value
 /// can be computed anew from those without the rounding of the steps between.

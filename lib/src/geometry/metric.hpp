@@ -30,10 +30,17 @@ struct OrthorhombicMetric {
       high[axis] = low[axis] + length[axis];
     }
   }
+  /// Most points outside are in the next cell. Selects, not branches: their outcome is random.
+  static double from_next_cell(double x, double low, double high, double length) {
+    return x < low ? x + length : x >= high ? x - length : x;
+  }
   Vec3 wrap(Vec3 p) const {
-    const bool is_inside =
-        p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < high.x && p.y < high.y && p.z < high.z;
-    return is_inside ? p : box->wrap(p);
+    const Vec3 image{from_next_cell(p.x, low.x, high.x, length.x),
+                     from_next_cell(p.y, low.y, high.y, length.y),
+                     from_next_cell(p.z, low.z, high.z, length.z)};
+    const bool is_inside = image.x >= low.x && image.y >= low.y && image.z >= low.z && image.x < high.x &&
+                           image.y < high.y && image.z < high.z;
+    return is_inside ? image : box->wrap(p);
   }
   BrickCell brick() const {
     BrickCell cell;

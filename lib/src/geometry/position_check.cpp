@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -14,8 +15,6 @@
 
 namespace dch::detail {
 namespace {
-
-double norm(Vec3 v) { return std::sqrt(norm2(v)); }
 
 std::string position_text(std::size_t i, Vec3 p) {
   return "position " + std::to_string(i) + " = " + describe(p);
@@ -82,25 +81,73 @@ double WrapError::reach_between(Vec3 low, Vec3 high) const {
 
 namespace {
 
+/// Coordinates of two points: as many as the narrowest vector registers hold, thrice.
+class TwoPoints {
+ public:
+  static constexpr int kRegisters = 3;
+  using Pair __attribute__((vector_size(2 * sizeof(double)))) = double;
+  explicit TwoPoints(const Vec3* at) { std::memcpy(part_, at, sizeof part_); }
+  TwoPoints(Vec3 a, Vec3 b) {
+    const Vec3 both[2] = {a, b};
+    std::memcpy(part_, both, sizeof part_);
+  }
+  Pair& operator[](int k) { return part_[k]; }
+  Pair operator[](int k) const { return part_[k]; }
+  Vec3 point(int which) const {
+    Vec3 both[2];
+    std::memcpy(both, part_, sizeof part_);
+    return both[which];
+  }
+
+ private:
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  Pair part_[kRegisters];
+};
+
 /// The box around positions, and whether all of them are finite.
 struct Surroundings {
-  explicit Surroundings(Span<const Vec3> positions) : low(positions[0]), high(positions[0]) {
-    double differences = 0;  // of a number with itself: 0, but not for infinity and NaN
-    for (const Vec3 p : positions) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      differences += (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
-    }
-    are_finite = differences == 0;
+  explicit Surroundings(Span<const Vec3> positions) {
+    TwoPoints least(positions[0], positions[0]), most = least;
+    TwoPoints differences({}, {});  // of a number with itself: 0, but not for infinity and NaN
+    const auto add = [&](const TwoPoints& two) {
+      for (int k = 0; k < TwoPoints::kRegisters; ++k) {
+        const TwoPoints::Pair x = two[k];
+        least[k] = x < least[k] ? x : least[k];
+        most[k] = x > most[k] ? x : most[k];
+        differences[k] += x - x;
+      }
+    };
+    const std::size_t n = positions.size();
+    for (std::size_t i = 0; i + 1 < n; i += 2) add(TwoPoints(&positions[i]));
+    add({positions[0], positions[n - 1]});  // the last one may have been alone
+    const Vec3 a = least.point(0), b = least.point(1), c = most.point(0), d = most.point(1);
+    low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    high = {std::max(c.x, d.x), std::max(c.y, d.y), std::max(c.z, d.z)};
+    const Vec3 sum = differences.point(0) + differences.point(1);
+    are_finite = sum.x + sum.y + sum.z == 0;
   }
   double largest_coordinate() const { return std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z}); }
   Vec3 low, high;
   bool are_finite;
 };
 
-/// Throws for the first position that has something wrong with it, else returns the largest reach.
-double check_one_by_one(Span<const Vec3> positions, const WrapError& error, double farthest,
-                        double tolerance) {
+}  // namespace
+
+PositionCheck::PositionCheck(const Box& box)
+    : error_(box),
+      tolerance_(box.any_periodic() ? 0.5 * box.min_height() : 1),
+      farthest_(error_.reach_within(tolerance_)) {}
+
+std::optional<double> PositionCheck::reach_by_box(Span<const Vec3> positions) const {
+  if (positions.empty()) return 0;
+  const Surroundings around(positions);
+  const double largest = error_.reach_between(around.low, around.high);
+  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest_)
+    return largest;
+  return std::nullopt;
+}
+
+double PositionCheck::reach_of_each(Span<const Vec3> positions) const {
   double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3 p = positions[i];
@@ -108,33 +155,25 @@ double check_one_by_one(Span<const Vec3> positions, const WrapError& error, doub
       throw InvalidPosition(position_text(i, p) + " is not finite or beyond " + describe(kMaxCoordinate) +
                             "; check the coordinates of this frame");
     }
-    const double reach = error.reach(p);
-    if (reach > farthest) {
+    const double reach = error_.reach(p);
+    if (reach > farthest_) {
       throw InvalidPosition(
           position_text(i, p) +
           " is so far outside the periodic box that rounding leaves its place there uncertain by " +
-          describe(error.bound(reach)) + "; at most " + describe(tolerance) + " is allowed, " +
-          (error.bound(0) > tolerance ? "shift the box and the coordinates to the origin"
-                                      : "wrap the coordinates first"));
+          describe(error_.bound(reach)) + "; at most " + describe(tolerance_) + " is allowed, " +
+          (error_.bound(0) > tolerance_ ? "shift the box and the coordinates to the origin"
+                                        : "wrap the coordinates first"));
     }
     largest = std::max(largest, reach);
   }
   return largest;
 }
 
-}  // namespace
-
 double check_positions(Span<const Vec3> positions, const Box& box) {
   index_count(static_cast<std::int64_t>(positions.size()), "particles", "divide the system");
-  const WrapError error(box);
-  const double tolerance = box.any_periodic() ? 0.5 * box.min_height() : 1;
-  const double farthest = error.reach_within(tolerance);
-  if (positions.empty()) return 0;
-  const Surroundings around(positions);
-  const double largest = error.reach_between(around.low, around.high);
-  if (around.are_finite && around.largest_coordinate() <= kMaxCoordinate && largest <= farthest)
-    return largest;
-  return check_one_by_one(positions, error, farthest, tolerance);
+  const PositionCheck check(box);
+  const std::optional<double> reach = check.reach_by_box(positions);
+  return reach ? *reach : check.reach_of_each(positions);
 }
 
 void check_radius(double radius, const Box& box) {

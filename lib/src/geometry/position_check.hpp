@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include <dch/base/span.hpp>
 #include <dch/geometry/box.hpp>
@@ -32,6 +33,24 @@ class WrapError {
   double cell_size_ = 0;
   double coordinate_error_ =
       0;  ///< of two wrapped points, by the size of the coordinates in the box [length]
+};
+
+/// check_positions() of positions that are looked at piece by piece, so that they can be used while they are
+/// in a cache. Safe to use on several threads.
+class PositionCheck {
+ public:
+  explicit PositionCheck(const Box& box);
+
+  const WrapError& error() const { return error_; }
+  /// What check_positions() returns for some positions; nothing if the box around them does not tell that all
+  /// are right.
+  std::optional<double> reach_by_box(Span<const Vec3> positions) const;
+  /// Looks at them one after the other, and throws as check_positions() does.
+  double reach_of_each(Span<const Vec3> positions) const;
+
+ private:
+  WrapError error_;
+  double tolerance_, farthest_;
 };
 
 /// @throws InvalidParameter for more particles than 32-bit indices can name.

@@ -16,7 +16,7 @@ constexpr double kChanged = 1.25;  ///< a scene that changed by this factor is c
 // Work beside that of the pairs, which is the same for both, in ns for a particle, measured once in the
 // scenes of benchmarks/engine. Only their ratios matter.
 constexpr double kGridPoint = 20;    ///< of the grid: to sort a point
-constexpr double kNearby = 0.3;      ///< of the grid: for a point in the same cell
+constexpr double kNearby = 0.38;     ///< of the grid: for a point in the same cell
 constexpr double kDenseCell = 100;   ///< of the grid: for a cell, of an array of all cells
 constexpr double kSparseCell = 430;  ///< of the grid: for a cell, where occupied ones have to be looked up
 constexpr double kLeafPoint = 40;  ///< of the hierarchy: to measure a point and find the leaves near its own

@@ -47,7 +47,11 @@ BlockSpan span_around(const BlockPoints& points) {
 
 /// Brings a cell coordinate into the period, and says by how many periods it was off.
 std::int32_t wrap(std::int32_t& c, std::int32_t cells) {
-  const std::int32_t periods = c >= 0 ? c / cells : -((cells - 1 - c) / cells);
+  const std::int32_t away = c >= 0 ? c - cells : -1 - c;  // most are in the next period, or in this one
+  const std::int32_t periods = away < 0       ? 0
+                               : away < cells ? (c >= 0 ? 1 : -1)
+                               : c >= 0       ? c / cells
+                                              : -((cells - 1 - c) / cells);
   c -= periods * cells;
   return periods;
 }
@@ -87,11 +91,23 @@ void CellCandidates::collect(const CellScene& scene, std::int32_t cell, const Ow
   span_ = own.span_of(0, own.blocks);
   size_ = own.largest_tag(0, own.blocks);
   only_owned_ = !own.are_candidates;
-  // No point is left out of what is near the box around it.
-  if (own.are_candidates) append_run(scene, scene.rows, {part.begin, scene.rows.points_of(cell).end}, {});
   const CellCoordinates c = scene.rows.coordinates(cell);
-  for (const StencilRow& row : scene.stencil)
+  // No point is left out of what is near the box around it. Cells of the same row that follow lie behind it.
+  const StencilRow* first = scene.stencil.data();
+  const StencilRow* const last = first + scene.stencil.size();
+  if (own.are_candidates) {
+    std::int32_t end = scene.rows.points_of(cell).end;
+    if (first != last && first->y == 0 && first->z == 0 && scene.rows.are_in_row(cell, first->last)) {
+      end = scene.rows.points_of(cell + first->last).end;
+      ++work_.boxes;
+      ++first;
+    }
+    append_run(scene, scene.rows, {part.begin, end}, {});
+  }
+  for (; first != last; ++first) {
+    const StencilRow& row = *first;
     append_row(scene, scene.rows, c[1] + row.y, c[2] + row.z, c[0] + row.first, c[0] + row.last);
+  }
   for (const CellScene::Near& near : scene.finer) collect_finer(scene, near, part);
 }
 
@@ -122,50 +138,57 @@ void CellCandidates::append_row(const CellScene& scene, CellLayer& layer, std::i
                                 std::int32_t first, std::int32_t last) {
   ++work_.boxes;
   const CellLayout& layout = layer.layout();
-  Vec3 shift;
-  if (layout[2].cells != 0) {
-    if (const std::int32_t periods = wrap(z, layout[2].cells); periods != 0)
-      shift = shift + static_cast<double>(periods) * layout[2].period;
+  Vec3 by;
+  bool is_here = true;
+  for (const std::size_t k : {2u, 1u}) {
+    std::int32_t& c = k == 2 ? z : y;
+    if (layout[k].cells == 0 || (c >= 0 && c < layout[k].cells)) continue;
+    by = by + static_cast<double>(wrap(c, layout[k].cells)) * layout[k].period;
+    is_here = false;
   }
-  if (layout[1].cells != 0) {
-    if (const std::int32_t periods = wrap(y, layout[1].cells); periods != 0)
-      shift = shift + static_cast<double>(periods) * layout[1].period;
-  }
-  const auto append = [&](std::int32_t from, std::int32_t to, Vec3 by) {
+  const auto append = [&](std::int32_t from, std::int32_t to, const Shift& shift) {
     layer.for_each_run(from, to, y, z, only_owned_,
-                       [&](CellLayer::Run run) { append_run(scene, layer, run, by); });
+                       [&](CellLayer::Run run) { append_run(scene, layer, run, shift); });
   };
   const std::int32_t cells = layout[0].cells;
-  if (cells == 0 || (first >= 0 && last < cells)) return append(first, last, shift);
+  if (cells == 0 || (first >= 0 && last < cells))
+    return append(first, last, is_here ? Shift() : shift_of(scene, by));
   while (first <= last) {
     std::int32_t begin = first;
     const std::int32_t periods = wrap(begin, cells), end = std::min(cells - 1, begin + (last - first));
-    append(begin, end, shift + static_cast<double>(periods) * layout[0].period);
+    append(begin, end, shift_of(scene, by + static_cast<double>(periods) * layout[0].period));
     first += end - begin + 1;
   }
 }
 
+CellCandidates::Shift CellCandidates::shift_of(const CellScene& scene, Vec3 by) {
+  const double per_unit = scene.per_unit;
+  Shift shift{false, {rounded(by.x * per_unit), rounded(by.y * per_unit), rounded(by.z * per_unit)}};
+  shift.is_zero = shift.by == Shift().by;
+  return shift;
+}
+
 /// Those near the part, thinned where they lie and then moved.
-void CellCandidates::append_run(const CellScene& scene, CellLayer& layer, CellLayer::Run run, Vec3 shift) {
+void CellCandidates::append_run(const CellScene& scene, CellLayer& layer, CellLayer::Run run,
+                                const Shift& shift) {
   if (run.size() == 0) return;
   work_.gathered += run.size();
   const std::int64_t most = std::int64_t{count_} + run.size();
-  index_count(most, "points and images of points near one cell", "take a smaller cutoff",
-              kMaxIndexCount - 2 * kChunk);
-  around_.make_room(static_cast<std::size_t>(most) + kChunk);
-  const double per_unit = 1 / scene.unit;
-  const std::int16_t by[3] = {rounded(shift.x * per_unit), rounded(shift.y * per_unit),
-                              rounded(shift.z * per_unit)};
+  if (around_.size() < static_cast<std::size_t>(most) + kChunk) {
+    index_count(most, "points and images of points near one cell", "take a smaller cutoff",
+                kMaxIndexCount - 2 * kChunk);
+    around_.make_room(static_cast<std::size_t>(most) + kChunk);
+  }
   BlockSpan span = span_;
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3 && !shift.is_zero; ++axis)
     span.center[axis] = static_cast<std::int16_t>(static_cast<std::uint16_t>(
-        static_cast<std::uint16_t>(span.center[axis]) - static_cast<std::uint16_t>(by[axis])));
+        static_cast<std::uint16_t>(span.center[axis]) - static_cast<std::uint16_t>(shift.by[axis])));
   Candidates from = layer.at(run.begin);
   if (from.tag == nullptr) from.tag = around_.at(0).tag;  // for kernels that do not look at it
   const Candidates to = around_.at(count_);
   const std::int32_t kept =
       keep_near(*kernels_, scene.requests[0].limits, span, size_, from, nullptr, run.size(), to);
-  if (by[0] != 0 || by[1] != 0 || by[2] != 0) kernels_->shift(to, by, kept);
+  if (!shift.is_zero) kernels_->shift(to, shift.by.data(), kept);
   count_ += kept;
 }
 

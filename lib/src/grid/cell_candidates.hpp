@@ -31,6 +31,7 @@ struct CellScene {
   Span<const Vec3> positions;
   const Box& box;
   double unit;                       ///< of all coordinates [length]
+  double per_unit;                   ///< 1 / unit
   bool has_ghosts;                   ///< whether layers know the cells that hold none but ghosts
   std::vector<RowRequest> requests;  ///< one a list, the one with the largest radius first
 };
@@ -62,14 +63,20 @@ class CellCandidates {
   std::size_t memory_bytes() const { return around_.memory_bytes(); }
 
  private:
-  static constexpr std::int32_t kPart = 24;  ///< most blocks in one
+  static constexpr std::int32_t kPart = 5;  ///< most blocks in one
 
   OwnBlocks take_blocks(const CellScene& scene, std::int32_t cell, CellLayer::Run part);
   void collect(const CellScene& scene, std::int32_t cell, const OwnBlocks& own, CellLayer::Run part);
   void collect_finer(const CellScene& scene, const CellScene::Near& near, CellLayer::Run part);
   void append_row(const CellScene& scene, CellLayer& layer, std::int32_t y, std::int32_t z,
                   std::int32_t first, std::int32_t last);
-  void append_run(const CellScene& scene, CellLayer& layer, CellLayer::Run run, Vec3 shift);
+  /// What brings points of one period to those of another [units].
+  struct Shift {
+    bool is_zero = true;
+    std::array<std::int16_t, 3> by{};
+  };
+  static Shift shift_of(const CellScene& scene, Vec3 by);
+  void append_run(const CellScene& scene, CellLayer& layer, CellLayer::Run run, const Shift& shift);
 
   const ListKernels* kernels_ = nullptr;
   ListWork work_;

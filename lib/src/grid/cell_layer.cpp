@@ -2,188 +2,204 @@
 #include "grid/cell_layer.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
-#include "geometry/metric.hpp"
+#include <dch/base/index_count.hpp>
+
 #include "grid/cell_grid.hpp"
-#include "leaves/rounding.hpp"
 
 namespace dch::detail {
 namespace {
 
 /// Cells along a direction at most: 64 bits hold the keys then, and the coordinates in units of cells cut
 /// into 2^16 are exact to a thousandth of a unit.
-constexpr std::int64_t kMostCellsAlong = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxCellsAlong = std::int64_t{1} << 20;
 
-constexpr std::int32_t kAhead = 24;  ///< points whose positions, in no cache, are asked for before their turn
+/// Pieces of cells are not many more than points, so that arrays of them are no longer than those of points.
+constexpr double kPiecesPerPoint = 2;
+
+constexpr CellCurve kCurves[CellLayout::kHalvings + 1] = {CellCurve(0), CellCurve(1), CellCurve(2)};
+static_assert(CellLayout::kHalvings == CellCurve::kBits);
+
+/// Points that are looked at together, while they are in the nearest cache.
+constexpr std::size_t kPiece = 256;
 
 }  // namespace
 
 void CellLayer::clear() {
-  size_ = 0;
+  clear_cells();
+  number_.clear();
   first_.assign(1, 0);
+}
+
+/// Those of all points; none of the arrays by point or piece, which are about to be filled again.
+void CellLayer::clear_cells() {
+  size_ = 0;
+  curve_ = kCurves[0];
+  dense_ = true;
+  count_ = {0, 0, 0};
   occupied_.clear();
   table_.clear();
   row_first_.clear();
-  dense_ = true;
-  count_ = {0, 0, 0};
 }
 
-bool CellLayer::sort(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
-                     const CellLayout& layout, Executor* executor) {
-  clear();
-  const std::size_t n = members != nullptr ? members->size() : positions.size();
-  if (n == 0) return true;
+bool CellLayer::start(std::size_t n, const Box& box, const CellLayout& layout, const CellRounding& rounding) {
+  clear_cells();
   layout_ = layout;
-  coordinates_.resize(n);
-  with_metric(box, [&](const auto& metric) { find_coordinates(metric, positions, members, executor); });
-  CellCoordinates low{0, 0, 0}, high;
-  for (std::size_t k = 0; k < 3; ++k) high[k] = layout_[k].cells - 1;
-  if (box.rank() < 3 || !CellNumbering::fits_dense_block(n, low, high)) find_corners(low, high);
+  CellCoordinates high;
+  std::size_t cells = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::int64_t along = std::int64_t{high[k]} - low[k] + 1;
-    if (std::max<std::int64_t>(along, layout_[k].cells) > kMostCellsAlong) return false;
-    low_[k] = low[k];
-    count_[k] = static_cast<std::int32_t>(along);
+    if (layout[k].cells > kMaxCellsAlong) {
+      clear();
+      return false;
+    }
+    high[k] = layout[k].cells - 1;
+    cells *= static_cast<std::size_t>(layout[k].cells);
   }
-  dense_ = CellNumbering::fits_dense_block(n, low, high);
-  number_cells();
-  next_.assign(first_.begin(), first_.end());
-  id_.resize(n + kChunk);
-  std::int32_t *const next = next_.data(), *const id = id_.data();
-  for (std::size_t k = 0; k < n; ++k)
-    id[next[cell_of_[k]]++] = members != nullptr ? (*members)[k] : static_cast<std::int32_t>(k);
+  block_known_ = box.rank() == 3 && CellNumbering::fits_dense_block(n, {0, 0, 0}, high);
+  rounding_ = {};
+  piece_.resize(block_known_ ? 0 : n);
+  number_.resize(n);
+  rounded_.resize(rounding.unit > 0 ? n : 0);
+  rounding_ = rounding;
+  if (!block_known_) return true;
+  low_ = {0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) count_[k] = layout[k].cells;
+  halve_cells(cells);
+  return true;
+}
+
+void CellLayer::take(const CellBins& bins, Span<const Vec3> positions, std::size_t first) {
+  const std::array<int, 3> axes{bins.axis(0), bins.axis(1), bins.axis(2)};
+  std::array<CellCoordinates, kPiece> pieces;
+  std::array<RoundedPoint, kPiece> unused;
+  for (std::size_t begin = 0; begin < positions.size(); begin += kPiece) {
+    const std::size_t count = std::min(kPiece, positions.size() - begin), at = first + begin;
+    bins.find({positions.data() + begin, count}, pieces.data(),
+              rounded_.empty() ? unused.data() : rounded_.data() + at);
+    if (block_known_) {
+      number_pieces(pieces.data(), count, axes, number_.data() + at);
+      continue;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t direction = 0; direction < 3; ++direction)
+        piece_[at + k][direction] = pieces[k][static_cast<std::size_t>(axes[direction])];
+  }
+}
+
+bool CellLayer::sort(const std::vector<std::int32_t>* members) {
+  const std::size_t n = number_.size();
+  if (n == 0 || (!block_known_ && !find_block())) {
+    clear();
+    return n == 0;
+  }
+  count_points();
+  put_in_cells(members);
   size_ = static_cast<std::int32_t>(n);
   return true;
 }
 
-template <class Metric>
-void CellLayer::find_coordinates(const Metric& metric, Span<const Vec3> positions,
-                                 const std::vector<std::int32_t>* members, Executor* executor) {
-  for_ranges(executor, coordinates_.size(), [&](std::size_t begin, std::size_t end) {
-    // Of their own, so that nothing is read again for fear that it was written to.
-    const CellLayout layout = layout_;
-    const Metric own_metric = metric;
-    CellCoordinates* const to = coordinates_.data();
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = members != nullptr ? static_cast<std::size_t>((*members)[k]) : k;
-      to[k] = layout.coordinates(own_metric.wrap(positions[i]));
-    }
-  });
-}
-
-/// Corners of the block of cells that hold all points.
-void CellLayer::find_corners(CellCoordinates& low, CellCoordinates& high) const {
-  low = high = coordinates_[0];
-  for (const CellCoordinates& c : coordinates_)
+/// Of the block of cells that hold all points: its corners, and the numbers of the pieces of cells in it.
+/// Returns false if it is too long.
+bool CellLayer::find_block() {
+  CellCoordinates low = piece_[0], high = piece_[0];
+  for (const CellCoordinates& c : piece_)
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], c[k]);
       high[k] = std::max(high[k], c[k]);
     }
-}
-
-std::int64_t CellLayer::key_of(const CellCoordinates& c) const {
-  return (std::int64_t{c[2] - low_[2]} * count_[1] + (c[1] - low_[1])) * count_[0] + (c[0] - low_[0]);
-}
-
-/// Cell of each point, and where the points of each cell begin.
-void CellLayer::number_cells() {
-  cell_of_.resize(coordinates_.size());
-  if (!dense_) find_occupied();
-  const std::size_t cells = dense_
-                                ? static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                                      static_cast<std::size_t>(count_[2])
-                                : occupied_.size();
-  first_.assign(cells + 1, 0);
-  std::int32_t* const counts = first_.data() + 1;
-  if (dense_) {
-    const CellCoordinates low = low_, count = count_;
-    std::int32_t* const cell_of = cell_of_.data();
-    for (std::size_t k = 0; k < cell_of_.size(); ++k) {
-      const CellCoordinates& c = coordinates_[k];
-      const std::int32_t cell = ((c[2] - low[2]) * count[1] + (c[1] - low[1])) * count[0] + (c[0] - low[0]);
-      cell_of[k] = cell;
-      ++counts[cell];
-    }
-  } else {
-    for (const std::int32_t cell : cell_of_) ++counts[cell];
+  std::size_t cells = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = cell_of(low[k]);
+    high[k] = cell_of(high[k]);
+    const std::int64_t along = std::int64_t{high[k]} - low[k] + 1;
+    if (along > kMaxCellsAlong) return false;
+    low_[k] = low[k];
+    count_[k] = static_cast<std::int32_t>(along);
+    cells *= static_cast<std::size_t>(along);
   }
-  count_points();
-}
-
-/// Slot of a key in the table, or the free one where it belongs.
-std::size_t CellLayer::slot_of(std::int64_t key) const {
-  const std::size_t mask = table_.size() - 1;
-  std::size_t slot = (static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15u >> 20) & mask;
-  while (table_[slot].key != key && table_[slot].key >= 0) slot = (slot + 1) & mask;
-  return slot;
-}
-
-/// Numbers the occupied cells by their keys, so that the points of neighbors in a row lie side by side.
-void CellLayer::find_occupied() {
-  std::size_t size = 64;
-  while (size < 2 * coordinates_.size()) size *= 2;
-  table_.assign(size, {-1, {}});
-  slot_.resize(coordinates_.size());
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    const std::int64_t key = key_of(coordinates_[k]);
-    slot_[k] = slot_of(key);
-    if (table_[slot_[k]].key >= 0) continue;
-    table_[slot_[k]].key = key;
-    occupied_.push_back(key);
+  dense_ = CellNumbering::fits_dense_block(piece_.size(), low, high);
+  if (!dense_) {
+    find_occupied();
+    return true;
   }
-  std::sort(occupied_.begin(), occupied_.end());
-  for (std::size_t cell = 0; cell < occupied_.size(); ++cell)
-    table_[slot_of(occupied_[cell])].cells.begin = static_cast<std::int32_t>(cell);
-  for (std::size_t k = 0; k < slot_.size(); ++k) cell_of_[k] = table_[slot_[k]].cells.begin;
-  find_rows();
+  halve_cells(cells);
+  number_pieces(piece_.data(), piece_.size(), {0, 1, 2}, number_.data());
+  return true;
 }
 
-/// Where the occupied cells of each row are among all of them.
-void CellLayer::find_rows() {
-  const auto cells = static_cast<std::int32_t>(occupied_.size());
-  if (CellNumbering::fits_dense_block(coordinates_.size(), {0, low_[1], low_[2]},
-                                      {0, low_[1] + count_[1] - 1, low_[2] + count_[2] - 1})) {
-    row_first_.assign(static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]) + 1, 0);
-    for (const std::int64_t key : occupied_) ++row_first_[key / count_[0] + 1];
-    std::partial_sum(row_first_.begin(), row_first_.end(), row_first_.begin());
+/// Numbers of pieces in a dense block.
+/// @param axes where their coordinates along each direction stand
+void CellLayer::number_pieces(const CellCoordinates* pieces, std::size_t count, std::array<int, 3> axes,
+                              std::int32_t* to) const {
+  // Of their own, so that nothing is read again for fear that it was written to.
+  const CellCurve curve = curve_;
+  // In 64 bits, where no product overflows, however far from the origin the block lies.
+  const std::int64_t row = count_[0], plane = row * count_[1];
+  const std::int64_t first = low_[2] * plane + low_[1] * row + low_[0];
+  const auto [x, y, z] = axes;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int32_t at_x = pieces[k][x], at_y = pieces[k][y], at_z = pieces[k][z];
+    const std::int64_t cell = cell_of(at_z) * plane + cell_of(at_y) * row + cell_of(at_x) - first;
+    to[k] = static_cast<std::int32_t>(cell) << curve.bits() | curve(at_x, at_y, at_z);
+  }
+}
+
+/// Cuts cells into pieces, of which there are to be so many cells' at most.
+void CellLayer::halve_cells(std::size_t cells) {
+  const double most = std::min(kPiecesPerPoint * static_cast<double>(number_.size()), double{kMaxIndexCount});
+  int halvings = CellLayout::kHalvings;
+  while (halvings > 0 && static_cast<double>(cells << (3 * halvings)) > most) --halvings;
+  curve_ = kCurves[halvings];
+  first_.resize((cells << curve_.bits()) + 1);
+}
+
+/// Ids and, if they are rounded, coordinates. Leaves at each piece's place in first_ where its points begin.
+void CellLayer::put_in_cells(const std::vector<std::int32_t>* members) {
+  const std::size_t n = number_.size(), room = n + kChunk;
+  id_.resize(room);
+  for (auto* axis : {&x_, &y_, &z_}) axis->resize(room);
+  std::int32_t *const next = first_.data() + 1, *const id = id_.data();
+  const std::int32_t* const number = number_.data();
+  const auto id_of = [&](std::size_t k) {
+    return members != nullptr ? (*members)[k] : static_cast<std::int32_t>(k);
+  };
+  if (rounded_.empty()) {
+    for (std::size_t k = 0; k < n; ++k) id[next[number[k]]++] = id_of(k);
     return;
   }
-  std::size_t size = 64;
-  while (size < 2 * occupied_.size()) size *= 2;
-  table_.assign(size, {-1, {}});
-  for (std::int32_t begin = 0, end = 0; begin < cells; begin = end) {
-    const std::int64_t row = occupied_[begin] / count_[0];
-    while (end < cells && occupied_[end] < (row + 1) * count_[0]) ++end;
-    table_[slot_of(row)] = {row, {begin, end}};
+  const RoundedPoint* const from = rounded_.data();
+  std::int16_t *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int32_t to = next[number[k]]++;
+    id[to] = id_of(k);
+    x[to] = from[k][0];
+    y[to] = from[k][1];
+    z[to] = from[k][2];
   }
-}
-
-/// Numbers of the occupied cells first .. last of a row.
-CellLayer::Run CellLayer::occupied_between(std::int64_t row, std::int32_t first, std::int32_t last) const {
-  const Run all = cells_of_row(row);
-  const std::int64_t key = row * count_[0];
-  const auto from = std::lower_bound(occupied_.begin() + all.begin, occupied_.begin() + all.end, key + first);
-  Run cells{static_cast<std::int32_t>(from - occupied_.begin()), 0};
-  cells.end = cells.begin;
-  while (cells.end < all.end && occupied_[cells.end] <= key + last) ++cells.end;
-  return cells;
 }
 
 std::int32_t CellLayer::first_cell_of_share(int share, int shares) const {
   const auto found = std::lower_bound(first_.begin(), first_.end() - 1, share_begin(size(), share, shares));
-  return static_cast<std::int32_t>(found - first_.begin());
+  // The first cell that begins there or later: its pieces before the one found hold no points.
+  return static_cast<std::int32_t>((found - first_.begin() + (1 << curve_.bits()) - 1) >> curve_.bits());
 }
 
-/// For occupancy_, and where the points of each cell begin, given how many each of them has.
+/// For occupancy_, and where the points of each piece begin: one place farther on, so that put_in_cells()
+/// moves it to where it belongs.
 void CellLayer::count_points() {
+  std::fill(first_.begin(), first_.end(), 0);
+  std::int32_t* const counts = first_.data() + 1;
+  for (const std::int32_t number : number_) ++counts[number];
   double squares = 0, occupied = 0;
   std::int32_t before = 0;
-  for (std::int32_t& count : first_) {
-    squares += static_cast<double>(count) * count;
+  const std::int32_t pieces = 1 << curve_.bits();
+  for (std::int32_t* piece = counts; piece != counts + first_.size() - 1; piece += pieces) {
+    const std::int32_t before_cell = before;
+    for (std::int32_t k = 0; k < pieces; ++k) before += std::exchange(piece[k], before);
+    const double count = before - before_cell;
+    squares += count * count;
     occupied += count > 0;
-    before += count;
-    count = before;
   }
   occupancy_ = {before / occupied, squares / before, dense_ ? 0.0 : 1.0};
 }
@@ -195,44 +211,9 @@ CellCoordinates CellLayer::coordinates(std::int32_t cell) const {
           low_[2] + static_cast<std::int32_t>(yz / count_[1])};
 }
 
-void CellLayer::quantize(Span<const Vec3> positions, const Box& box, Vec3 origin, double unit,
-                         const ParticleLabels& labels, Executor* executor) {
-  const std::size_t room = static_cast<std::size_t>(size_) + kChunk;
-  for (auto* axis : {&x_, &y_, &z_}) axis->resize(room);
-  tag_.resize(labels.by == CutoffBy::one_cutoff ? 0 : room);
-  with_metric(box, [&](const auto& metric) {
-    for_ranges(executor, size_, [&](std::int32_t begin, std::int32_t end) {
-      const auto own_metric = metric;
-      std::int16_t *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
-      const std::int32_t* const id = id_.data();
-      const double per_unit = 1 / unit;
-      for (std::int32_t place = begin; place < end; ++place) {
-        __builtin_prefetch(&positions[static_cast<std::size_t>(id[std::min(place + kAhead, end - 1)])]);
-        const Vec3 at = own_metric.wrap(positions[static_cast<std::size_t>(id[place])]) - origin;
-        x[place] = rounded(at.x * per_unit);
-        y[place] = rounded(at.y * per_unit);
-        z[place] = rounded(at.z * per_unit);
-      }
-    });
-  });
-  for (std::int32_t place = 0; place < size_ && labels.by == CutoffBy::radii; ++place)
-    tag_[place] = rounded(labels.radii[id_[place]] / unit);
-  for (std::int32_t place = 0; place < size_ && labels.by == CutoffBy::types; ++place)
-    tag_[place] = static_cast<std::int16_t>(labels.types[id_[place]] % kKernelTypes);
-}
-
-void CellLayer::find_ghosts(std::int32_t first_ghost) {
-  owned_.clear();
-  if (first_ghost < 0) return;
-  owned_.assign(static_cast<std::size_t>(cells()), 0);
-  for (std::int32_t cell = 0; cell < cells(); ++cell)
-    for (std::int32_t place = first_[cell]; place < first_[cell + 1]; ++place)
-      owned_[cell] |= id_[place] < first_ghost;
-}
-
 std::size_t CellLayer::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  return bytes_of(coordinates_) + bytes_of(slot_) + bytes_of(cell_of_) + bytes_of(next_) + bytes_of(first_) +
+  return bytes_of(piece_) + bytes_of(rounded_) + bytes_of(slot_) + bytes_of(number_) + bytes_of(first_) +
          bytes_of(occupied_) + bytes_of(table_) + bytes_of(row_first_) + bytes_of(owned_) + 3 * bytes_of(x_) +
          bytes_of(tag_) + bytes_of(id_);
 }

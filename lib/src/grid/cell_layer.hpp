@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,8 @@
 #include <dch/geometry/box.hpp>
 
 #include "base/aligned_vector.hpp"
+#include "grid/cell_bins.hpp"
+#include "grid/cell_curve.hpp"
 #include "grid/cell_layout.hpp"
 #include "leaves/labelled_leaves.hpp"
 #include "simd/list_kernels.hpp"
@@ -27,8 +30,9 @@ struct Occupancy {
 };
 
 /// Points sorted into cells of the reduced lattice, those of a row of cells behind each other, so that runs
-/// of cells are runs of points. Coordinates are 16-bit integers that wrap, since only differences of points
-/// near each other are taken.
+/// of cells are runs of points; within a cell along a curve, so that points next to each other are close
+/// together. Coordinates are 16-bit integers that wrap, since only differences of points near each other are
+/// taken.
 class CellLayer {
  public:
   /// Points of cells that lie side by side: places [begin, end).
@@ -37,14 +41,21 @@ class CellLayer {
     std::int32_t size() const { return end - begin; }
   };
 
-  /// Sorts the points `members` (all, if it is null) of those given, wrapped, into cells.
+  /// Begins anew: `n` points are to be taken, then sorted.
+  /// @param rounding that quantize() will most likely be asked for: positions are in registers here
+  /// @return false, with no points in it, if there are too many cells for any points
+  bool start(std::size_t n, const Box& box, const CellLayout& layout, const CellRounding& rounding);
+  /// Takes points from the `first` one on. Each thread may take others.
+  /// @param bins of the box, the layout and the rounding
+  void take(const CellBins& bins, Span<const Vec3> positions, std::size_t first);
+  /// Sorts the points into cells, when all have been taken.
+  /// @param members whose points they are; those of all, in order, if it is null
   /// @return false, with no points in it, if they lie farther apart than cells can be told apart
-  bool sort(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
-            const CellLayout& layout, Executor* executor);
+  bool sort(const std::vector<std::int32_t>* members);
   void clear();
 
-  /// Rounds the coordinates, relative to a point, to units [length], and the radii if cutoffs go by them.
-  void quantize(Span<const Vec3> positions, const Box& box, Vec3 origin, double unit,
+  /// Rounds the coordinates, and the radii if cutoffs go by them.
+  void quantize(Span<const Vec3> positions, const Box& box, const CellRounding& rounding,
                 const ParticleLabels& labels, Executor* executor);
   /// Notes which cells hold none but ghosts.
   void find_ghosts(std::int32_t first_ghost);
@@ -52,12 +63,16 @@ class CellLayer {
   const CellLayout& layout() const { return layout_; }
   std::int32_t size() const { return size_; }
   /// Cells, in a dense block with the empty ones.
-  std::int32_t cells() const { return static_cast<std::int32_t>(first_.size()) - 1; }
+  std::int32_t cells() const { return static_cast<std::int32_t>((first_.size() - 1) >> curve_.bits()); }
   /// The first cell of the k-th of `shares` parts with about as many points each.
   std::int32_t first_cell_of_share(int share, int shares) const;
   const Occupancy& occupancy() const { return occupancy_; }
-  Run points_of(std::int32_t cell) const { return {first_[cell], first_[cell + 1]}; }
+  Run points_of(std::int32_t cell) const { return {begin_of(cell), begin_of(cell + 1)}; }
   CellCoordinates coordinates(std::int32_t cell) const;
+  /// Whether the next `more` cells of its row, within the period, have the next numbers.
+  bool are_in_row(std::int32_t cell, std::int32_t more) const {
+    return dense_ && cell % count_[0] + more < count_[0];
+  }
   /// Whether a point of the cell is not a ghost.
   bool is_owned(std::int32_t cell) const { return owned_.empty() || owned_[cell] != 0; }
 
@@ -75,13 +90,19 @@ class CellLayer {
   std::size_t memory_bytes() const;
 
  private:
-  template <class Metric>
-  void find_coordinates(const Metric& metric, Span<const Vec3> positions,
-                        const std::vector<std::int32_t>* members, Executor* executor);
+  void round_coordinates(Span<const Vec3> positions, const Box& box, const CellRounding& rounding,
+                         Executor* executor);
+  std::int32_t begin_of(std::int32_t cell) const {
+    return first_[static_cast<std::size_t>(cell) << curve_.bits()];
+  }
+  void clear_cells();
+  bool find_block();
+  void number_pieces(const CellCoordinates* pieces, std::size_t count, std::array<int, 3> axes,
+                     std::int32_t* to) const;
+  void halve_cells(std::size_t cells);
   void count_points();
-  void find_corners(CellCoordinates& low, CellCoordinates& high) const;
-  std::int64_t key_of(const CellCoordinates& c) const;
-  void number_cells();
+  void put_in_cells(const std::vector<std::int32_t>* members);
+  std::int64_t key_of(const CellCoordinates& piece) const;
   void find_occupied();
   std::size_t slot_of(std::int64_t key) const;
   void find_rows();
@@ -92,14 +113,17 @@ class CellLayer {
   Run occupied_between(std::int64_t row, std::int32_t first, std::int32_t last) const;
 
   CellLayout layout_;
-  CellCoordinates low_{}, count_{};           ///< of the block that holds all cells
-  bool dense_ = true;                         ///< whether each cell of the block has a number, its key
-  std::vector<CellCoordinates> coordinates_;  ///< by point; scratch
-  std::vector<std::size_t> slot_;             ///< by point, unless dense; scratch
-  std::vector<std::int32_t> cell_of_;         ///< by point; scratch
-  std::vector<std::int32_t> next_;            ///< by cell; scratch
-  std::vector<std::int32_t> first_{0};        ///< by cell: where its points begin
-  std::vector<std::int64_t> occupied_;        ///< keys of the cells, ascending, unless dense
+  CellCoordinates low_{}, count_{};  ///< of the block that holds all cells
+  bool block_known_ = false;         ///< whether the block is that of all cells of the box, before any point
+  bool dense_ = true;                ///< whether each cell of the block has a number, its key
+  CellCurve curve_{0};               ///< the order of the pieces of a cell
+  std::vector<CellCoordinates> piece_;  ///< by point, unless the block is known: its piece; scratch
+  CellRounding rounding_;               ///< that x_, y_ and z_ have
+  std::vector<RoundedPoint> rounded_;   ///< by point, unless unit is 0; scratch
+  std::vector<std::size_t> slot_;       ///< by point, unless dense; scratch
+  std::vector<std::int32_t> number_;    ///< by point: number of its piece; scratch
+  std::vector<std::int32_t> first_{0};  ///< by piece, cell by cell: where its points begin
+  std::vector<std::int64_t> occupied_;  ///< keys of the cells, ascending, unless dense
   struct Slot {
     std::int64_t key;
     Run cells;
@@ -127,7 +151,7 @@ void CellLayer::for_each_run(std::int32_t first, std::int32_t last, std::int32_t
   const auto begin = static_cast<std::int32_t>(row * count_[0]);
   const Run cells = dense_ ? Run{begin + first, begin + last + 1} : occupied_between(row, first, last);
   if (!only_owned) {
-    if (cells.begin < cells.end) f(Run{first_[cells.begin], first_[cells.end]});
+    if (cells.begin < cells.end) f(Run{begin_of(cells.begin), begin_of(cells.end)});
     return;
   }
   for (std::int32_t cell = cells.begin; cell < cells.end; ++cell)

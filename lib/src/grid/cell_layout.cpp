@@ -28,13 +28,18 @@ std::vector<Vec3> orthogonal_complement(const std::array<Vec3, 3>& vectors, int 
   return {frame.begin() + rank, frame.end()};
 }
 
+constexpr double kOutermost =
+    0x1p-10;  ///< of the last cell of a period: what points beyond it are put at [cells]
+
 /// A point in the midst of the points along a row: the median of a small sample, which outliers do not move.
 Vec3 middle_along(Vec3 row, Span<const Vec3> points) {
   constexpr std::size_t kSample = 31;
   if (points.empty()) return {};
   std::vector<Vec3> sample;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
-  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    if (std::isfinite(dot(row, points[i]))) sample.push_back(points[i]);  // others are about to be refused
+  if (sample.empty()) return {};
   const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
   std::nth_element(sample.begin(), median, sample.end(),
                    [&](Vec3 p, Vec3 q) { return dot(row, p) < dot(row, q); });
@@ -52,7 +57,7 @@ CellLayout::CellLayout(Span<const Vec3> points, const Box& box, double width) {
     const auto cells = static_cast<std::int32_t>(std::clamp(height / widened, 1.0, kFarthest));
     const Vec3 period = box.reduced()[k];
     directions_[k] = {
-        static_cast<double>(cells) * dual, (1.0 / cells) * period, cells, period, 0, cells - 0.5};
+        static_cast<double>(cells) * dual, (1.0 / cells) * period, cells, period, 0, cells - kOutermost};
   }
   origin_ = box.origin();
   const auto normals = orthogonal_complement(box.reduced(), rank);
@@ -73,6 +78,9 @@ CellLayout::CellLayout(Span<const Vec3> points, const Box& box, double width) {
     }
     right_angles_ = right_angles_ && components == 1;
   }
+  for (std::size_t k = 0; k < 3; ++k)
+    pieces_[k] = {std::max(kPieces * directions_[k].least, -kFarthest),
+                  std::min(kPieces * directions_[k].most, kFarthest - 1)};
   std::array<Vec3, 3> frame;
   for (std::size_t k = 0; k < 3; ++k) {
     Vec3 rest = directions_[k].edge;
@@ -83,6 +91,18 @@ CellLayout::CellLayout(Span<const Vec3> points, const Box& box, double width) {
     edges_[k][k] = std::sqrt(norm2(rest));
     frame[k] = (1 / edges_[k][k]) * rest;
   }
+}
+
+CellLayout::Axes CellLayout::axes() const {
+  Axes axes{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(axis_[k]);
+    axes.origin[axis] = origin_[axis_[k]];
+    axes.per_piece[axis] = kPieces * along_[k];
+    axes.least[axis] = pieces_[k].least;
+    axes.most[axis] = pieces_[k].most;
+  }
+  return axes;
 }
 
 Vec3 CellLayout::extent() const {

@@ -22,6 +22,8 @@ class CellLayout {
   static constexpr double kFarthest = 1 << 30;
   /// How far a point may lie outside of its cell, by rounding [cells].
   static constexpr double kMargin = 1e-6;
+  /// A cell is halved so often along each direction to make its finest pieces.
+  static constexpr int kHalvings = 2;
 
   /// One direction: cell coordinate = floor(row . (p - origin)).
   struct Direction {
@@ -31,6 +33,13 @@ class CellLayout {
     Vec3 period;             ///< reduced lattice vector
     /// What coordinates are cut off at: rounding may leave a wrapped point a little outside.
     double least = -kFarthest, most = kFarthest - 1;
+  };
+
+  /// Pieces of cells by the axes of space, where each direction is along one of them: coordinate along an
+  /// axis = (p - origin) * per_piece, not below least, not above most, then rounded down. Just as
+  /// piece_coordinates() has it.
+  struct Axes {
+    std::array<double, 3> origin, per_piece, least, most;
   };
 
   CellLayout() = default;
@@ -47,6 +56,20 @@ class CellLayout {
     return {cut(0, along_[0] * at[axis_[0]]), cut(1, along_[1] * at[axis_[1]]),
             cut(2, along_[2] * at[axis_[2]])};
   }
+  /// The same of the finest pieces of cells, of which there must be fewer than 2^30.
+  CellCoordinates piece_coordinates(Vec3 p) const {
+    const Vec3 at = p - origin_;
+    CellCoordinates c;
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = floored_above(cut_to(pieces_[k], right_angles_ ? kPieces * along_[k] * at[axis_[k]]
+                                                            : kPieces * dot(directions_[k].row, at)));
+    return c;
+  }
+  /// Whether each direction is along an axis of space.
+  bool has_right_angles() const { return right_angles_; }
+  Axes axes() const;
+  /// The axis of a direction, where it has one.
+  int axis(std::size_t k) const { return axis_[k]; }
   /// The same before they are rounded down.
   Vec3 real_coordinates(Vec3 p) const {
     const Vec3 at = p - origin_;
@@ -70,13 +93,20 @@ class CellLayout {
   static Interval scaled(double by, Interval v) {
     return by < 0 ? Interval{by * v.high, by * v.low} : Interval{by * v.low, by * v.high};
   }
-  /// Rounded down, within the cells that there are.
-  [[gnu::always_inline]] std::int32_t cut(std::size_t k, double u) const {
-    const Direction& d = directions_[k];
-    u = u < d.least ? d.least : u;
-    u = u > d.most ? d.most : u;
+  struct Ends {
+    double least, most;
+  };
+  static double cut_to(Ends ends, double u) {
+    u = u < ends.least ? ends.least : u;
+    return u > ends.most ? ends.most : u;
+  }
+  static std::int32_t floored_above(double u) {
     // Above 0, where to cut off is to round down.
     return static_cast<std::int32_t>(u + kFarthest) - static_cast<std::int32_t>(kFarthest);
+  }
+  /// Rounded down, within the cells that there are.
+  [[gnu::always_inline]] std::int32_t cut(std::size_t k, double u) const {
+    return floored_above(cut_to({directions_[k].least, directions_[k].most}, u));
   }
   static std::int32_t floored(double u) { return static_cast<std::int32_t>(std::floor(u)); }
 
@@ -85,6 +115,8 @@ class CellLayout {
   std::array<int, 3> axis_{};
   std::array<double, 3> along_{};
   std::array<Direction, 3> directions_;
+  static constexpr double kPieces = 1 << kHalvings;
+  std::array<Ends, 3> pieces_{};  ///< of the coordinates of pieces
   /// Edges in a frame of right angles: row k holds the k-th component of the edges k, k + 1, ..
   std::array<std::array<double, 3>, 3> edges_{};
 };

@@ -105,10 +105,10 @@ std::size_t CellSearch::memory_bytes() const {
 }  // namespace
 
 std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions) {
-  constexpr double kLeast = 1e-100;  // squares of shorter ones would underflow
-  if (!(std::isfinite(radius) && radius >= kLeast)) {
+  constexpr double kMinRadius = 1e-100;  // squares of shorter ones would underflow
+  if (!(std::isfinite(radius) && radius >= kMinRadius)) {
     throw InvalidParameter("the search radius is " + detail::describe(radius) +
-                           "; it must be finite and at least " + detail::describe(kLeast));
+                           "; it must be finite and at least " + detail::describe(kMinRadius));
   }
   if (divisions < 1 || divisions > 4) {
     throw InvalidParameter("cells of 1/" + std::to_string(divisions) +

@@ -13,11 +13,17 @@ constexpr double kSample = 3;  ///< points of the sample, in roots of the number
                                ///< cell are met in a large scene as in a small one
 constexpr double kWidths = 2;  ///< width of a cell of the sample
 
-constexpr double kPoints = 33;                     ///< wanted in the cell of a point
-constexpr double kNarrowest = 0.3, kWidest = 2.4;  ///< widths of cells, in reaches
-/// Differences of coordinates are no longer than this, in reaches, so that the integers that hold them tell
-/// squares of distances to a thousandth of the reach's; else cells are made narrower by the factor below.
-constexpr double kLongest = 5, kNarrower = 0.9;
+constexpr double kPoints = 26;      ///< wanted in the cell of a point
+constexpr double kNarrowest = 0.3;  ///< width of a cell, in reaches
+/// The widest cells, in reaches, and the longest differences of coordinates: the shorter they are, the finer
+/// the integers that hold them. With five reaches squares of distances are told to 2/1000 of the reach's.
+/// Cells are made narrower by the factor below until differences are no longer.
+struct Most {
+  double width, difference;
+};
+constexpr Most kAlone = {3.2, 7};   ///< the wider cells are, the more of few points stand in one
+constexpr Most kOthers = {2.4, 5};  ///< where shells have to be told, or wide cells meet more of finer points
+constexpr double kNarrower = 0.9;
 
 /// Numbers that look like random ones, a different one for each k.
 std::uint64_t mixed(std::uint64_t k) {
@@ -58,12 +64,15 @@ double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>
 /// Each cell takes some work, and each pair of points of cells near each other: with m points in a cell on
 /// average and k in that of a point, as much as a / m + b k for a point. So the best k is in proportion to
 /// the root of k / m, the spread.
-CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread) {
+CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread,
+                     CellUse use) {
+  const Most& most = use == CellUse::alone ? kAlone : kOthers;
   const double wanted = kPoints * std::sqrt(spread);
-  double width = reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, kWidest);
+  double width = reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, most.width);
   for (;; width *= kNarrower) {
     const CellLayout layout(positions, box, width);
-    if (width <= kNarrowest * reach || widest_in(layout, half_stencil(layout, reach)) <= kLongest * reach)
+    if (width <= kNarrowest * reach ||
+        widest_in(layout, half_stencil(layout, reach)) <= most.difference * reach)
       return layout;
   }
 }

@@ -17,9 +17,18 @@ namespace dch::detail {
 double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>* members, const Box& box,
                      double width);
 
+/// What cells are for.
+enum class CellUse {
+  alone,             ///< there are no points in other cells
+  alone_with_shell,  ///< the same, and lists have a shell, which has to be told to 2/1000 of the reach's
+                     ///< square
+  with_finer         ///< their points meet those of finer cells
+};
+
 /// The cells in which rows of pairs within `reach` take about the least work.
 /// @param nearby as points_nearby() has it for the reach
 /// @param spread of the points, see Occupancy
-CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread);
+CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread,
+                     CellUse use);
 
 }  // namespace dch::detail

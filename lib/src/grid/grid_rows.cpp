@@ -4,13 +4,9 @@
 #include <algorithm>
 
 #include "grid/stencil.hpp"
+#include "leaves/rounding.hpp"
 
 namespace dch::detail {
-namespace {
-
-constexpr double kLargest = 32700;  ///< of a difference of coordinates in units; leaves room for rounding
-
-}  // namespace
 
 void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>& filters,
                     const std::vector<NeighborList*>& out) {
@@ -22,7 +18,7 @@ void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>
     CellLayer& rows = *scene.layers[s];
     if (rows.size() == 0) continue;
     const double own_reach = scene.reach_of(s, s);
-    CellScene cells{rows, half_stencil(rows.layout(), own_reach), {}, scene.positions, scene.box, 0, false,
+    CellScene cells{rows, half_stencil(rows.layout(), own_reach), {}, scene.positions, scene.box, 0, 0, false,
                     {}};
     double widest = widest_in(rows.layout(), cells.stencil), farthest = own_reach;
     for (std::size_t a = 0; a < s; ++a) {
@@ -33,10 +29,11 @@ void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>
           widest, reach + longest(rows.layout().extent()) + longest(scene.layers[a]->layout().extent()));
       farthest = std::max(farthest, reach);
     }
-    cells.unit = widest * (1 + 1e-9) / kLargest;
+    cells.unit = finest_unit(widest);
+    cells.per_unit = 1 / cells.unit;
     cells.has_ghosts = params.first_ghost >= 0;
     for (std::size_t a = 0; a <= s; ++a) {
-      scene.layers[a]->quantize(scene.positions, scene.box, origin, cells.unit, labels, scene.executor);
+      scene.layers[a]->quantize(scene.positions, scene.box, {origin, cells.unit}, labels, scene.executor);
       scene.layers[a]->find_ghosts(params.first_ghost);
     }
     for (std::size_t r = 0; r < out.size(); ++r) {

@@ -11,7 +11,6 @@
 #include "base/seconds_since.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/tolerance.hpp"
-#include "grid/cell_width.hpp"
 #include "lists/list_assembly.hpp"
 #include "lists/list_check.hpp"
 #include "lists/reach.hpp"
@@ -21,14 +20,6 @@ namespace detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// List radius of a class with itself or, if it has no pairs with itself, the largest with another one.
-double own_reach(const SizeClasses& classes, std::size_t g) {
-  double reach = classes.reach_of(g, g);
-  for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
-    reach = std::max(reach, classes.reach_of(g, b));
-  return reach;
-}
 
 bool have_sizes(Span<const ListParams> requests) {
   return std::any_of(requests.begin(), requests.end(), [](const ListParams& request) {
@@ -83,17 +74,6 @@ void GridSearch::update(Span<const Vec3> positions, const Box& box, Span<const s
   stats_.maintain_seconds += seconds_since(start);
 }
 
-void GridSearch::take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
-  if (!keys.empty()) key_table_.fill(positions.size(), keys);  // throws if they repeat
-  check_radius(radius_, box);
-  const double reach = check_positions(positions, box);
-  wrap_error_ = WrapError(box).bound(reach);
-  positions_.assign(positions.begin(), positions.end());
-  box_ = box;
-  for (Group& group : groups_) group.reach = 0;
-  has_plain_ = false;
-}
-
 void GridSearch::lists(Span<const ListParams> requests, std::vector<NeighborList>& out) {
   out.resize(requests.size());
   std::vector<NeighborList*> each;
@@ -106,10 +86,13 @@ void GridSearch::lists(Span<const ListParams> requests, std::vector<NeighborList
 GridSearch::Reach GridSearch::prepare(Span<const ListParams> requests) {
   const auto start = Clock::now();
   double reach = 0, host_error = 0;
+  bool shell = false;
   for (const ListParams& request : requests) {
     reach = std::max(reach, request.list_radius());
     host_error = std::max(host_error, request.cutoff_error());
+    shell = shell || request.shell > 0;
   }
+  fine_ = shell;
   const double error = wrap_error_ + rounding_of_leaves(radius_) + host_error;
   // Two images of a point may both be within the band of the cutoff only if it is half a period.
   bool in_cells = !box_.any_periodic() || (reach + 3 * error) * kInflate < box_.max_cutoff();
@@ -179,26 +162,6 @@ void GridSearch::classify(Span<const ListParams> requests) {
   }
   classes_ = std::move(chosen);
   sizes_.keep(requests);  // last, when all goes by them
-}
-
-/// Puts the points of each class into cells. Returns false if they lie too far apart for that.
-bool GridSearch::sort_points(double error) {
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    Group& group = groups_[g];
-    const double own = own_reach(classes_, g), reach = own > 0 ? own : radius_ + error;
-    if (group.reach == reach) continue;
-    group.reach = 0;
-    const std::vector<std::int32_t>* const members = groups_.size() > 1 ? &group.particle : nullptr;
-    const Occupancy before = group.layer.size() > 0 ? group.layer.occupancy() : Occupancy();
-    const double nearby = group.layer.size() > 0
-                              ? before.of_point * reach * reach * reach / group.layer.layout().cell_volume()
-                              : points_nearby(positions_, members, box_, reach);
-    const CellLayout layout = cells_for(positions_, box_, reach, nearby, before.spread());
-    if (!group.layer.sort(positions_, members, box_, layout, executor_)) return false;
-    group.reach = reach;
-    ++stats_.builds;
-  }
-  return true;
 }
 
 /// Where lists reach half the box, or points lie too far apart for cells.

@@ -10,6 +10,8 @@
 
 #include "base/key_table.hpp"
 #include "engines/size_classes.hpp"
+#include "geometry/position_check.hpp"
+#include "grid/cell_bins.hpp"
 #include "grid/cell_layer.hpp"
 #include "grid/grid_rows.hpp"
 #include "grid/plain_cells.hpp"
@@ -20,8 +22,9 @@ namespace dch::detail {
 /// PairSearch on cells that are filled anew at every update: the twin of the hierarchy, which keeps nothing.
 ///
 /// How wide cells should be, and whether particles of different sizes should have grids of their own, is
-/// known when a list is asked for. So update() only takes the positions, and list() sorts them; that time
-/// counts as maintenance.
+/// known when a list is asked for. So list() sorts the positions; that time counts as maintenance. update()
+/// looks at each of them once, though: it checks and copies them and finds their places in cells for lists as
+/// the last ones, which list() makes use of if they are.
 class GridSearch final : public PairSearch {
  public:
   GridSearch(double radius, Executor* executor) : radius_(radius), executor_(executor) {}
@@ -48,7 +51,14 @@ class GridSearch final : public PairSearch {
   struct Group {
     std::vector<std::int32_t> particle;  ///< empty if there is one class, of all
     CellLayer layer;
-    double reach = 0;  ///< that the cells were made for, 0 if they hold other positions [length]
+    double reach = 0;    ///< that the cells were made for, 0 if they hold other positions [length]
+    double started = 0;  ///< that cells were started for, which all points have been taken for; 0 for none
+    struct {
+      double reach = 0, own = 0;  ///< of the last cells; 0 if there were none [length]
+      double density = 0;         ///< in the cell of a point [1/length^3]
+      double spread = 1;
+      bool fine = false;  ///< for a list with a shell
+    } last;
   };
 
   void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
@@ -58,6 +68,12 @@ class GridSearch final : public PairSearch {
   };
   Reach prepare(Span<const ListParams> requests);
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
+  double take_and_check(Span<const Vec3> positions, const PositionCheck& check);
+  std::optional<CellBins> start_cells(Group& group, Span<const Vec3> positions, double reach, double own);
+  bool take_points(Group& group, double reach, double own);
+  const std::vector<std::int32_t>* members_of(const Group& group) const {
+    return groups_.size() > 1 ? &group.particle : nullptr;
+  }
   void classify(Span<const ListParams> requests);
   bool sort_points(double error);
   void find_plainly(double error, const std::vector<const PairFilter*>& filters,
@@ -71,6 +87,7 @@ class GridSearch final : public PairSearch {
   KeyTable key_table_;  ///< finds keys that repeat
   SizeRecord sizes_;    ///< that classes_ are of
   SizeClasses classes_;
+  bool fine_ = false;                ///< whether cells are for a list with a shell
   std::vector<double> exact_reach_;  ///< that of classes_ without rounding [length]
   std::vector<Group> groups_;
   PlainCells plain_{1};

@@ -85,7 +85,7 @@ class AdjacencyRows {
     std::unique_ptr<std::int32_t[]> data;
     std::size_t size;
   };
-  static constexpr std::size_t kLeastChunk = 64, kMostChunk = std::size_t{1} << 20;
+  static constexpr std::size_t kMinChunk = 64, kMaxChunk = std::size_t{1} << 20;
 
   /// Places of one class hold as many entries as the shortest of them, or up to a quarter more.
   static std::size_t class_of(std::int64_t capacity) {
@@ -122,8 +122,7 @@ class AdjacencyRows {
       ++chunk_;
       used_ = 0;
     }
-    if (chunk_ == chunks_.size())
-      add_chunk(std::max(wanted, std::clamp(total_ / 8, kLeastChunk, kMostChunk)));
+    if (chunk_ == chunks_.size()) add_chunk(std::max(wanted, std::clamp(total_ / 8, kMinChunk, kMaxChunk)));
     const Place place{chunks_[chunk_].data.get() + used_, count};
     used_ += wanted;
     return place;

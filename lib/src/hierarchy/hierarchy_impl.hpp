@@ -192,7 +192,7 @@ struct Hierarchy::Impl : detail::Structure {
 
   // motion/refresh.cpp
   void update(Span<const Vec3> positions, const Box& b);
-  double check_positions_of_points(Span<const Vec3> positions, const Box& b) const;
+  double take_positions(Span<const Vec3> positions, const Box& b);
   template <class Metric>
   void refresh_level(const Metric& metric, int i);
   /// New positions of the points and of level 1; with this, points are measured.

@@ -12,6 +12,8 @@
 namespace dch::detail {
 namespace {
 
+constexpr std::int32_t kAhead = 8;  ///< blocks that positions are asked for before they are measured
+
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 double longest(Vec3 sides) { return std::max(sides.x, std::max(sides.y, sides.z)); }
@@ -23,6 +25,14 @@ class BlockMeter {
   BlockMeter(const Metric& metric, const Vec3* positions, LeafBlocks& blocks, double covered2)
       : metric_(metric), positions_(positions), blocks_(blocks), covered2_(covered2) {
     if constexpr (kIsBrick) cell_ = metric.brick();
+  }
+
+  /// Has the positions of a block fetched that is to be measured soon: they lie anywhere.
+  void ask_for(std::int32_t block) const {
+    if (positions_ == nullptr) return;
+    const std::int32_t* const id = blocks_.id.data() + block * kBlock;
+    for (std::int32_t lane = 0; lane < blocks_.count[block]; ++lane)
+      __builtin_prefetch(&positions_[id[lane]]);
   }
 
   void measure(std::int32_t block, Vec3 center, MeasuredLeaves::Offsets& offsets, BlockExtremes& out) const {
@@ -129,6 +139,7 @@ void MeasuredLeaves::measure_leaf(const Meter& meter, Vec3 center, Leaf& leaf) {
   leaf.uncovered = 0;
   Vec3 leaf_low{}, leaf_high{};  // the center is in the box
   for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
+    if (b + kAhead < blocks) meter.ask_for(source[b + kAhead]);
     BlockExtremes measured;
     meter.measure(source[b], center, offsets[b], measured);
     const Vec3 low{measured.low[0], measured.low[1], measured.low[2]};

@@ -6,6 +6,13 @@
 
 namespace dch::detail {
 
+/// The finest unit [length] in which a difference of coordinates of at most `widest` is a 16-bit integer,
+/// with room for the rounding of both.
+inline double finest_unit(double widest) {
+  constexpr double kMaxUnits = 32700;
+  return widest * (1 + 1e-9) / kMaxUnits;
+}
+
 /// The nearest integer, modulo 2^16, of a number below 2^22 or 2^51 in magnitude.
 inline std::int16_t rounded(float v) {
   const float shifted = v + 0x1.8p23f;  // now the integer stands in the low bits

@@ -120,9 +120,9 @@ class Oracle {
 
   bool is_within(std::int32_t i, std::int32_t j, double distance2) const {
     const double limit2 = limit2_of(i, j), error = params_.cutoff_error();
-    if (params_.near_cutoff == nullptr || limit2 < 0) return distance2 <= limit2;
+    if (params_.tie_breaker == nullptr || limit2 < 0) return distance2 <= limit2;
     const double off = std::sqrt(distance2) - std::sqrt(limit2);
-    return std::abs(off) <= error ? params_.near_cutoff->accepts(i, j) : off < 0;
+    return std::abs(off) <= error ? params_.tie_breaker->accepts(i, j) : off < 0;
   }
 
   bool is_excluded(std::int32_t i, std::int32_t j) const {

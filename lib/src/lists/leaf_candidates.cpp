@@ -52,7 +52,7 @@ std::int32_t LeafCandidates::collect_from(const NearSource& near, const std::vec
   const LeafSource& leaves = *near.source;
   std::int64_t lanes_near = already;
   for (const BlockRange& range : ranges) lanes_near += std::int64_t{kBlock} * range.count;
-  index_count(lanes_near, "points and images of points near one cluster", "take a smaller cutoff",
+  index_count(lanes_near, "points and images of points near one leaf", "take a smaller cutoff",
               kMaxIndexCount - 2 * kChunk);  // as many as that are rounded up to whole chunks
   const auto most = static_cast<std::int32_t>((lanes_near - already) / kBlock);
   work_.boxes += most;

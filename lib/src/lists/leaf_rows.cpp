@@ -6,33 +6,52 @@
 
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
+#include "leaves/rounding.hpp"
 
 namespace dch::detail {
 namespace {
-
-constexpr double kMaxDifference =
-    32700;  ///< of a difference of coordinates in units; leaves room for rounding
-
-/// The finest units in which the rows of source `s` can be found.
-ListUnits units_for(const ListScene& scene, std::size_t s) {
-  const MeasuredLeaves& own = scene.sources[s]->measured();
-  double widest = 0, farthest = 0;
-  for (std::size_t a = 0; a <= s; ++a) {
-    const MeasuredLeaves& other = scene.sources[a]->measured();
-    const double reach = scene.reach_of(s, a);
-    // The largest difference of coordinates that is taken: between a point of a leaf and one within reach
-    // of the leaf's box, or between the middle of the box and a point of a block within reach of it.
-    widest = std::max(
-        widest, reach + std::max(own.largest_width, 0.5 * own.largest_width + other.largest_block_width));
-    farthest = std::max(farthest, reach + 3 * (own.largest_extent + other.largest_extent));
-  }
-  return {widest * (1 + 1e-9) / kMaxDifference, farthest * (1 + 1e-9) / kMaxDifference};
-}
 
 /// Boxes are rounded outward by more than their centers and shifts are off; three squares are rounded too.
 std::int16_t box_limit(double reach, const ListUnits& units) {
   const double box_reach = reach / units.box;
   return static_cast<std::int16_t>(std::min(std::floor(box_reach * box_reach / 0x1p15 + 1.5) + 1, 32767.0));
+}
+
+/// How far apart boxes may be that collect() takes for near [length]: it stays below the limit by 1 at least,
+/// three squares are rounded, and so are centers, half widths and a shift.
+double farthest_collected(double reach, const ListUnits& units) {
+  constexpr double kRoundings = 8;
+  return (std::sqrt((box_limit(reach, units) + 1.5) * 0x1p15) + kRoundings) * units.box;
+}
+
+/// The finest units in which the rows of source `s` can be found. Coordinates and their differences are
+/// integers modulo 2^16 = P, and no more than these has to hold of the points in them:
+/// - Boxes of blocks are taken relative to each other, so a leaf is narrower than P / 2.
+/// - A filter takes points relative to the middle of a box. With a half width h of the box and a reach r, a
+///   difference d is mistaken for a near one only if |d| > P - h - r. The box of a part of a leaf is at most
+///   as wide as the leaf, w, and meets points of blocks that collect() has found: |d| <= w / 2 + c + b, with
+///   the distance c of the blocks and their width b. So w + r + c + b < P serves, and serves the boxes within
+///   that box too, which meet what it has kept: |d| + h <= w + r.
+/// - A test takes points relative to one in a block whose box has kept them: |d| <= b + r < P / 2.
+/// Filters and tests let points pass that are farther than r by what they round, less than 500 units.
+ListUnits units_for(const ListScene& scene, std::size_t s) {
+  constexpr double kPeriod = 0x1p16, kRoom = 1000;
+  const MeasuredLeaves& own = scene.sources[s]->measured();
+  double farthest = 0;
+  for (std::size_t a = 0; a <= s; ++a)
+    farthest = std::max(farthest, scene.reach_of(s, a) +
+                                      3 * (own.largest_extent + scene.sources[a]->measured().largest_extent));
+  ListUnits units{0, finest_unit(farthest)};
+  for (std::size_t a = 0; a <= s; ++a) {
+    const MeasuredLeaves& other = scene.sources[a]->measured();
+    const double reach = scene.reach_of(s, a) + 2 * scene.error;  // limits are wider by that
+    const double filtered =
+        own.largest_width + reach + farthest_collected(reach, units) + other.largest_block_width;
+    const double tested = std::max(own.largest_width, own.largest_block_width + reach);
+    units.point = std::max({units.point, filtered / (kPeriod - kRoom), tested / (kPeriod / 2 - kRoom)});
+  }
+  units.point *= 1 + 1e-9;
+  return units;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct ListScene {
 /// on every instruction set, so the rows are too; and they do not depend on the number of threads.
 class LeafRows {
  public:
-  /// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like
+  /// Finds all pairs that each filter accepts, as unsorted half lists, ghosts having rows like
   /// all others. What the filters' cutoffs depend on must be the same for all, and the first one's list
   /// radius the largest. Edges must join all leaves of a source with points within its reach of each other.
   void find(const ListScene& scene, const std::vector<const PairFilter*>& filters,

@@ -68,7 +68,7 @@ void check_list_params(const ListParams& params, std::size_t n, double radius) {
   }
   const double reach = params.list_radius() + params.cutoff_error();
   if (reach > radius) {
-    throw InvalidParameter(std::string("cutoff + skin") + (params.near_cutoff ? " + error" : "") + " = " +
+    throw InvalidParameter(std::string("cutoff + skin") + (params.tie_breaker ? " + error" : "") + " = " +
                            describe(reach) + " exceeds the search radius " + describe(radius) +
                            " that the engine was made for; make it with a larger one");
   }

@@ -21,7 +21,7 @@ bool are_alike(const ListParams& a, const ListParams& b) {
 }
 
 bool is_ready_as_found(const ListParams& request) {
-  return request.order == RowOrder::by_structure && request.kind == ListKind::half && request.first_ghost < 0;
+  return request.order == RowOrder::unsorted && request.kind == ListKind::half && request.first_ghost < 0;
 }
 
 /// From rows that hold each pair once, in either row, rows of the same particles in the same order that hold
@@ -107,7 +107,7 @@ void ListFinder::find_alike(const ListTask& task, const std::vector<const ListPa
 
 void ListFinder::put_in_order(const ListParams& request, std::size_t n, const NeighborList& found,
                               NeighborList& out) {
-  if (request.order == RowOrder::by_structure) {
+  if (request.order == RowOrder::unsorted) {
     distribute_pairs(found, n, request.kind, request.first_ghost, out);
     out.margin = found.margin;
     return;

@@ -24,7 +24,7 @@ struct ListTask {
   Span<const std::int32_t> singletons{};  ///< particles that no row is found of, since they have no neighbors
 };
 
-/// Finds all pairs that each filter accepts, as half lists ordered by structure, ghosts having rows like all
+/// Finds all pairs that each filter accepts, as unsorted half lists, ghosts having rows like all
 /// others. The cutoffs of all filters go by the same thing, and the first one's list radius is the largest.
 using FindRows =
     std::function<void(const std::vector<const PairFilter*>& filters, const std::vector<NeighborList*>& out)>;

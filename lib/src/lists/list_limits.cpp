@@ -38,6 +38,50 @@ class Rounding {
   double unit_, off_;
 };
 
+std::int16_t middle_of(std::int16_t in, std::int16_t out) {
+  return static_cast<std::int16_t>(in + (out - in) / 2);
+}
+std::int16_t band_of(std::int16_t in, std::int16_t out) {
+  return static_cast<std::int16_t>((out - in + 1) / 2);
+}
+
+void set_middles(int types, ListLimits::PairLimits& to) {
+  to.type_middle.resize(static_cast<std::size_t>(types));
+  for (int a = 0; a < types; ++a)
+    for (int b = 0; b < types; ++b)
+      to.band = std::max(to.band, band_of(to.type_in[a].limit[b], to.type_out[a].limit[b]));
+  for (int a = 0; a < types; ++a) {
+    for (int b = 0; b < types; ++b) {
+      const std::int16_t in = to.type_in[a].limit[b], out = to.type_out[a].limit[b];
+      to.type_middle[a].limit[b] = out > 0 ? middle_of(in, out) : static_cast<std::int16_t>(-to.band - 1);
+    }
+  }
+}
+
+/// The limits of each two types, of which there are at most kKernelTypes.
+void set_by_types(const ListParams& params, const Rounding& rounding, double point_unit, ListLimits& to) {
+  const int types = params.cutoffs.types();
+  to.type_cutoff.resize(static_cast<std::size_t>(types));
+  to.all.type_in.resize(static_cast<std::size_t>(types));
+  to.all.type_out.resize(static_cast<std::size_t>(types));
+  to.near.type_in.resize(static_cast<std::size_t>(types));
+  std::fill_n(to.farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
+  for (int a = 0; a < types; ++a) {
+    for (int b = 0; b < types; ++b) {
+      if (params.cutoffs(a, b) == 0) continue;
+      const double far = params.cutoffs(a, b) + params.skin;
+      to.type_cutoff[a][b] = far / point_unit;
+      to.all.type_in[a].limit[b] = rounding.in(far);
+      to.all.type_out[a].limit[b] = rounding.out(far);
+      to.near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
+      to.farthest.limit[b] = std::max(to.farthest.limit[b], to.all.type_out[a].limit[b]);
+      to.margin = std::max(to.margin, rounding.margin(far, to.all.type_out[a].limit[b] - 1));
+    }
+  }
+  to.near.type_out = to.near.type_in;
+  set_middles(types, to.all);
+}
+
 }  // namespace
 
 ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach, double error)
@@ -70,7 +114,7 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
       all.skin = clamped(std::round(params.skin / point_unit));
       near.skin = clamped(std::round((params.skin - params.shell) / point_unit));
       const double least = 2 * filter.least_radius() + params.skin;  // the smaller, the more room
-      widen(least, rounding.limit(least + kOff * point_unit) + 0.5 + all.band);
+      widen(least, rounding.limit(least + kOff * point_unit) + 0.5 + all.band - 1);
       return;
     }
     case CutoffBy::types:
@@ -84,24 +128,22 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
     return;  // decided pair by pair, whatever the margin
   }
   off = rounding.off();
-  type_cutoff.resize(static_cast<std::size_t>(types));
-  all.type_in.resize(static_cast<std::size_t>(types));
-  all.type_out.resize(static_cast<std::size_t>(types));
-  near.type_in.resize(static_cast<std::size_t>(types));
-  std::fill_n(farthest.limit, types, std::int16_t{1});  // keeps points at the very place, so a block's own
-  for (int a = 0; a < types; ++a) {
-    for (int b = 0; b < types; ++b) {
-      if (params.cutoffs(a, b) == 0) continue;
-      const double far = params.cutoffs(a, b) + params.skin;
-      type_cutoff[a][b] = far / point_unit;
-      all.type_in[a].limit[b] = rounding.in(far);
-      all.type_out[a].limit[b] = rounding.out(far);
-      near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
-      farthest.limit[b] = std::max(farthest.limit[b], all.type_out[a].limit[b]);
-      widen(far, all.type_out[a].limit[b] - 1);
-    }
+  set_by_types(params, rounding, point_unit, *this);
+}
+
+RowLimits ListLimits::for_rows(const PairLimits& pairs, bool take_open) const {
+  RowLimits limits;
+  if (by == CutoffBy::radii) {
+    limits.skin = pairs.skin;
+    (take_open ? limits.raise : limits.band) = pairs.band;
+  } else if (by == CutoffBy::types && !per_pair) {
+    limits.by_type = take_open ? pairs.type_out.data() : pairs.type_middle.data();
+    limits.band = take_open ? std::int16_t{0} : pairs.band;
+  } else {
+    limits.middle = take_open ? pairs.out : middle_of(pairs.in, pairs.out);
+    limits.band = take_open ? std::int16_t{0} : band_of(pairs.in, pairs.out);
   }
-  near.type_out = near.type_in;
+  return limits;
 }
 
 }  // namespace dch::detail

@@ -20,10 +20,17 @@ struct ListLimits {
 
   struct PairLimits {
     std::int16_t in = 0, out = 0;               ///< by one cutoff; by types if per_pair
-    std::int16_t band = 0;                      ///< by radii
+    std::int16_t band = 0;                      ///< by radii, and of all types
     std::int16_t skin = 0;                      ///< by radii, to be added to the size of a row [units]
     std::vector<TypeLimits> type_in, type_out;  ///< by types
+    /// By types: no pair's `in` or `out` is farther from its middle than `band`; of types that make no pair
+    /// the middle is below all.
+    std::vector<TypeLimits> type_middle;
   };
+
+  /// As the kernels take them.
+  /// @param take_open what rounding leaves open is taken, and nothing is open
+  RowLimits for_rows(const PairLimits& pairs, bool take_open) const;
 
   CutoffBy by;
   PairLimits all;

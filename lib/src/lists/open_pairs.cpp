@@ -32,40 +32,41 @@ double cutoff_of(const ListLimits& limits, const OwnBlocks& own, std::int32_t bl
 
 }  // namespace
 
-void OpenPairs::note(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
-                     const Unsettled* unsettled, BlockTest& test) {
+void OpenPairs::note(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t before,
+                     const Candidates& near, const OpenLanes* open, std::int32_t open_count) {
   const ListLimits& limits = request.limits;
-  if (request.filter->params().superset || limits.per_pair) {
-    for (std::int32_t u = 0; u < test.left; ++u)
-      test.mask[unsettled[u].row * test.chunks + unsettled[u].chunk] |= unsettled[u].lanes;
-    return;
-  }
-  const Candidates near = test.near.at(0);
-  for (std::int32_t u = 0; u < test.left; ++u) {
-    const auto [row, chunk, open] = unsettled[u];
-    std::uint32_t& mask = test.mask[row * test.chunks + chunk];
+  for (const OpenLanes* lanes = open; lanes != open + open_count; ++lanes) {
+    const std::int32_t row = lanes->row;
     if (open_.size() < count_ + kChunk) open_.resize(2 * count_ + kChunk);
-    for (std::uint32_t rest = row < own.count[block] ? open : 0; rest != 0; rest &= rest - 1) {
+    for (std::uint32_t rest = lanes->lanes; rest != 0; rest &= rest - 1) {
       // Without branches: whether a pair is near enough is hard to foretell.
-      const int lane = __builtin_ctz(rest);
-      const std::int32_t at = chunk * kChunk + lane;
+      const std::uint32_t bit = rest & -rest;
+      const std::int32_t at = lanes->chunk * kChunk + __builtin_ctz(rest);
       const double d2 = squared_distance(own.points[block], row, near, at);
       const double cutoff = cutoff_of(limits, own, block, row, near.tag[at]);
       const double less = std::max(cutoff - limits.off, 0.0), more = cutoff + limits.off;
-      const bool is_in = d2 < less * less;
-      mask |= static_cast<std::uint32_t>(is_in) << lane;
+      const bool is_in = d2<less * less, is_out = d2> more * more, is_written = (lanes->within & bit) != 0;
       OpenPair& pair = open_[count_];
-      pair = {own.particle[block][row], near.id[at], &mask, 1u << lane};
-      request.filter->ask_for(pair.i, pair.j);
-      count_ += static_cast<std::size_t>(!is_in) & static_cast<std::size_t>(d2 <= more * more);
+      pair.edit = {before + lanes->segment, lanes->before + __builtin_popcount(lanes->within & (bit - 1)),
+                   near.id[at], !is_written};
+      pair.i = own.particle[block][row];
+      pair.is_decided = is_in || is_out;
+      request.filter->ask_for(pair.i, pair.edit.id);
+      const bool is_right = is_written ? is_in : is_out;
+      count_ += static_cast<std::size_t>(!is_right);
     }
   }
 }
 
 /// Their positions are likely in no cache; they have been asked for together.
-void OpenPairs::settle(const PairFilter& filter) const {
-  for (std::size_t k = 0; k < count_; ++k)
-    if (filter.accept(open_[k].i, open_[k].j)) *open_[k].mask |= open_[k].bit;
+const std::vector<RowEdit>& OpenPairs::decide(const PairFilter& filter) {
+  edits_.clear();
+  for (std::size_t k = 0; k < count_; ++k) {
+    const OpenPair& pair = open_[k];
+    if (pair.is_decided || filter.accept(pair.i, pair.edit.id) == pair.edit.is_missing)
+      edits_.push_back(pair.edit);
+  }
+  return edits_;
 }
 
 }  // namespace dch::detail

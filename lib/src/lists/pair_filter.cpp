@@ -20,7 +20,7 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       box_(box),
       params_(params),
       error_(error),
-      near_cutoff_(params.near_cutoff),
+      tie_breaker_(params.tie_breaker),
       exclusions_(params.exclusions != nullptr && !params.exclusions->empty() ? params.exclusions : nullptr),
       first_ghost_(params.first_ghost),
       by_(!params.radii.empty()         ? CutoffBy::radii
@@ -73,7 +73,7 @@ bool PairFilter::is_wanted(std::int32_t i, std::int32_t j) const {
 /// The same for (j, i): displacements and their nearest images are exactly the opposite then, as all
 /// roundings are.
 bool PairFilter::is_within(std::int32_t i, std::int32_t j, double cutoff2) const {
-  if (near_cutoff_ != nullptr) return cutoff2 >= 0 && near_cutoff_->accepts(i, j);
+  if (tie_breaker_ != nullptr) return cutoff2 >= 0 && tie_breaker_->accepts(i, j);
   const Vec3 d = positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)];
   const Vec3 nearest = box_.nearest_image(d);
   if (nearest == d && other_images_.empty()) return norm2(d) <= cutoff2;

@@ -58,6 +58,8 @@ class PairFilter {
     return (exclusions_ != nullptr && !exclusions_->partners(i).empty()) ||
            (first_ghost_ >= 0 && i >= first_ghost_);
   }
+  /// Whether they may keep any pair out.
+  bool restricts_any() const { return restricted_; }
   /// Whether exclusions and ghosts let the pair be in the list.
   bool is_wanted(std::int32_t i, std::int32_t j) const;
 
@@ -76,7 +78,7 @@ class PairFilter {
   const Box& box_;
   ListParams params_;
   double error_;
-  const PairTest* near_cutoff_;
+  const TieBreaker* tie_breaker_;
   const Exclusions* exclusions_;
   std::int32_t first_ghost_;
   CutoffBy by_;

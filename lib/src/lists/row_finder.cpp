@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kFewExclusions = 32;  ///< of a particle: fewer than a search of them would cost
 constexpr std::int32_t kGroup = 5;          ///< most blocks in one
+constexpr std::size_t kRoom = 2 * kChunk;   ///< that a row is overwritten beyond its end
 
 }  // namespace
 
@@ -43,73 +44,84 @@ void RowFinder::append_list(const RowRequest& request, const OwnBlocks& own, con
   });
 }
 
-/// For each block of a group the candidates near it, tested.
+/// For each block of a group the candidates near it, and their rows.
 void RowFinder::append_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first,
                              std::int32_t last, const Candidates& around, std::int32_t count,
                              NeighborList& out) {
-  make_room_for_tests(count);
-  // All blocks are thinned before the first is tested: its candidates have left the store queue by then,
-  // out of which loads that span several stores cannot be served.
+  make_room(count);
+  // All blocks are thinned before the rows of the first are found: its candidates have left the store queue
+  // by then, out of which loads that span several stores cannot be served.
   std::int32_t before = 0;
+  std::size_t most = kChunk;
   for (std::int32_t block = first; block < last; ++block) {
-    BlockTest& test = tests_[block - first];
+    BlockNear& near = near_[block - first];
     const Candidates from{around.x + before, around.y + before, around.z + before, around.id + before,
                           around.tag + before};
-    test.count = keep_near(*kernels_, request.limits, own.spans[block], own.largest_tag(block, block + 1),
-                           from, nullptr, count - before, test.near.at(0));
+    near.count = keep_near(*kernels_, request.limits, own.spans[block], own.largest_tag(block, block + 1),
+                           from, nullptr, count - before, near.candidates.at(0));
+    tested_ += std::int64_t{kBlock} * near.count;
+    most += std::size_t{kBlock} * static_cast<std::size_t>(near.count);
     if (own.are_candidates) before += own.count[block];
   }
-  open_.clear();  // there may be some of a list that was not finished
-  for (std::int32_t block = first; block < last; ++block) {
-    test_block(request, own, block, tests_[block - first]);
-    open_.note(request, own, block, unsettled_.data(), tests_[block - first]);
-  }
-  open_.settle(*request.filter);
+  const auto written = static_cast<std::size_t>(out.first.back());
+  if (out.j.size() < written + most + kRoom) out.j.resize(written + most + most / 4 + kRoom);
   ask_for_exclusions(*request.filter, own, first, last);
-  for (std::int32_t block = first; block < last; ++block)
-    append_block(request, own, block, tests_[block - first], out);
+  const bool is_restricted = request.limits.per_pair || request.filter->restricts_any();
+  if (is_restricted && as_written_.size() < most) as_written_.resize(most);
+  std::int32_t* const to = is_restricted ? as_written_.data() : out.j.data() + written;
+  write_group(request, own, first, last, to);
+  const std::vector<RowEdit>& edits = open_.decide(*request.filter);
+  if (is_restricted) {
+    finish_rows(request, own, first, 0, edits, out);
+  } else if (!edits.empty()) {
+    const std::int32_t all = segment_end_[segments_];
+    if (as_written_.size() < static_cast<std::size_t>(all)) as_written_.resize(static_cast<std::size_t>(all));
+    const std::int32_t unchanged = segment_end_[edits.front().segment];
+    std::copy(to + unchanged, to + all, as_written_.data() + unchanged);
+    finish_rows(request, own, first, edits.front().segment, edits, out);
+  }
+  append_ends(request, own, first, last, out);
 }
 
-void RowFinder::make_room_for_tests(std::int32_t count) {
-  tests_.resize(kGroup);
+void RowFinder::make_room(std::int32_t count) {
+  near_.resize(kGroup);
   const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
-  const std::size_t entries = room / kChunk * std::size_t{kBlock};
-  if (test_room_ >= entries) return;
-  unsettled_.resize(entries);
-  for (BlockTest& test : tests_) {
-    test.near.make_room(room);
-    test.mask.resize(entries);
-    test.near_mask.resize(entries);
-  }
-  test_room_ = entries;
+  const std::size_t entries = room / kChunk * 2 * kBlock;
+  segment_end_.resize(std::size_t{2} * kGroup * kBlock + 1);
+  if (room_ >= entries) return;
+  open_lanes_.resize(entries);
+  for (BlockNear& near : near_) near.candidates.make_room(room);
+  room_ = entries;
 }
 
-/// Tests a block against the candidates near it.
-void RowFinder::test_block(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
-                           BlockTest& test) {
-  test.chunks = rounded_up(test.count, kChunk) / kChunk;
-  tested_ += std::int64_t{kBlock} * test.count;
-  // First, since unsettled_ has to be left as the other test leaves it.
-  if (request.limits.has_shell)
-    test_against(request.limits, request.limits.near, own, block, test, test.near_mask.data());
-  test.left = test_against(request.limits, request.limits.all, own, block, test, test.mask.data());
-}
-
-std::int32_t RowFinder::test_against(const ListLimits& limits, const PairLimits& pairs, const OwnBlocks& own,
-                                     std::int32_t block, BlockTest& test, std::uint32_t* mask) {
-  const Candidates candidates = test.near.at(0);
-  if (limits.by == CutoffBy::radii) {
-    OfLanes<std::int16_t> sizes = own.tags[block];
-    for (std::int16_t& row_size : sizes) row_size = static_cast<std::int16_t>(row_size + pairs.skin);
-    return kernels_->test_by_size(own.points[block], sizes.data(), candidates, test.count, pairs.band, mask,
-                                  test.chunks, unsettled_.data());
+/// Writes the rows of a group as the kernels find them, and notes where each segment ends and what they leave
+/// open.
+void RowFinder::write_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first,
+                            std::int32_t last, std::int32_t* to) {
+  const ListLimits& limits = request.limits;
+  const bool take_open = request.filter->params().superset || limits.per_pair;
+  RowLimits all = limits.for_rows(limits.all, take_open);
+  RowLimits near = limits.for_rows(limits.near, true);
+  const auto kernel = limits.by == CutoffBy::radii                       ? kernels_->rows_by_size
+                      : limits.by == CutoffBy::types && !limits.per_pair ? kernels_->rows_by_type
+                                                                         : kernels_->rows;
+  open_.clear();  // there may be some of a list that was not finished
+  segments_ = 0;
+  segment_end_[0] = 0;
+  for (std::int32_t block = first; block < last; ++block) {
+    BlockNear& others = near_[block - first];
+    all.rows = near.rows = own.tags == nullptr ? nullptr : own.tags[block].data();
+    const std::int32_t written = segment_end_[segments_];
+    std::int32_t* const end = segment_end_.data() + segments_ + 1;
+    const RowsTo target{to + written, end, open_lanes_.data(), own.are_candidates};
+    const Candidates candidates = others.candidates.at(0);
+    const std::int32_t open = kernel(own.points[block], own.count[block], candidates, others.count, all,
+                                     limits.has_shell ? &near : nullptr, target);
+    const std::int32_t segments = own.count[block] * (limits.has_shell ? 2 : 1);
+    for (std::int32_t s = 0; s < segments; ++s) end[s] += written;
+    open_.note(request, own, block, segments_, candidates, open_lanes_.data(), open);
+    segments_ += segments;
   }
-  if (limits.by == CutoffBy::types && !limits.per_pair)
-    return kernels_->test_by_type(own.points[block], own.tags[block].data(), candidates, test.count,
-                                  pairs.type_in.data(), pairs.type_out.data(), mask, test.chunks,
-                                  unsettled_.data());
-  return kernels_->test(own.points[block], candidates, test.count, pairs.in, pairs.out, mask, test.chunks,
-                        unsettled_.data());
 }
 
 /// Whom the points of blocks [first, last) are excluded with is likely in no cache: asked for together.
@@ -121,69 +133,96 @@ void RowFinder::ask_for_exclusions(const PairFilter& filter, const OwnBlocks& ow
       __builtin_prefetch(filter.excluded_with(own.particle[block][row]).data());
 }
 
-/// The rows of one block's points.
-void RowFinder::append_block(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
-                             BlockTest& test, NeighborList& out) {
-  const std::int32_t rows = own.count[block];
-  const OfLanes<std::int32_t>& ids = own.particle[block];
-  auto written = static_cast<std::size_t>(out.first.back());
-  const std::size_t most =
-      written + std::size_t{kBlock * kChunk} * static_cast<std::size_t>(test.chunks) + kChunk;
-  if (out.j.size() < most) out.j.resize(most + most / 4);
-  const std::size_t rows_before = out.particle.size();
-  out.particle.insert(out.particle.end(), ids.begin(), ids.begin() + rows);
-  out.first.resize(rows_before + static_cast<std::size_t>(rows) + 1);
-  std::int64_t* const row_end = out.first.data() + rows_before + 1;
-  for (std::int32_t row = 0; row < rows; ++row) {
-    std::uint32_t* const mask = test.mask.data() + std::ptrdiff_t{row} * test.chunks;
-    if (own.are_candidates) mask[0] &= ~0u << (row + 1);
-    if (request.limits.has_shell) {
-      std::uint32_t* const near = test.near_mask.data() + std::ptrdiff_t{row} * test.chunks;
-      for (std::int32_t chunk = 0; chunk < test.chunks; ++chunk) {
-        near[chunk] &= mask[chunk];
-        mask[chunk] &= ~near[chunk];
-      }
-      written += append_some(request, ids[row], near, test, out.j.data() + written);
-      out.near_end.push_back(static_cast<std::int64_t>(written));
-    }
-    written += append_some(request, ids[row], mask, test, out.j.data() + written);
-    row_end[row] = static_cast<std::int64_t>(written);
+/// Copies the segments of a group from `segment` on as they are to be: from as_written_ to behind the rows of
+/// the groups before.
+void RowFinder::finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
+                            std::int32_t segment, const std::vector<RowEdit>& edits, NeighborList& out) {
+  std::int32_t* const to = out.j.data() + out.first.back();
+  const RowEdit* edit = edits.data();
+  const RowEdit* const end = edit + edits.size();
+  const int parts = request.limits.has_shell ? 2 : 1;
+  std::int32_t row = segment / parts;  // of the blocks from `block` on
+  std::int32_t begin = segment_end_[segment], written = begin;
+  for (std::int32_t s = segment; s < segments_; ++s) {
+    for (; row >= own.count[block]; ++block) row -= own.count[block];
+    const std::int32_t length = segment_end_[s + 1] - begin;
+    const RowEdit* const first = edit;
+    while (edit != end && edit->segment == s) ++edit;
+    written += finish_segment(request, own.particle[block][row], as_written_.data() + begin, length,
+                              {first, static_cast<std::size_t>(edit - first)}, to + written);
+    begin += length;
+    segment_end_[s + 1] = written;
+    row += static_cast<std::int32_t>((s + 1) % parts == 0);
   }
 }
 
-/// Returns how many.
-std::size_t RowFinder::append_some(const RowRequest& request, std::int32_t particle,
-                                   const std::uint32_t* mask, BlockTest& test, std::int32_t* to) const {
-  std::int32_t length = kernels_->compress(mask, test.chunks, test.near.at(0).id, to);
-  if (request.limits.per_pair || request.filter->restricts(particle))
-    length = restrict_row(request, particle, to, length);
-  return static_cast<std::size_t>(length);
+/// Returns the length of the segment.
+std::int32_t RowFinder::finish_segment(const RowRequest& request, std::int32_t particle,
+                                       const std::int32_t* from, std::int32_t length,
+                                       Span<const RowEdit> edits, std::int32_t* to) const {
+  std::int32_t taken = 0, written = 0;
+  const auto copy_until = [&](std::int32_t place) {
+    std::copy(from + taken, from + place, to + written);
+    written += place - taken;
+    taken = place;
+  };
+  for (const RowEdit& edit : edits) {
+    copy_until(edit.place);
+    if (edit.is_missing) {
+      to[written++] = edit.id;
+    } else {
+      ++taken;
+    }
+  }
+  const bool is_restricted = request.limits.per_pair || request.filter->restricts(particle);
+  if (is_restricted && edits.empty()) return restricted_row(request, particle, from, length, to);
+  copy_until(length);
+  return is_restricted ? restricted_row(request, particle, to, written, to) : written;
 }
 
-/// Exclusions and ghosts, and cutoffs where the kernels did not know them. Returns how many are left.
-std::int32_t RowFinder::restrict_row(const RowRequest& request, std::int32_t particle, std::int32_t* row,
-                                     std::int32_t count) const {
+/// Where the rows of a finished group end, and whose they are.
+void RowFinder::append_ends(const RowRequest& request, const OwnBlocks& own, std::int32_t first,
+                            std::int32_t last, NeighborList& out) const {
+  const std::int64_t begin = out.first.back();
+  for (std::int32_t block = first; block < last; ++block)
+    out.particle.insert(out.particle.end(), own.particle[block].begin(),
+                        own.particle[block].begin() + own.count[block]);
+  const int parts = request.limits.has_shell ? 2 : 1;
+  const std::size_t rows = out.first.size();
+  out.first.resize(out.particle.size() + 1);
+  const std::int32_t* end = segment_end_.data() + parts;
+  for (std::size_t row = rows; row < out.first.size(); ++row, end += parts) {
+    if (parts == 2) out.near_end.push_back(begin + end[-1]);
+    out.first[row] = begin + *end;
+  }
+}
+
+/// Copies a row without what exclusions and ghosts keep out of it, and cutoffs where the kernels did not know
+/// them. Returns how many are left.
+std::int32_t RowFinder::restricted_row(const RowRequest& request, std::int32_t particle,
+                                       const std::int32_t* row, std::int32_t count, std::int32_t* to) const {
   const PairFilter& filter = *request.filter;
-  const auto keep_if = [&](const auto& is_kept) {
-    return static_cast<std::int32_t>(std::copy_if(row, row + count, row, is_kept) - row);
+  const auto keep_if = [&](const std::int32_t* from, const auto& is_kept) {
+    return static_cast<std::int32_t>(std::copy_if(from, from + count, to, is_kept) - to);
   };
-  if (request.limits.per_pair) return keep_if([&](std::int32_t j) { return filter.accept(particle, j); });
+  if (request.limits.per_pair)
+    return keep_if(row, [&](std::int32_t j) { return filter.accept(particle, j); });
   const Span<const std::int32_t> excluded = filter.excluded_with(particle);
   if (excluded.size() <= kFewExclusions) {
-    count = kernels_->leave_out(row, count, excluded.data(), static_cast<std::int32_t>(excluded.size()));
+    count = kernels_->leave_out(row, count, excluded.data(), static_cast<std::int32_t>(excluded.size()), to);
   } else {
-    count = keep_if([&](std::int32_t j) { return !std::binary_search(excluded.begin(), excluded.end(), j); });
+    count = keep_if(row,
+                    [&](std::int32_t j) { return !std::binary_search(excluded.begin(), excluded.end(), j); });
   }
-  if (filter.is_ghost(particle)) count = keep_if([&](std::int32_t j) { return !filter.is_ghost(j); });
+  if (filter.is_ghost(particle)) count = keep_if(to, [&](std::int32_t j) { return !filter.is_ghost(j); });
   return count;
 }
 
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes = open_.memory_bytes() + bytes_of(unsettled_) + around_request_.memory_bytes() +
-                      around_group_.memory_bytes();
-  for (const BlockTest& test : tests_)
-    bytes += test.near.memory_bytes() + bytes_of(test.mask) + bytes_of(test.near_mask);
+  std::size_t bytes = open_.memory_bytes() + bytes_of(open_lanes_) + bytes_of(as_written_) +
+                      bytes_of(segment_end_) + around_request_.memory_bytes() + around_group_.memory_bytes();
+  for (const BlockNear& near : near_) bytes += near.candidates.memory_bytes();
   return bytes;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <dch/base/instruction_set.hpp>
+#include <dch/base/span.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
 #include "leaves/own_blocks.hpp"
@@ -31,31 +32,40 @@ class RowFinder {
   std::size_t memory_bytes() const;
 
  private:
-  using PairLimits = ListLimits::PairLimits;
+  /// The candidates near a block.
+  struct BlockNear {
+    CandidateStore candidates;
+    std::int32_t count = 0;
+  };
 
   void append_list(const RowRequest& request, const OwnBlocks& own, const Candidates& around,
                    std::int32_t count, NeighborList& out);
   void append_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
                     const Candidates& around, std::int32_t count, NeighborList& out);
-  void make_room_for_tests(std::int32_t count);
-  void test_block(const RowRequest& request, const OwnBlocks& own, std::int32_t block, BlockTest& test);
-  std::int32_t test_against(const ListLimits& limits, const PairLimits& pairs, const OwnBlocks& own,
-                            std::int32_t block, BlockTest& test, std::uint32_t* mask);
+  void make_room(std::int32_t count);
+  void write_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
+                   std::int32_t* to);
   static void ask_for_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first,
                                  std::int32_t last);
-  void append_block(const RowRequest& request, const OwnBlocks& own, std::int32_t block, BlockTest& test,
-                    NeighborList& out);
-  std::size_t append_some(const RowRequest& request, std::int32_t particle, const std::uint32_t* mask,
-                          BlockTest& test, std::int32_t* to) const;
-  std::int32_t restrict_row(const RowRequest& request, std::int32_t particle, std::int32_t* row,
-                            std::int32_t count) const;
+  void finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t segment,
+                   const std::vector<RowEdit>& edits, NeighborList& out);
+  std::int32_t finish_segment(const RowRequest& request, std::int32_t particle, const std::int32_t* from,
+                              std::int32_t length, Span<const RowEdit> edits, std::int32_t* to) const;
+  std::int32_t restricted_row(const RowRequest& request, std::int32_t particle, const std::int32_t* row,
+                              std::int32_t count, std::int32_t* to) const;
+  void append_ends(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
+                   NeighborList& out) const;
 
   const ListKernels* kernels_ = nullptr;
   std::int64_t tested_ = 0;
   CandidateStore around_request_, around_group_;
-  std::vector<Unsettled> unsettled_;
-  std::vector<BlockTest> tests_;  ///< of the blocks that are looked at together
-  std::size_t test_room_ = 0;     ///< masks that each of them and unsettled_ have room for
+  std::vector<BlockNear> near_;        ///< of the blocks that are looked at together
+  std::vector<OpenLanes> open_lanes_;  ///< of one of them
+  std::size_t room_ = 0;               ///< entries of open_lanes_; near_ has room for as many candidates
+  /// Of the blocks that are looked at together, where each segment ends, after a 0.
+  std::vector<std::int32_t> segment_end_;
+  std::int32_t segments_ = 0;
+  std::vector<std::int32_t> as_written_;  ///< their rows, where these are not as they are to be
   OpenPairs open_;
 };
 

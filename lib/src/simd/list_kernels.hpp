@@ -54,10 +54,34 @@ struct alignas(32) TypeLimits {
   std::int16_t limit[kKernelTypes];
 };
 
-/// Entries of a row-by-chunk mask that a test could not settle.
-struct Unsettled {
-  std::int32_t row, chunk;
-  std::uint32_t lanes;
+/// What the rows of a block are limited by. A candidate is in a row if t < middle, with t = sum of
+/// square(difference) and middle, by kernel:
+///   rows            middle
+///   rows_by_size    square(tag + skin + size of the row) + raise
+///   rows_by_type    by_type[type of the row][tag]
+/// Rounding leaves open whether it belongs there if middle - band <= t < middle + band.
+struct RowLimits {
+  std::int16_t middle = 0;
+  std::int16_t band = 0;
+  std::int16_t skin = 0, raise = 0;
+  const TypeLimits* by_type = nullptr;
+  const std::int16_t* rows = nullptr;  ///< sizes or types of the rows
+};
+
+/// Lanes of a chunk that are open in a row. A row is one segment, or two where it has a shell: near ones
+/// first.
+struct OpenLanes {
+  std::int32_t row, segment, chunk;
+  std::int32_t before;          ///< entries of the segment in the chunks before
+  std::uint32_t lanes, within;  ///< within: lanes whose ids are in the segment
+};
+
+/// Where rows are written.
+struct RowsTo {
+  std::int32_t* j;    ///< segment after segment; up to kChunk entries beyond are overwritten
+  std::int32_t* end;  ///< by segment
+  OpenLanes* open;    ///< room for two a row and chunk
+  bool own_first;     ///< the first candidates are the block's points: a row takes those after its own
 };
 
 /// The loops that lists are made with, compiled for one instruction set. No function allocates.
@@ -86,13 +110,6 @@ struct ListKernels {
   std::int32_t (*filter)(const BlockSpan& box, std::int16_t limit, const Candidates& from,
                          const std::uint32_t* valid, std::int32_t count, const Candidates& to);
 
-  /// Tests the points of a block against `count` candidates: with t = sum of square(difference), mask[row *
-  /// stride + chunk] gets the lanes with t < in, and those with in <= t < out are told apart in `unsettled`.
-  /// Returns how many of the latter there are; room for kBlock times the chunks is needed.
-  std::int32_t (*test)(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
-                       std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
-                       Unsettled* unsettled);
-
   /// filter() with the limit square(tag + size) + band, and tags copied too.
   std::int32_t (*filter_by_size)(const BlockSpan& box, std::int16_t size, std::int16_t band,
                                  const Candidates& from, const std::uint32_t* valid, std::int32_t count,
@@ -101,25 +118,20 @@ struct ListKernels {
   std::int32_t (*filter_by_type)(const BlockSpan& box, const TypeLimits& limits, const Candidates& from,
                                  const std::uint32_t* valid, std::int32_t count, const Candidates& to);
 
-  /// test() with in = square(tag + size of the row) - band and out = square(tag + size of the row) + band.
-  std::int32_t (*test_by_size)(const BlockPoints& points, const std::int16_t* sizes,
-                               const Candidates& candidates, std::int32_t count, std::int16_t band,
-                               std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled);
-  /// test() with in = in[type of the row][tag], out likewise.
-  std::int32_t (*test_by_type)(const BlockPoints& points, const std::int16_t* types,
-                               const Candidates& candidates, std::int32_t count, const TypeLimits* in,
-                               const TypeLimits* out, std::uint32_t* mask, std::int32_t stride,
-                               Unsettled* unsettled);
+  /// Tests the first `count` points of a block, its rows, against candidates, and writes the ids of those
+  /// within the limits, in order. Rows have a shell if `near` is not null: those within it, which leaves
+  /// nothing open, come first. Returns how many OpenLanes were noted, in the order of segments and chunks.
+  using Rows = std::int32_t(const BlockPoints& points, std::int32_t count, const Candidates& candidates,
+                            std::int32_t candidate_count, const RowLimits& limits, const RowLimits* near,
+                            const RowsTo& to);
+  Rows* rows;
+  Rows* rows_by_size;
+  Rows* rows_by_type;
 
-  /// Copies the ids whose bit is set, in order. Returns how many; up to 16 entries beyond them are
-  /// overwritten.
-  std::int32_t (*compress)(const std::uint32_t* mask, std::int32_t chunks, const std::int32_t* ids,
-                           std::int32_t* out);
-
-  /// Takes those of a row's ids out that are among `excluded`; the others keep their order. Returns how many
-  /// are left. The row is read and overwritten up to 16 entries beyond its end.
-  std::int32_t (*leave_out)(std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
-                            std::int32_t excluded_count);
+  /// Copies those of a row's ids that are not among `excluded`, in order. Returns how many. The row is read,
+  /// and its copy overwritten, up to 16 entries beyond its end; it may be copied to its own place.
+  std::int32_t (*leave_out)(const std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
+                            std::int32_t excluded_count, std::int32_t* to);
 };
 
 /// The kernels of a set that is supported.

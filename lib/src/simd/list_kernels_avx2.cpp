@@ -32,11 +32,18 @@ struct Avx2 : X86Blocks {
   static V abs(V a) { return _mm256_abs_epi16(a); }
   static V above(V a, V b) { return _mm256_subs_epu16(a, b); }
   static V square(V d) { return _mm256_mulhrs_epi16(d, d); }
-  static std::uint32_t bits_greater(V a, V b) {
-    const __m256i greater = _mm256_cmpgt_epi16(a, b);
-    const __m128i bytes =
-        _mm_packs_epi16(_mm256_castsi256_si128(greater), _mm256_extracti128_si256(greater, 1));
+  static std::uint32_t bits_of(V lanes) {
+    const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(lanes), _mm256_extracti128_si256(lanes, 1));
     return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
+  }
+  static std::uint32_t bits_greater(V a, V b) { return bits_of(_mm256_cmpgt_epi16(a, b)); }
+  static V least(V a, V b) { return _mm256_min_epu16(a, b); }
+  static std::uint32_t bits_below(V a, V b) {
+    return bits_of(_mm256_cmpeq_epi16(_mm256_subs_epu16(b, a), _mm256_setzero_si256())) ^ kAll;
+  }
+  static bool any_below(V a, std::uint16_t b) {
+    const V below = _mm256_subs_epu16(set1(static_cast<std::int16_t>(b)), a);
+    return _mm256_testz_si256(below, below) == 0;
   }
   /// The low and the high bytes of the limits, in both halves.
   struct Table {

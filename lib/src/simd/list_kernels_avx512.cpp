@@ -19,6 +19,11 @@ struct Avx512 : X86Blocks {
   static V above(V a, V b) { return _mm512_subs_epu16(a, b); }
   static V square(V d) { return _mm512_mulhrs_epi16(d, d); }
   static std::uint32_t bits_greater(V a, V b) { return _mm512_cmpgt_epi16_mask(a, b); }
+  static V least(V a, V b) { return _mm512_min_epu16(a, b); }
+  static std::uint32_t bits_below(V a, V b) { return _mm512_cmplt_epu16_mask(a, b); }
+  static bool any_below(V a, std::uint16_t b) {
+    return bits_below(a, set1(static_cast<std::int16_t>(b))) != 0;
+  }
   using Table = V;
   static Table table(const std::int16_t* limits) {
     return _mm512_castsi256_si512(_mm256_load_si256(reinterpret_cast<const __m256i*>(limits)));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "simd/list_kernels.hpp"
+#include "simd/list_rows_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -72,46 +73,34 @@ void shift(const Candidates& points, const std::int16_t* by, std::int32_t count)
   }
 }
 
-// --- limits of a row's pairs: `out(k)` and `in(k)` for the candidates from k on
+// --- limits of a filter: `out(k)` for the candidates from k on
 
 template <class Simd>
 struct OneLimit {
   using V = typename Simd::V;
   static constexpr bool kTags = false;
-  V limit_in, limit_out;
-  void use_row(int) {}
-  V in(std::int32_t) const { return limit_in; }
-  V out(std::int32_t) const { return limit_out; }
+  V limit;
+  V out(std::int32_t) const { return limit; }
 };
 
 template <class Simd>
 struct LimitBySize {
   using V = typename Simd::V;
   static constexpr bool kTags = true;
-  const std::int16_t* sizes;  ///< of the rows
   const std::int16_t* tags;
-  V band;
-  V size{};
-  void use_row(int row) { size = Simd::set1(sizes[row]); }
-  V middle(std::int32_t k) const { return Simd::square(Simd::adds(Simd::load(tags + k), size)); }
-  V in(std::int32_t k) const { return Simd::sub(middle(k), band); }
-  V out(std::int32_t k) const { return Simd::adds(middle(k), band); }
+  V size, band;
+  V out(std::int32_t k) const {
+    return Simd::adds(Simd::square(Simd::adds(Simd::load(tags + k), size)), band);
+  }
 };
 
 template <class Simd>
 struct LimitByType {
   using V = typename Simd::V;
   static constexpr bool kTags = true;
-  const std::int16_t* types;  ///< of the rows
   const std::int16_t* tags;
-  const TypeLimits *limits_in, *limits_out;
-  typename Simd::Table row_in{}, row_out{};
-  void use_row(int row) {
-    row_in = Simd::table(limits_in[types[row]].limit);
-    row_out = Simd::table(limits_out[types[row]].limit);
-  }
-  V in(std::int32_t k) const { return Simd::look_up(row_in, Simd::load(tags + k)); }
-  V out(std::int32_t k) const { return Simd::look_up(row_out, Simd::load(tags + k)); }
+  typename Simd::Table limits;
+  V out(std::int32_t k) const { return Simd::look_up(limits, Simd::load(tags + k)); }
 };
 
 template <class Simd, class Limit>
@@ -141,101 +130,33 @@ std::int32_t filter_with(const BlockSpan& box, const Limit& limit, const Candida
 template <class Simd>
 std::int32_t filter(const BlockSpan& box, std::int16_t limit, const Candidates& from,
                     const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
-  const OneLimit<Simd> one{Simd::set1(limit), Simd::set1(limit)};
-  return filter_with<Simd>(box, one, from, valid, count, to);
+  return filter_with<Simd>(box, OneLimit<Simd>{Simd::set1(limit)}, from, valid, count, to);
 }
 
 template <class Simd>
 std::int32_t filter_by_size(const BlockSpan& box, std::int16_t size, std::int16_t band,
                             const Candidates& from, const std::uint32_t* valid, std::int32_t count,
                             const Candidates& to) {
-  LimitBySize<Simd> limit{&size, from.tag, Simd::set1(band)};
-  limit.use_row(0);
+  const LimitBySize<Simd> limit{from.tag, Simd::set1(size), Simd::set1(band)};
   return filter_with<Simd>(box, limit, from, valid, count, to);
 }
 
 template <class Simd>
 std::int32_t filter_by_type(const BlockSpan& box, const TypeLimits& limits, const Candidates& from,
                             const std::uint32_t* valid, std::int32_t count, const Candidates& to) {
-  constexpr std::int16_t kFirst = 0;
-  LimitByType<Simd> limit{&kFirst, from.tag, &limits, &limits};
-  limit.use_row(0);
+  const LimitByType<Simd> limit{from.tag, Simd::table(limits.limit)};
   return filter_with<Simd>(box, limit, from, valid, count, to);
 }
 
-template <class Simd, class Limit>
-std::int32_t test_with(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
-                       Limit limit, std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
-  using V = typename Simd::V;
-  constexpr int kParts = kChunk / Simd::kLanes;
-  const std::int32_t chunks = (count + kChunk - 1) / kChunk;
-  const std::uint32_t last = ~0u >> ((kChunk - count % kChunk) % kChunk);
-  std::int32_t left = 0;
-  for (int row = 0; row < kBlock; ++row) {
-    const V px = Simd::set1(points.x[row]), py = Simd::set1(points.y[row]), pz = Simd::set1(points.z[row]);
-    limit.use_row(row);
-    for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
-      std::uint32_t inside = 0, maybe = 0;
-      for (int part = 0; part < kParts; ++part) {
-        const std::int32_t k = chunk * kChunk + part * Simd::kLanes;
-        const V dx = Simd::sub(Simd::load(candidates.x + k), px);
-        const V dy = Simd::sub(Simd::load(candidates.y + k), py);
-        const V dz = Simd::sub(Simd::load(candidates.z + k), pz);
-        const V t = Simd::adds(Simd::adds(Simd::square(dx), Simd::square(dy)), Simd::square(dz));
-        inside |= Simd::bits_greater(limit.in(k), t) << (part * Simd::kLanes % kChunk);
-        maybe |= Simd::bits_greater(limit.out(k), t) << (part * Simd::kLanes % kChunk);
-      }
-      const std::uint32_t lanes = chunk + 1 == chunks ? last : ~0u;
-      mask[row * stride + chunk] = inside & lanes;
-      const std::uint32_t open = maybe & ~inside & lanes;
-      if (open != 0) unsettled[left++] = {row, chunk, open};
-    }
-  }
-  return left;
-}
-
 template <class Simd>
-std::int32_t test(const BlockPoints& points, const Candidates& candidates, std::int32_t count,
-                  std::int16_t in, std::int16_t out, std::uint32_t* mask, std::int32_t stride,
-                  Unsettled* unsettled) {
-  const OneLimit<Simd> limit{Simd::set1(in), Simd::set1(out)};
-  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
-}
-
-template <class Simd>
-std::int32_t test_by_size(const BlockPoints& points, const std::int16_t* sizes, const Candidates& candidates,
-                          std::int32_t count, std::int16_t band, std::uint32_t* mask, std::int32_t stride,
-                          Unsettled* unsettled) {
-  const LimitBySize<Simd> limit{sizes, candidates.tag, Simd::set1(band)};
-  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
-}
-
-template <class Simd>
-std::int32_t test_by_type(const BlockPoints& points, const std::int16_t* types, const Candidates& candidates,
-                          std::int32_t count, const TypeLimits* in, const TypeLimits* out,
-                          std::uint32_t* mask, std::int32_t stride, Unsettled* unsettled) {
-  const LimitByType<Simd> limit{types, candidates.tag, in, out};
-  return test_with<Simd>(points, candidates, count, limit, mask, stride, unsettled);
-}
-
-template <class Simd>
-std::int32_t compress(const std::uint32_t* mask, std::int32_t chunks, const std::int32_t* ids,
-                      std::int32_t* out) {
-  std::int32_t written = 0;
-  for (std::int32_t chunk = 0; chunk < chunks; ++chunk)
-    written += Simd::compress_chunk(mask[chunk], ids + chunk * kChunk, out + written);
-  return written;
-}
-
-template <class Simd>
-std::int32_t leave_out(std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
-                       std::int32_t excluded_count) {
+std::int32_t leave_out(const std::int32_t* row, std::int32_t count, const std::int32_t* excluded,
+                       std::int32_t excluded_count, std::int32_t* to) {
   std::int32_t kept = 0;
   for (std::int32_t k = 0; k < count; k += Simd::kIds) {
     std::uint32_t lanes = (1u << Simd::kIds) - 1;
     if (count - k < Simd::kIds) lanes = (1u << (count - k)) - 1;
     for (std::int32_t e = 0; e < excluded_count; ++e) lanes &= ~Simd::equal_ids(row + k, excluded[e]);
-    kept += Simd::compress_ids(lanes, row + k, row + kept);
+    kept += Simd::compress_ids(lanes, row + k, to + kept);
   }
   return kept;
 }
@@ -243,10 +164,16 @@ std::int32_t leave_out(std::int32_t* row, std::int32_t count, const std::int32_t
 // NOLINTEND(bugprone-easily-swappable-parameters)
 
 template <class Simd>
-constexpr ListKernels kernels_of{collect<Simd>,        gather<Simd>,       shift<Simd>,
-                                 filter<Simd>,         test<Simd>,         filter_by_size<Simd>,
-                                 filter_by_type<Simd>, test_by_size<Simd>, test_by_type<Simd>,
-                                 compress<Simd>,       leave_out<Simd>};
+constexpr ListKernels kernels_of{collect<Simd>,
+                                 gather<Simd>,
+                                 shift<Simd>,
+                                 filter<Simd>,
+                                 filter_by_size<Simd>,
+                                 filter_by_type<Simd>,
+                                 rows_with<Simd, OneMiddle<Simd>>,
+                                 rows_with<Simd, MiddleBySize<Simd>>,
+                                 rows_with<Simd, MiddleByType<Simd>>,
+                                 leave_out<Simd>};
 
 }  // namespace
 }  // namespace dch::detail

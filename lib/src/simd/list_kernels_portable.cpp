@@ -19,10 +19,19 @@ struct Portable {
   }
   static V adds(V a, V b) { return saturated(a + b); }
   static V abs(V a) { return static_cast<V>(a < 0 ? -a : a); }
-  static V above(V a, V b) { return a > b ? static_cast<V>(a - b) : V{0}; }  // of numbers >= 0
+  // without signs, since the absolute value of -32768 is 32768
+  static V above(V a, V b) {
+    const auto high = static_cast<std::uint16_t>(a), low = static_cast<std::uint16_t>(b);
+    return high > low ? static_cast<V>(high - low) : V{0};
+  }
   // -32768 squared does not fit: it comes out as -32768, as in the vector instruction
   static V square(V d) { return static_cast<V>(static_cast<std::uint16_t>((d * d + 0x4000) >> 15)); }
   static std::uint32_t bits_greater(V a, V b) { return a > b; }
+  static V least(V a, V b) { return bits_below(b, a) != 0 ? b : a; }
+  static std::uint32_t bits_below(V a, V b) {
+    return static_cast<std::uint16_t>(a) < static_cast<std::uint16_t>(b);
+  }
+  static bool any_below(V a, std::uint16_t b) { return static_cast<std::uint16_t>(a) < b; }
 
   static void copy_shifted(const std::int16_t* from, std::int16_t shift, std::int16_t* to) {
     for (int lane = 0; lane < kBlock; ++lane)

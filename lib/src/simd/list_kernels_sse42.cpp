@@ -33,9 +33,17 @@ struct Sse42 : X86Blocks {
   static V abs(V a) { return _mm_abs_epi16(a); }
   static V above(V a, V b) { return _mm_subs_epu16(a, b); }
   static V square(V d) { return _mm_mulhrs_epi16(d, d); }
-  static std::uint32_t bits_greater(V a, V b) {
-    const __m128i greater = _mm_cmpgt_epi16(a, b);
-    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(greater, _mm_setzero_si128())));
+  static std::uint32_t bits_of(V lanes) {
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(lanes, _mm_setzero_si128())));
+  }
+  static std::uint32_t bits_greater(V a, V b) { return bits_of(_mm_cmpgt_epi16(a, b)); }
+  static V least(V a, V b) { return _mm_min_epu16(a, b); }
+  static std::uint32_t bits_below(V a, V b) {
+    return bits_of(_mm_cmpeq_epi16(_mm_subs_epu16(b, a), _mm_setzero_si128())) ^ kAll;
+  }
+  static bool any_below(V a, std::uint16_t b) {
+    const V below = _mm_subs_epu16(set1(static_cast<std::int16_t>(b)), a);
+    return _mm_testz_si128(below, below) == 0;
   }
   using Table = BytePair;
   static Table table(const std::int16_t* limits) { return bytes_of(limits); }

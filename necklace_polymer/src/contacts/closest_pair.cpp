@@ -186,7 +186,7 @@ void ClosestPair::look_at_listed(Best& best, ClosestPairStats& stats) const {
   params.radii = radii;
   // A little more, so that rounding does not lose the pair that the bound is of.
   params.skin = std::max(best.gap(), 0.0) * (1 + 1e-12) + 1e-12 * necklace_.largest_radius();
-  params.order = RowOrder::by_structure;
+  params.order = RowOrder::unsorted;
   HierarchyParams structure;
   structure.radius = params.list_radius();
   structure.size_classes = true;

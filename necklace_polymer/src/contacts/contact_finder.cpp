@@ -196,7 +196,7 @@ void ContactFinder::require_determined() const {
 std::optional<ListParams> ContactFinder::near_pairs(const ContactQuery& query) const {
   const double gap = std::max(query.gap, 0.0);
   ListParams params;
-  params.order = RowOrder::by_structure;
+  params.order = RowOrder::unsorted;
   if (smallest_radius_ < necklace().largest_radius()) {
     params.radii = radii_;
     params.skin = gap;

@@ -63,7 +63,8 @@ double CpuCalcDCHNonbondedForceKernel::addPairs(OpenMM::ContextImpl&, const Host
                                                 bool includeEnergy) {
   if (!keeper || !keeper->fits(state.box)) return addAllPairs(state);
   const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
-  const auto precision = forces->fits_single() ? dch::ForcePrecision::mixed : dch::ForcePrecision::full;
+  const auto precision =
+      forces->fits_single() ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
   if (!includeEnergy) {
     forces->add_forces(pairs, precision, state.forces, charges);
     return 0;

@@ -14,7 +14,7 @@
 #include <dch/proximity/nearest.hpp>
 #include <dch/trajectory/file_error.hpp>
 
-#include "base/exit_code.hpp"
+#include "analysis/frame_errors.hpp"
 #include "base/interrupt.hpp"
 #include "base/stopwatch.hpp"
 #include "engines/neighbor_distance.hpp"
@@ -126,23 +126,14 @@ void QueryAnalysis::look_at(const trajectory::Frame& frame, std::int64_t index, 
 
 /// Other atoms than before are other points: these are built anew.
 void QueryAnalysis::update(const trajectory::Frame& frame, std::int64_t index) {
-  const auto place = [&](const Error& error) {
-    return fmt::format("{}: frame {}: {}", options_.input.name(), index, error.what());
-  };
-  try {
+  in_frame(options_.input.name(), index, [&] {
     if (!report_.frames.empty() && frame.ids == ids_) {
       hierarchy_->update(frame.positions, frame.box);
     } else {
       hierarchy_->build(frame.positions, frame.box);
       ids_ = frame.ids;
     }
-  } catch (const InvalidPosition& error) {
-    throw trajectory::FileError(place(error));
-  } catch (const InvalidBox& error) {
-    throw trajectory::FileError(place(error));
-  } catch (const Error& error) {
-    throw UsageError(place(error));
-  }
+  });
 }
 
 void QueryAnalysis::find_nearest(const HierarchyView& view, QueryFrame& record) {

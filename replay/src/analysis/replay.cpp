@@ -12,6 +12,8 @@
 #include <dch/trajectory/file_error.hpp>
 #include <dch/trajectory/topology.hpp>
 
+#include "analysis/between_frames.hpp"
+#include "analysis/frame_errors.hpp"
 #include "base/exit_code.hpp"
 #include "base/interrupt.hpp"
 #include "base/stopwatch.hpp"
@@ -36,6 +38,15 @@ void require_cutoff_fits(const ReplayOptions& options, const Scan& scan) {
                   scan.file, scan.smallest_height_frame, radius, limit, scan.unit, limit));
 }
 
+/// Between frames there is nothing to be seen of fewer than two.
+void require_two_frames(const ReplayOptions& options, const Scan& scan) {
+  if (!options.continuous || scan.frames > 1) return;
+  throw UsageError(fmt::format(
+      "{}: --continuous looks at what is between frames, and 1 frame of {} is selected; select two or more "
+      "with --frames, or leave out --continuous",
+      scan.file, scan.frames_passed));
+}
+
 /// One run: what is found out beforehand, and the state that goes through the frames.
 class Replay {
  public:
@@ -51,8 +62,8 @@ class Replay {
   void open_list_file(std::int64_t most_atoms);
   void replay_frames();
   void replay_frame(const trajectory::Frame& frame, std::int64_t index, double read_ms);
-  bool update_list(const trajectory::Frame& frame, std::int64_t index);
   void digest_list(const trajectory::Frame& frame, const FrameRecord& record);
+  void follow(const trajectory::Frame& frame, std::int64_t index);
   void note_engine();
 
   const ReplayOptions& options_;
@@ -68,6 +79,7 @@ class Replay {
   std::optional<VerletList> list_;
   std::optional<Verifier> verifier_;
   std::optional<ListFile> list_file_;
+  std::optional<BetweenFrames> between_;
   ListStatistics statistics_;
 };
 
@@ -102,6 +114,7 @@ void Replay::scan() {
   frames_expected_ = scan.frames;
   atoms_change_ = scan.atoms_change;
   require_cutoff_fits(options_, scan);
+  require_two_frames(options_, scan);
   take_atoms(scan.first_frame);
   open_list_file(scan.most_atoms);
 }
@@ -117,6 +130,11 @@ void Replay::start_engine() {
   engine_ = make_engine(options_.engine, options_.cutoff + options_.skin,
                         options_.threads > 1 ? make_threads(options_.threads) : nullptr);
   if (engine_.threads) report_.threads = engine_.threads->threads();
+  if (!options_.continuous) return;
+  const EngineKind kind = options_.engine.kind;
+  between_.emplace(options_.cutoff, to_string(kind == EngineKind::allpairs ? EngineKind::cell : kind),
+                   engine_.threads.get());
+  report_.between.emplace();
 }
 
 /// Starts a list for the atoms taken. The engine stays; where atoms come and go, it is told who they are.
@@ -159,6 +177,7 @@ void Replay::open_list_file(std::int64_t most_atoms) {
   header.cutoff = options_.cutoff;
   header.skin = options_.skin;
   header.kind = options_.kind;
+  header.continuous = options_.continuous;
   header.most_atoms = static_cast<std::size_t>(most_atoms);
   list_file_.emplace(options_.lists, header);
 }
@@ -180,6 +199,7 @@ void Replay::replay_frames() {
       start_list();
     }
     replay_frame(frame, stream.index(), read_ms);
+    if (between_) follow(frame, stream.index());
     progress_.advance(done + 1);
   }
   progress_.clear();
@@ -194,7 +214,8 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
   record.read_ms = read_ms;
   const SearchStats before = engine_.search->stats();
   const Stopwatch watch;
-  record.list_rebuilt = update_list(frame, index);
+  record.list_rebuilt =
+      in_frame(options_.input.name(), index, [&] { return list_->update(frame.positions, frame.box); });
   const double update_ms = watch.milliseconds();
   const SearchStats& after = engine_.search->stats();
   record.list_ms = 1e3 * (after.list_seconds - before.list_seconds);
@@ -211,19 +232,22 @@ void Replay::replay_frame(const trajectory::Frame& frame, std::int64_t index, do
   report_.frames.push_back(record);
 }
 
-bool Replay::update_list(const trajectory::Frame& frame, std::int64_t index) {
-  const auto place = [&](const Error& error) {
-    return fmt::format("{}: frame {}: {}", options_.input.name(), index, error.what());
-  };
-  try {
-    return list_->update(frame.positions, frame.box);
-  } catch (const InvalidPosition& error) {
-    throw trajectory::FileError(place(error));
-  } catch (const InvalidBox& error) {
-    throw trajectory::FileError(place(error));
-  } catch (const Error& error) {
-    throw UsageError(place(error));
+/// From the frame before to this one.
+void Replay::follow(const trajectory::Frame& frame, std::int64_t index) {
+  if (!in_frame(options_.input.name(), index, [&] { return between_->follow(frame, index, exclusions_); }))
+    return;
+  report_.between->add(between_->record(), between_->contacts(), options_.cutoff);
+  if (list_file_) {
+    const Stopwatch watch;
+    list_file_->append(between_->record(), between_->contacts());
+    report_.write_ms += watch.milliseconds();
   }
+  if (!between_->record().undetermined.empty()) return;
+  const Stopwatch watch;
+  Verifier::Interval interval = between_->subject();
+  interval.ordinal = static_cast<std::int64_t>(report_.between->intervals.size()) - 1;
+  verifier_->check_between(interval);
+  report_.verify_ms += watch.milliseconds();
 }
 
 void Replay::digest_list(const trajectory::Frame& frame, const FrameRecord& record) {

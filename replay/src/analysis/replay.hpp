@@ -26,15 +26,17 @@ struct ReplayOptions {
   FrameRange frames;
   VerifyMode verify = VerifyMode::none;
   ListKind kind = ListKind::half;
-  int exclude_depth = 0;  ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
-  std::string lists;      ///< lists.h5; empty: none
+  int exclude_depth = 0;    ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
+  bool continuous = false;  ///< look at what is between frames, too
+  std::string lists;        ///< lists.h5; empty: none
 };
 
 /// Reads the selected frames, keeps one structure and one list up through them, and verifies and writes the
 /// lists. lists.h5 is in place when this returns.
 /// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height,
 /// exclusions
-///   without bonds); trajectory::FileError for files that cannot be read or written.
+///   without bonds, --continuous with one frame); trajectory::FileError for files that cannot be read or
+///   written.
 ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress);
 
 }  // namespace dch::cli

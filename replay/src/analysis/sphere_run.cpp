@@ -12,6 +12,7 @@
 #include <dch/trajectory/writer.hpp>
 
 #include "base/exit_code.hpp"
+#include "base/number_text.hpp"
 #include "base/stopwatch.hpp"
 #include "report/output_file.hpp"
 
@@ -24,6 +25,9 @@ using kinetic::HardSpheres;
 constexpr int kBlocks = 20;
 /// The progress bar is told after so many collisions.
 constexpr std::int64_t kReport = 4096;
+constexpr double kMaxFrames = 1e9;
+constexpr double kMaxEdges = 1e12;       ///< of the box that a sphere may fly
+constexpr double kMaxLonelyEdges = 1e6;  ///< the same without any collision, in a run that waits for them
 
 /// Over that of an ideal gas, by the equation of state of T. Boublik, J. Chem. Phys. 53:471, 1970, and G. A.
 /// Mansoori, N. F. Carnahan, K. E. Starling and T. W. Leland, J. Chem. Phys. 54:1523, 1971; for equal spheres
@@ -62,6 +66,10 @@ class SphereRun {
 
  private:
   void make_spheres();
+  void require_relative_motion() const;
+  void require_flights_that_end() const;
+  void require_frames_apart() const;
+  double longest_wait() const;
   void jam();
   void run_block(int block);
   void advance(double limit, std::int64_t& most);
@@ -76,6 +84,7 @@ class SphereRun {
   std::unique_ptr<HardSpheres> spheres_;
   std::unique_ptr<trajectory::TrajectoryWriter> writer_;
   std::vector<std::int32_t> types_;
+  double longest_wait_ = 0, last_collision_ = 0;  ///< in a run by collisions
 };
 
 /// Files are opened before any work is done, so that those that cannot be are found out.
@@ -86,9 +95,12 @@ SphereReport SphereRun::run() {
   if (options_.jam) jam();
   report_.begin = spheres_->now();
   report_.energy_at_start = spheres_->energy();
+  if (writer_) require_frames_apart();
   if (writer_) write_frame();
   progress_.start("colliding", options_.time > 0 ? 0 : options_.collisions);
   const bool runs = options_.time > 0 || options_.collisions > 0;
+  last_collision_ = report_.begin;
+  longest_wait_ = longest_wait();
   for (int block = 0; block < kBlocks && runs; ++block) run_block(block);
   progress_.clear();
   report_.end = spheres_->now();
@@ -118,6 +130,8 @@ void SphereRun::make_spheres() try {
       kinetic::HardSphereParams{start_.box(), start_.radii, start_.masses, options_.restitution},
       start_.positions, start_.velocities, start_.time);
   if (!options_.from.empty()) report_.start_fraction = spheres_->volume() / spheres_->box().volume();
+  if (options_.collisions > 0) require_relative_motion();
+  require_flights_that_end();
 } catch (const UsageError&) {
   throw;
 } catch (const trajectory::FileError&) {
@@ -125,6 +139,39 @@ void SphereRun::make_spheres() try {
 } catch (const Error& error) {
   if (options_.from.empty()) throw;
   throw trajectory::FileError(fmt::format("{}: {}", options_.from, error.what()));
+}
+
+/// A run that ends by collisions has some.
+void SphereRun::require_relative_motion() const {
+  const auto moves_as_first = [&](Vec3 v) { return norm2(v - start_.velocities[0]) == 0; };
+  if (!std::all_of(start_.velocities.begin(), start_.velocities.end(), moves_as_first)) return;
+  throw UsageError(
+      fmt::format("--collisions {}: of {} none moves relative to another, so that they never collide; say by "
+                  "--time how long to run",
+                  options_.collisions, counted(report_.spheres, "sphere")));
+}
+
+/// A run takes work for each stretch of a flight, so that one beyond all measure does not end.
+void SphereRun::require_flights_that_end() const {
+  double fastest2 = 0;
+  for (const Vec3 v : start_.velocities) fastest2 = std::max(fastest2, norm2(v));
+  const double duration = options_.time + (options_.jam ? 1 / options_.start.growth : 0);
+  const double edges = std::sqrt(fastest2) * duration / start_.edge;
+  if (edges <= kMaxEdges) return;
+  throw UsageError(
+      fmt::format("--time {}, --growth {}: the fastest sphere flies {:.3g} edges of the box until then, more "
+                  "than {}; choose a shorter time, a faster growth or slower spheres",
+                  options_.time, options_.start.growth, edges, kMaxEdges));
+}
+
+/// Times of frames differ, and they come to an end.
+void SphereRun::require_frames_apart() const {
+  if (report_.begin + options_.every == report_.begin)
+    throw UsageError(fmt::format("--every {}: is lost in the rounding of the time {}; choose a longer one",
+                                 options_.every, report_.begin));
+  if (options_.time / options_.every > kMaxFrames)
+    throw UsageError(fmt::format("--every {}: more than {} frames in --time {}; choose a longer one",
+                                 options_.every, kMaxFrames, options_.time));
 }
 
 void SphereRun::describe_start() {
@@ -142,6 +189,7 @@ void SphereRun::jam() {
   const double rate = options_.start.growth;
   const kinetic::GrowthResult grown = kinetic::grow(*spheres_, {rate, 1, *options_.jam});
   report_.jam = SphereJam{rate, grown.fraction, grown.pressure, grown.is_jammed};
+  if (report_.spheres == 0) return;
   report_.smallest_diameter *= spheres_->radius(0) / start_.radii[0];
   report_.largest_diameter *= spheres_->radius(0) / start_.radii[0];
 }
@@ -167,9 +215,26 @@ void SphereRun::run_block(int block) {
   report_.blocks.push_back(done);
 }
 
-/// Up to a time or to so many collisions.
+/// For a collision, in a run by these: by a speed that elastic collisions keep. Others slow down without end.
+double SphereRun::longest_wait() const {
+  if (options_.time > 0 || options_.restitution < 1) return std::numeric_limits<double>::infinity();
+  double mass = 0;
+  for (std::size_t k = 0; k < spheres_->size(); ++k) mass += spheres_->mass(static_cast<std::int32_t>(k));
+  return kMaxLonelyEdges * start_.edge / std::sqrt(2 * spheres_->energy() / mass);
+}
+
+/// Up to a time or to so many collisions, which have to come.
 void SphereRun::advance(double limit, std::int64_t& most) {
-  for (; most > 0 && spheres_->step(limit); --most) {
+  for (; most > 0; --most) {
+    const double last_call = last_collision_ + longest_wait_;
+    if (!spheres_->step(std::min(limit, last_call))) {
+      if (last_call >= limit) return;
+      throw UsageError(
+          fmt::format("--collisions {}: after {} nothing collides while a sphere flies {} edges of the box; "
+                      "say by --time how long to run",
+                      options_.collisions, report_.collisions(), kMaxLonelyEdges));
+    }
+    last_collision_ = spheres_->now();
     const std::int64_t done = spheres_->counters().collisions;
     if (done % kReport == 0) progress_.advance(done);
   }

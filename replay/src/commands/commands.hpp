@@ -9,6 +9,7 @@ class Command;
 /// in `exit_code`.
 void add_replay_command(Command& app, int& exit_code);
 void add_contacts_command(Command& app, int& exit_code);
+void add_crossings_command(Command& app, int& exit_code);
 void add_query_command(Command& app, int& exit_code);
 void add_hardspheres_command(Command& app, int& exit_code);
 void add_info_command(Command& app, int& exit_code);

@@ -10,9 +10,9 @@
 #include "base/progress_bar.hpp"
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
+#include "commands/report_outputs.hpp"
 #include "options/command_line.hpp"
 #include "options/option_values.hpp"
-#include "report/output_file.hpp"
 
 namespace dch::cli {
 namespace {
@@ -116,26 +116,13 @@ ContactOptions contact_options(const ContactWords& words) {
   return options;
 }
 
-void print_summary(const ContactReport& report, const ContactWords& words) {
-  write_output(render_table(report));
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"data", words.data}, {"report", words.report}, {"page", words.plot}};
-  for (const auto& [name, path] : outputs) {
-    if (!path.empty()) print_output("  {:<16}{}\n", name, path);
-  }
-}
-
 int run(const ContactWords& words) {
   const ContactOptions options = contact_options(words);
-  const auto json = open_output(words.report);
-  const auto page = open_output(words.plot);
+  ReportOutputs outputs(words.report, words.plot);
   ProgressBar progress(words.quiet);
   const ContactReport report = analyze_contacts(options, progress);
-  if (json) json->write(render_json(report));
-  if (page) page->write(render_html(report));
-  if (json) json->commit();
-  if (page) page->commit();
-  if (!words.quiet) print_summary(report, words);
+  outputs.write(report);
+  if (!words.quiet) outputs.print(report, "data", words.data);
   return kOk;
 }
 

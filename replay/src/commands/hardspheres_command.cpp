@@ -25,8 +25,8 @@ struct SphereWords {
   bool quiet = false;
 };
 
-constexpr std::int64_t kMostSpheres = 100000000;
-constexpr double kMost = 1e12;
+constexpr std::int64_t kMaxSpheres = 100000000;
+constexpr double kMax = 1e12;
 /// No packing of equal spheres is denser (T. C. Hales, Ann. Math. 162:1065, 2005).
 const double kDensest = std::numbers::pi / std::sqrt(18.0);
 
@@ -89,10 +89,10 @@ std::vector<SphereSize> parse_sizes(const std::string& text) {
     const std::size_t colon = item.find(':');
     SphereSize size;
     size.diameter = parse_number("--sizes", item.substr(0, colon),
-                                 {0, kMost, true, "the diameters of spheres, as in 1,10 or 1:0.9,10:0.1"});
+                                 {0, kMax, true, "the diameters of spheres, as in 1,10 or 1:0.9,10:0.1"});
     if (colon != std::string::npos)
       size.share = parse_number("--sizes", item.substr(colon + 1),
-                                {0, kMost, true, "the share of spheres of a size, as in 1:0.9,10:0.1"});
+                                {0, kMax, true, "the share of spheres of a size, as in 1:0.9,10:0.1"});
     sizes.push_back(size);
     begin = end + 1;
   }
@@ -110,7 +110,7 @@ double parse_fraction(const std::string& text, const std::vector<SphereSize>& si
 
 StartOptions start_options(const SphereWords& words) {
   StartOptions start;
-  start.growth = parse_number("--growth", words.growth, {0, kMost, true, "the rate at which radii grow"});
+  start.growth = parse_number("--growth", words.growth, {0, kMax, true, "the rate at which radii grow"});
   if (!words.from.empty()) {
     if (!words.spheres.empty() || !words.fraction.empty())
       throw UsageError("--from tells spheres and their box; leave --spheres and --fraction out");
@@ -120,7 +120,7 @@ StartOptions start_options(const SphereWords& words) {
     throw UsageError(
         "--spheres and --fraction are required where no restart file is given by --from, as in --spheres "
         "10976 --fraction 0.45");
-  start.spheres = parse_whole_number("--spheres", words.spheres, 1, kMostSpheres, "the number of spheres");
+  start.spheres = parse_whole_number("--spheres", words.spheres, 1, kMaxSpheres, "the number of spheres");
   start.sizes = parse_sizes(words.sizes);
   start.fraction = parse_fraction(words.fraction, start.sizes);
   start.start = choose<SphereStart>("--start", words.start,
@@ -136,17 +136,17 @@ void read_length_of_run(const SphereWords& words, SphereOptions& options) {
   if (words.time.empty() && words.collisions.empty() && words.jam.empty())
     throw UsageError("--time, --collisions or --jam is required: it says when the run ends");
   if (!words.time.empty())
-    options.time = parse_number("--time", words.time, {0, kMost, true, "how long to run"});
+    options.time = parse_number("--time", words.time, {0, kMax, true, "how long to run"});
   if (!words.collisions.empty())
     options.collisions =
         parse_whole_number("--collisions", words.collisions, 1, std::numeric_limits<std::int64_t>::max() / 64,
                            "the number of collisions to run for");
   if (!words.jam.empty())
-    options.jam = parse_number("--jam", words.jam, {1, kMost, true, "a pressure over that of an ideal gas"});
+    options.jam = parse_number("--jam", words.jam, {1, kMax, true, "a pressure over that of an ideal gas"});
   if (words.every.empty() != words.frames.empty())
     throw UsageError("--out and --every go together: the file for frames, and the time between two of them");
   if (!words.every.empty())
-    options.every = parse_number("--every", words.every, {0, kMost, true, "the time between two frames"});
+    options.every = parse_number("--every", words.every, {0, kMax, true, "the time between two frames"});
 }
 
 SphereOptions sphere_options(const SphereWords& words) {

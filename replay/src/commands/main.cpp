@@ -49,6 +49,7 @@ constexpr const char* kDescription =
     "  dchmd replay FILE --cutoff R --verify all            lists of every frame, checked pair by pair\n"
     "  dchmd replay FILE --cutoff R --plot report.html      the same as a page with plots\n"
     "  dchmd contacts FILE --gap D --plot contacts.html     contacts of polymer chains, as a page\n"
+    "  dchmd crossings FILE --chain-length 100 --fail       bonds that passed through each other\n"
     "  dchmd query FILE --nearest 12 --clusters R           nearest atoms, closest pair, clusters\n"
     "  dchmd hardspheres --spheres 4000 --fraction 0.45 --time 10   collisions of hard spheres, pressure\n"
     "  dchmd help replay                                    all options of a subcommand\n"
@@ -61,6 +62,7 @@ void declare(Command& app, int& exit_code) {
   add_info_command(app, exit_code);
   add_replay_command(app, exit_code);
   add_contacts_command(app, exit_code);
+  add_crossings_command(app, exit_code);
   add_query_command(app, exit_code);
   add_hardspheres_command(app, exit_code);
   add_convert_command(app, exit_code);

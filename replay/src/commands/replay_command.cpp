@@ -9,9 +9,9 @@
 #include "base/progress_bar.hpp"
 #include "base/standard_streams.hpp"
 #include "commands/commands.hpp"
+#include "commands/report_outputs.hpp"
 #include "options/command_line.hpp"
 #include "options/option_values.hpp"
-#include "report/output_file.hpp"
 #include "report/replay_report.hpp"
 
 namespace dch::cli {
@@ -23,7 +23,7 @@ struct ReplayWords {
   std::string topology, cutoff, skin = "0", engine = "dch", c, policy, threads, frames, verify = "none",
                                 exclude;
   std::string lists, report, plot;
-  bool half = false, full = false, quiet = false;
+  bool half = false, full = false, continuous = false, quiet = false;
 };
 
 void declare_list_options(Command& command, ReplayWords& words) {
@@ -53,6 +53,14 @@ void declare_list_options(Command& command, ReplayWords& words) {
       ->type_name("FILE");
 }
 
+void declare_continuous(Command& command, ReplayWords& words) {
+  command.add_flag(
+      "--continuous", words.continuous,
+      "Between each two frames, have every atom move in a straight line to its nearest image in the next "
+      "one, and find the contacts within the cutoff that come, go, or are in between alone, where no frame "
+      "shows them");
+}
+
 void declare_engine_options(Command& command, ReplayWords& words) {
   command
       .add_option(
@@ -80,6 +88,7 @@ void declare_options(Command& command, ReplayWords& words) {
       "Trajectory: LAMMPS dump (.lammpstrj, .dump, also .gz), GROMACS (.xtc, .trr, .gro), DCD (.dcd), "
       "H5MD (.h5, .h5md)");
   declare_list_options(command, words);
+  declare_continuous(command, words);
   declare_engine_options(command, words);
   command
       .add_option(
@@ -149,20 +158,12 @@ ReplayOptions replay_options(const ReplayWords& words) {
     options.exclude_depth =
         choose<int>("--exclude", words.exclude, {{"bonded", 1}, {"1-2", 1}, {"1-3", 2}, {"1-4", 3}});
   }
+  options.continuous = words.continuous;
   options.lists = words.lists;
   require_distinct_files({words.input.named("FILE"), {"--topology", words.topology}},
                          {{"--out", words.lists}, {"--report", words.report}, {"--plot", words.plot}});
   options.input = TrajectoryInput(words.input);
   return options;
-}
-
-void print_summary(const ReplayReport& report, const ReplayWords& words) {
-  write_output(render_table(report));
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"lists", words.lists}, {"report", words.report}, {"page", words.plot}};
-  for (const auto& [name, path] : outputs) {
-    if (!path.empty()) print_output("  {:<16}{}\n", name, path);
-  }
 }
 
 void print_mismatches(const ReplayReport& report) {
@@ -176,15 +177,11 @@ void print_mismatches(const ReplayReport& report) {
 
 int run(const ReplayWords& words) {
   const ReplayOptions options = replay_options(words);
-  const auto json = open_output(words.report);
-  const auto page = open_output(words.plot);
+  ReportOutputs outputs(words.report, words.plot);
   ProgressBar progress(words.quiet);
   const ReplayReport report = run_replay(options, progress);
-  if (json) json->write(render_json(report));
-  if (page) page->write(render_html(report));
-  if (json) json->commit();
-  if (page) page->commit();
-  if (!words.quiet) print_summary(report, words);
+  outputs.write(report);
+  if (!words.quiet) outputs.print(report, "lists", words.lists);
   print_mismatches(report);
   return report.verify.mismatches > 0 ? kMismatch : kOk;
 }

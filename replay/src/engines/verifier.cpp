@@ -56,6 +56,12 @@ std::string Mismatch::message(const std::string& unit) const {
   if (what == "structure") return fmt::format("frame {}: the hierarchy is broken: {}", frame, detail);
   if (what == "order")
     return fmt::format("frame {}: the neighbors of atom {} are not in ascending order", frame, atom_a);
+  if (next_frame >= 0) {
+    return fmt::format(
+        "frames {} to {}: a contact of atoms {} and {} that no frame shows, as close as {} ({}), {}", frame,
+        next_frame, atom_a, atom_b, distance, unit,
+        what == "hidden missing" ? "is missing" : "is told of, but is none");
+  }
   return fmt::format(
       "frame {}: pair of atoms {} and {} at distance {} ({}) is {}", frame, atom_a, atom_b, distance, unit,
       what == "missing" ? "missing from the list" : "in the list but beyond its radius or excluded");
@@ -71,7 +77,9 @@ std::set<std::int64_t> spread_evenly(std::int64_t frames, std::int64_t wanted) {
 Verifier::Verifier(VerifyMode mode, const ListParams& params, std::int64_t frames) : params_(params) {
   result_.mode = mode;
   result_.seed = kSeed;
-  if (mode == VerifyMode::sample) sampled_ = spread_evenly(frames, kSampledFrames);
+  if (mode != VerifyMode::sample) return;
+  sampled_ = spread_evenly(frames, kSampledFrames);
+  sampled_intervals_ = spread_evenly(frames - 1, kSampledFrames);
 }
 
 void Verifier::check(const Subject& subject) {

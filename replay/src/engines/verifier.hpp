@@ -9,9 +9,13 @@
 
 #include <dch/engines/pair_search.hpp>
 #include <dch/geometry/box.hpp>
+#include <dch/kinetic/contacts_between.hpp>
+#include <dch/lists/exclusions.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/trajectory/frame.hpp>
+
+#include "engines/between_contact.hpp"
 
 namespace dch::cli {
 
@@ -20,8 +24,11 @@ std::string to_string(VerifyMode mode);
 
 /// What differs from the oracle.
 struct Mismatch {
-  std::int64_t frame = 0;               ///< index in the file, from 0
-  std::string what;                     ///< "missing", "extra", "order", "structure"
+  std::int64_t frame = 0;        ///< index in the file, from 0
+  std::int64_t next_frame = -1;  ///< of what is between two frames, else -1
+  /// "missing", "extra", "order", "structure"; "hidden missing", "hidden extra" of contacts that no frame
+  /// shows
+  std::string what;
   std::int64_t atom_a = 0, atom_b = 0;  ///< ids of the file; 0 where there is no pair
   double distance = 0;                  ///< of the pair [length]
   std::string detail;                   ///< for "structure": the invariant that fails
@@ -32,10 +39,11 @@ struct Mismatch {
 /// The result of all checks of a run.
 struct VerifyResult {
   VerifyMode mode = VerifyMode::none;
-  std::uint64_t seed = 0;             ///< of the sampled atoms
-  std::vector<std::int64_t> frames;   ///< indices of the frames checked
-  std::int64_t rows = 0;              ///< atoms whose neighbors were compared, summed over the frames
-  std::int64_t structure_checks = 0;  ///< frames whose hierarchy was checked by PairSearch::validate()
+  std::uint64_t seed = 0;               ///< of the sampled atoms
+  std::vector<std::int64_t> frames;     ///< indices of the frames checked
+  std::vector<std::int64_t> intervals;  ///< earlier frames of the intervals checked
+  std::int64_t rows = 0;                ///< atoms whose neighbors were compared, summed over the frames
+  std::int64_t structure_checks = 0;    ///< frames whose hierarchy was checked by PairSearch::validate()
   std::int64_t mismatches = 0;  ///< rows' entries missing or extra, rows out of order, broken structures
   std::vector<Mismatch> first;  ///< the first kMaxReported of them
 };
@@ -70,6 +78,22 @@ class Verifier {
   };
   void check(const Subject& subject);
 
+  /// The contacts that no frame shows of one interval between two frames; atoms are those of both.
+  struct Interval {
+    std::int64_t ordinal = 0;  ///< number of the interval among those replayed, from 0
+    std::int64_t frame = 0, next_frame = 0;
+    double cutoff = 0;  ///< [length]
+    Span<const std::int64_t> ids;
+    Span<const Vec3> before, after;
+    const Box *box_before = nullptr, *box_after = nullptr;
+    Span<const std::int32_t> undetermined;  ///< atoms that were left out
+    Span<const BetweenContact> contacts;    ///< found, by i and j
+    const Exclusions* exclusions = nullptr;
+    Span<const std::int32_t> places;  ///< of the atoms, by which exclusions go
+  };
+  /// Compares them with kinetic::all_hidden_contacts(), as exactly as coordinates are rounded.
+  void check_between(const Interval& interval);
+
   const VerifyResult& result() const { return result_; }
 
  private:
@@ -78,12 +102,15 @@ class Verifier {
   void check_structure(const Subject& subject);
   void compare_row(const Subject& subject, std::int32_t i, Span<const std::int32_t> found,
                    Span<const std::int32_t> expected);
+  void compare_pair(const Interval& interval, Span<const BetweenContact> found,
+                    Span<const kinetic::OracleContact> expected, double slack);
   void report_pair(const Subject& subject, const char* what, std::int32_t i, std::int32_t j);
   void report(Mismatch mismatch);
   std::vector<std::int32_t> sample_atoms(std::size_t n);
 
   const ListParams& params_;
   std::set<std::int64_t> sampled_;  ///< ordinals of the frames to check in sample mode
+  std::set<std::int64_t> sampled_intervals_;
   std::mt19937_64 random_{kSeed};
   VerifyResult result_;
 };

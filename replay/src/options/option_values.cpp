@@ -47,14 +47,24 @@ std::int64_t parse_range_part(const std::string& text, std::string_view part, st
   return *value;
 }
 
+/// Where a file would be made: at the end of links, whether anything is there yet or not.
+std::filesystem::path place_of(const std::string& name, std::error_code& error) {
+  constexpr int kMaxLinks = 40;  // as many as the system follows
+  std::filesystem::path place = std::filesystem::absolute(name, error);
+  for (int k = 0; k < kMaxLinks && !error && std::filesystem::is_symlink(place, error); ++k)
+    place = place.parent_path() / std::filesystem::read_symlink(place, error);
+  error.clear();  // of what is not there
+  return std::filesystem::weakly_canonical(place, error);
+}
+
 /// The same file under two names, or two names for a file that does not exist yet.
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error) && !error) return true;
-  const auto full_a = std::filesystem::weakly_canonical(a, error);
+  const auto place_a = place_of(a, error);
   if (error) return a == b;
-  const auto full_b = std::filesystem::weakly_canonical(b, error);
-  return error ? a == b : full_a == full_b;
+  const auto place_b = place_of(b, error);
+  return error ? a == b : place_a == place_b;
 }
 
 void require_distinct(const NamedPath& a, const NamedPath& b) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kShades = 8;
 constexpr double kSide = 424;  ///< of the matrix as drawn; leaves room for the key
-constexpr int kTicks = 6;
+constexpr int kMapTicks = 6;
 
 /// From values to shades, in equal steps of their logarithm.
 class Shades {
@@ -89,7 +89,7 @@ void draw_frame(SvgCanvas& canvas, const HeatMap& map, const Scale& x, const Sca
     canvas.line(x(edge), y(low), x(edge), y(high), "tick");
     canvas.line(x(low), y(edge), x(high), y(edge), "tick");
   }
-  for (const double tick : round_ticks(low, high, kTicks)) {
+  for (const double tick : round_ticks(low, high, kMapTicks)) {
     if (tick < low || tick > high || tick != std::floor(tick)) continue;
     canvas.text(x(low) - 8, y(tick) + 4, tick_label(tick), "y-tick");
     canvas.text(x(tick), y(high) + 20, tick_label(tick), "x-tick");

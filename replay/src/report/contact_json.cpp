@@ -10,14 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One value of each frame as an array.
-template <class Value>
-Json column(const ContactReport& report, Value value) {
-  Json array = Json::array();
-  for (const ContactFrame& frame : report.frames) array.push_back(value(frame));
-  return array;
-}
-
 Json input_json(const ContactReport& report) {
   Json json = begin_report(report, report.frames.size());
   json["topology"] = report.topology;

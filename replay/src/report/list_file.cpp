@@ -25,6 +25,15 @@ ListFile::ListFile(const std::string& path, const ListFileHeader& header)
   file_.create_dataset("j", Hdf5Type::int32, 0, kChunkEntries);
   file_.create_dataset("frame", Hdf5Type::int64, 0, 1024);
   file_.create_dataset("step", Hdf5Type::int64, 0, 1024);
+  if (!header.continuous) return;
+  file_.create_group("between");
+  file_.create_dataset("between/frames", Hdf5Type::int64, 2, 1024);
+  file_.create_dataset("between/followed", Hdf5Type::int8, 0, 1024);
+  for (const char* name : {"interval", "i", "j"})
+    file_.create_dataset(fmt::format("between/{}", name), Hdf5Type::int64, 0, kChunkEntries);
+  for (const char* name : {"enters", "leaves", "closest"})
+    file_.create_dataset(fmt::format("between/{}", name), Hdf5Type::float64, 0, kChunkEntries);
+  file_.create_dataset("between/hidden", Hdf5Type::int8, 0, kChunkEntries);
 }
 
 void ListFile::append(std::int64_t index, const trajectory::Frame& frame, const NeighborList& list,
@@ -43,6 +52,25 @@ void ListFile::append(std::int64_t index, const trajectory::Frame& frame, const 
   if (first_.back() == entries_) return;
   file_.append("j", 0, list.j);
   entries_ = first_.back();
+}
+
+void ListFile::append(const IntervalRecord& interval, const std::vector<BetweenContact>& contacts) {
+  file_.append("between/frames", 2, std::vector<std::int64_t>{interval.frame, interval.next_frame});
+  file_.append("between/followed", 0, std::vector<std::int32_t>{interval.undetermined.empty() ? 1 : 0});
+  const std::int64_t number = intervals_++;
+  if (contacts.empty()) return;
+  const auto write = [&](const char* name, auto value) {
+    std::vector<decltype(value(contacts[0]))> values;
+    for (const BetweenContact& contact : contacts) values.push_back(value(contact));
+    file_.append(fmt::format("between/{}", name), 0, values);
+  };
+  write("interval", [&](const BetweenContact&) { return number; });
+  write("i", [](const BetweenContact& contact) { return contact.i; });
+  write("j", [](const BetweenContact& contact) { return contact.j; });
+  write("enters", [](const BetweenContact& contact) { return contact.enters; });
+  write("leaves", [](const BetweenContact& contact) { return contact.leaves; });
+  write("closest", [](const BetweenContact& contact) { return contact.closest; });
+  write("hidden", [](const BetweenContact& contact) -> std::int32_t { return contact.is_hidden ? 1 : 0; });
 }
 
 void ListFile::commit() { file_.commit(); }

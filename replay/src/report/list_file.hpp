@@ -8,6 +8,7 @@
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/trajectory/frame.hpp>
 
+#include "report/between_report.hpp"
 #include "report/hdf5_file.hpp"
 
 namespace dch::cli {
@@ -21,6 +22,7 @@ struct ListFileHeader {
   double cutoff = 0, skin = 0;  ///< [length]
   ListKind kind = ListKind::half;
   std::size_t most_atoms = 0;  ///< in a frame
+  bool continuous = false;     ///< contacts between frames are written, too
 };
 
 /// Writes neighbor lists to an HDF5 file, frame by frame: only the frame at hand is held in memory.
@@ -40,6 +42,9 @@ class ListFile {
   /// @throws trajectory::FileError, the disk being full, say.
   void append(std::int64_t index, const trajectory::Frame& frame, const NeighborList& list, bool is_new);
 
+  /// What is between two frames. @throws trajectory::FileError, the disk being full, say.
+  void append(const IntervalRecord& interval, const std::vector<BetweenContact>& contacts);
+
   /// Completes the file and gives it its name. @throws trajectory::FileError.
   void commit();
 
@@ -48,6 +53,7 @@ class ListFile {
   std::size_t most_atoms_;
   std::vector<std::int64_t> first_;  ///< of the frame last written
   std::int64_t entries_ = 0;         ///< in dataset j
+  std::int64_t intervals_ = 0;
 };
 
 }  // namespace dch::cli

@@ -11,7 +11,7 @@
 namespace dch::cli {
 namespace {
 
-constexpr std::int64_t kFrameChunk = 1024;
+constexpr std::int64_t kQueryChunk = 1024;
 
 std::int64_t rows_a_chunk(std::int64_t columns) {
   return std::max<std::int64_t>(1, kChunkEntries / std::max<std::int64_t>(1, columns));
@@ -26,10 +26,10 @@ QueryFile::QueryFile(const std::string& path, const QueryFileHeader& header) : f
   file_.write_attribute("unit", header.unit);
   file_.create_group("frames");
   for (const char* name : {"frame", "step", "first", "closest_i", "closest_j"}) {
-    file_.create_dataset(fmt::format("frames/{}", name), Hdf5Type::int64, 0, kFrameChunk);
+    file_.create_dataset(fmt::format("frames/{}", name), Hdf5Type::int64, 0, kQueryChunk);
   }
   for (const char* name : {"time", "closest_distance"}) {
-    file_.create_dataset(fmt::format("frames/{}", name), Hdf5Type::float64, 0, kFrameChunk);
+    file_.create_dataset(fmt::format("frames/{}", name), Hdf5Type::float64, 0, kQueryChunk);
   }
   file_.create_group("atoms");
   file_.create_dataset("atoms/id", Hdf5Type::int64, 0, kChunkEntries);
@@ -38,7 +38,7 @@ QueryFile::QueryFile(const std::string& path, const QueryFileHeader& header) : f
   if (header.cutoffs.empty()) return;
   const auto columns = static_cast<std::int64_t>(header.cutoffs.size());
   file_.create_dataset("atoms/cluster", Hdf5Type::int64, columns, rows_a_chunk(columns));
-  file_.create_dataset("frames/first_edge", Hdf5Type::int64, 0, kFrameChunk);
+  file_.create_dataset("frames/first_edge", Hdf5Type::int64, 0, kQueryChunk);
   file_.create_group("tree");
   for (const char* name : {"i", "j"}) {
     file_.create_dataset(fmt::format("tree/{}", name), Hdf5Type::int64, 0, kChunkEntries);

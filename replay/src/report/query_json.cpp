@@ -10,14 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One value of each frame as an array.
-template <class Value>
-Json column(const QueryReport& report, Value value) {
-  Json array = Json::array();
-  for (const QueryFrame& frame : report.frames) array.push_back(value(frame));
-  return array;
-}
-
 Json closest_json(const QueryReport& report) {
   const QueryFrame* const frame = report.closest();
   if (!frame) return {{"distance", nullptr}, {"i", nullptr}, {"j", nullptr}, {"frame", nullptr}};

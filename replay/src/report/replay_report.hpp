@@ -12,6 +12,7 @@
 #include "engines/engine.hpp"
 #include "engines/verifier.hpp"
 #include "input/trajectory_summary.hpp"
+#include "report/between_report.hpp"
 
 namespace dch::cli {
 
@@ -59,6 +60,7 @@ struct ReplayReport : TrajectorySummary {
   std::uint64_t list_hash = 0;                 ///< of all lists, the same for all engines
   double scan_ms = 0, verify_ms = 0, write_ms = 0, total_ms = 0;
   VerifyResult verify;
+  std::optional<BetweenReport> between;  ///< if it was asked for
 
   ReplayTotals totals() const;
 };

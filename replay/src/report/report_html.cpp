@@ -13,7 +13,7 @@ namespace dch::cli {
 namespace {
 
 template <class Value>
-std::vector<double> column(const ReplayReport& report, Value value) {
+std::vector<double> frame_values(const ReplayReport& report, Value value) {
   std::vector<double> values;
   for (const FrameRecord& frame : report.frames) values.push_back(static_cast<double>(value(frame)));
   return values;
@@ -23,7 +23,7 @@ FrameChart frame_chart(const ReplayReport& report, const std::string& y_label) {
   FrameChart chart;
   chart.x_label = "frame";
   chart.y_label = y_label;
-  chart.x = column(report, [](const FrameRecord& frame) { return frame.frame; });
+  chart.x = frame_values(report, [](const FrameRecord& frame) { return frame.frame; });
   return chart;
 }
 
@@ -35,7 +35,8 @@ std::string explained(const ReplayReport& report, const std::string& text) {
 
 std::string pairs_card(const ReplayReport& report) {
   FrameChart chart = frame_chart(report, "pairs");
-  chart.series = {{"pairs", "blue", column(report, [](const FrameRecord& frame) { return frame.pairs; })}};
+  chart.series = {
+      {"pairs", "blue", frame_values(report, [](const FrameRecord& frame) { return frame.pairs; })}};
   const std::string radius = fmt::format("{} {}", report.cutoff + report.skin, unit_suffix(report.unit));
   const std::string text =
       report.skin > 0
@@ -51,9 +52,9 @@ std::string pairs_card(const ReplayReport& report) {
 std::string cost_card(const ReplayReport& report) {
   FrameChart chart = frame_chart(report, "ms");
   chart.series = {
-      {"read", "amber", column(report, [](const FrameRecord& frame) { return frame.read_ms; })},
-      {"maintain", "blue", column(report, [](const FrameRecord& frame) { return frame.maintain_ms; })},
-      {"list", "green", column(report, [](const FrameRecord& frame) { return frame.list_ms; })}};
+      {"read", "amber", frame_values(report, [](const FrameRecord& frame) { return frame.read_ms; })},
+      {"maintain", "blue", frame_values(report, [](const FrameRecord& frame) { return frame.maintain_ms; })},
+      {"list", "green", frame_values(report, [](const FrameRecord& frame) { return frame.list_ms; })}};
   return html_card(
       "Cost of a frame",
       explained(report,
@@ -66,8 +67,8 @@ std::string changes_card(const ReplayReport& report) {
   if (report.levels.empty()) return "";
   FrameChart chart = frame_chart(report, "nodes");
   chart.series = {
-      {"promoted", "blue", column(report, [](const FrameRecord& frame) { return frame.promotions; })},
-      {"demoted", "amber", column(report, [](const FrameRecord& frame) { return frame.demotions; })}};
+      {"promoted", "blue", frame_values(report, [](const FrameRecord& frame) { return frame.promotions; })},
+      {"demoted", "amber", frame_values(report, [](const FrameRecord& frame) { return frame.demotions; })}};
   for (const FrameRecord& frame : report.frames) chart.marked.push_back(frame.rebuilds > 0);
   chart.mark_name = "built anew";
   const ReplayTotals totals = report.totals();
@@ -115,6 +116,46 @@ std::string degree_card(const ReplayReport& report) {
                    histogram(shares, neighbors / atoms, "neighbors", "% of atoms"));
 }
 
+/// Counts by percent as shares.
+std::string percent_card(const std::string& title, const std::string& text, const std::string& x_label,
+                         const BetweenReport::Histogram& counts) {
+  double all = 0, sum = 0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    all += static_cast<double>(counts[k]);
+    sum += static_cast<double>(counts[k]) * static_cast<double>(k);
+  }
+  if (all == 0) return "";
+  std::vector<double> shares;
+  for (const std::int64_t count : counts) shares.push_back(100 * static_cast<double>(count) / all);
+  return html_card(title, text, histogram(shares, sum / all, x_label, "% of them"));
+}
+
+std::string between_cards(const BetweenReport& between) {
+  FrameChart chart;
+  chart.x_label = "frame before";
+  chart.y_label = "contacts";
+  chart.series = {{"hidden", "amber", {}}, {"come", "blue", {}}, {"go", "green", {}}};
+  for (const IntervalRecord& interval : between.intervals) {
+    chart.x.push_back(static_cast<double>(interval.frame));
+    chart.series[0].y.push_back(static_cast<double>(interval.hidden));
+    chart.series[1].y.push_back(static_cast<double>(interval.come));
+    chart.series[2].y.push_back(static_cast<double>(interval.go));
+    chart.marked.push_back(!interval.undetermined.empty());
+  }
+  chart.mark_name = "not followed";
+  const std::string note = group_note(between.intervals.size());
+  return html_card(
+             "Between frames",
+             "Contacts that come and go between two frames, and those that are hidden: neither frame shows "
+             "them. Atoms move in straight lines." +
+                 (note.empty() ? "" : " Here " + note + "."),
+             line_chart(chart)) +
+         percent_card("How close hidden contacts come", "Least distance, as a share of the cutoff.",
+                      "% of the cutoff", between.distances) +
+         percent_card("How long hidden contacts last", "As a share of the time between two frames.",
+                      "% of the interval", between.durations);
+}
+
 std::string verdict(const VerifyResult& verify) {
   if (verify.mode == VerifyMode::none)
     return "<p class=\"verdict plain\">lists not verified in this run</p>\n";
@@ -148,8 +189,8 @@ std::string render_html(const ReplayReport& report) {
   page.verdict = verdict(report.verify);
   page.table = report_rows(report);
   page.notes = mismatch_list(report);
-  page.charts = pairs_card(report) + cost_card(report) + changes_card(report) + degree_card(report) +
-                levels_card(report);
+  page.charts = pairs_card(report) + (report.between ? between_cards(*report.between) : "") +
+                cost_card(report) + changes_card(report) + degree_card(report) + levels_card(report);
   return render_page(page);
 }
 

@@ -13,14 +13,6 @@ using Json = nlohmann::ordered_json;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// One value of each frame as an array.
-template <class Value>
-Json column(const ReplayReport& report, Value value) {
-  Json array = Json::array();
-  for (const FrameRecord& frame : report.frames) array.push_back(value(frame));
-  return array;
-}
-
 Json input_json(const ReplayReport& report) {
   Json json = begin_report(report, report.frames.size());
   json["engine"] = to_string(report.engine.kind);
@@ -69,9 +61,60 @@ Json per_frame_json(const ReplayReport& report) {
   return json;
 }
 
+Json intervals_json(const BetweenReport& between) {
+  const auto column = [&](const auto& value) {
+    Json array = Json::array();
+    for (const IntervalRecord& interval : between.intervals) array.push_back(value(interval));
+    return array;
+  };
+  Json json = Json::object();  // null would turn into an object, and be neither without memory
+  json["frame"] = column([](const IntervalRecord& r) { return r.frame; });
+  json["next_frame"] = column([](const IntervalRecord& r) { return r.next_frame; });
+  json["undetermined"] = column([](const IntervalRecord& r) { return text_or_null(r.undetermined); });
+  json["hidden"] = column([](const IntervalRecord& r) { return r.hidden; });
+  json["come"] = column([](const IntervalRecord& r) { return r.come; });
+  json["go"] = column([](const IntervalRecord& r) { return r.go; });
+  json["closest"] =
+      column([](const IntervalRecord& r) { return r.closest ? Json(*r.closest) : Json(nullptr); });
+  json["undetermined_atoms"] = column([](const IntervalRecord& r) { return r.undetermined_atoms; });
+  json["unmatched_atoms"] = column([](const IntervalRecord& r) { return r.unmatched_atoms; });
+  json["candidates"] = column([](const IntervalRecord& r) { return r.candidates; });
+  json["ms"] = column([](const IntervalRecord& r) { return r.ms; });
+  return json;
+}
+
+Json between_json(const BetweenReport& between) {
+  const IntervalRecord totals = between.totals();
+  Json json = Json::object();
+  json["intervals"] = between.intervals.size();
+  json["followed"] = between.followed();
+  json["hidden"] = totals.hidden;
+  json["come"] = totals.come;
+  json["go"] = totals.go;
+  json["events"] = totals.events();
+  json["undetermined_atoms"] = totals.undetermined_atoms;
+  json["unmatched_atoms"] = totals.unmatched_atoms;
+  const auto& closest = between.closest;
+  const auto known = [&](const auto& value) { return closest ? Json(value) : Json(nullptr); };
+  const BetweenReport::Closest none, &contact = closest ? *closest : none;
+  json["closest"] = {{"distance", known(contact.closest)},
+                     {"frame", known(contact.frame)},
+                     {"next_frame", known(contact.next_frame)},
+                     {"i", known(contact.i)},
+                     {"j", known(contact.j)},
+                     {"enters", known(contact.enters)},
+                     {"leaves", known(contact.leaves)}};
+  json["distance_histogram"] = between.distances;
+  json["duration_histogram"] = between.durations;
+  json["ms"] = totals.ms;
+  json["per_interval"] = intervals_json(between);
+  return json;
+}
+
 Json mismatch_json(const Mismatch& mismatch) {
   Json json{{"frame", mismatch.frame}, {"what", mismatch.what}};
-  const bool is_pair = mismatch.what == "missing" || mismatch.what == "extra";
+  json["next_frame"] = mismatch.next_frame < 0 ? Json(nullptr) : Json(mismatch.next_frame);
+  const bool is_pair = mismatch.what.ends_with("missing") || mismatch.what.ends_with("extra");
   json["atoms"] = is_pair ? Json{mismatch.atom_a, mismatch.atom_b} : Json::array();
   if (mismatch.what == "order") json["atoms"] = Json::array({mismatch.atom_a});
   json["distance"] = is_pair ? number_or_null(mismatch.distance) : Json(nullptr);
@@ -84,6 +127,7 @@ Json verify_json(const VerifyResult& verify) {
   json["mode"] = to_string(verify.mode);
   json["seed"] = verify.seed;
   json["frames"] = verify.frames;
+  json["intervals"] = verify.intervals;
   json["rows"] = verify.rows;
   json["structure_checks"] = verify.structure_checks;
   json["first_mismatches"] = Json::array();
@@ -113,6 +157,7 @@ std::string render_json(const ReplayReport& report) {
                         {"write", report.write_ms},       {"verify", report.verify_ms},
                         {"total", report.total_ms}};
   json["per_frame"] = per_frame_json(report);
+  if (report.between) json["between"] = between_json(*report.between);
   json["mismatches"] = report.verify.mismatches;
   json["verify"] = verify_json(report.verify);
   constexpr int kIndent = 1;  // file names need not be UTF-8, JSON has to be

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vector>
@@ -23,6 +24,11 @@ std::string exclusion_text(const ExclusionRecord& exclusions) {
                      counted(exclusions.pairs, "pair"), bonds);
 }
 
+std::string intervals_text(const VerifyResult& verify) {
+  if (verify.intervals.empty()) return "";
+  return ", hidden contacts of " + counted(static_cast<std::int64_t>(verify.intervals.size()), "interval");
+}
+
 std::string verify_text(const VerifyResult& verify) {
   const auto frames = static_cast<std::int64_t>(verify.frames.size());
   switch (verify.mode) {
@@ -30,11 +36,12 @@ std::string verify_text(const VerifyResult& verify) {
       std::string text = fmt::format("all pairs of {}", counted(frames, "frame"));
       if (verify.structure_checks > 0)
         text += fmt::format(", hierarchy of {}", grouped(verify.structure_checks));
+      text += intervals_text(verify);
       return text;
     }
     case VerifyMode::sample:
-      return fmt::format("{} in {} (seed {})", counted(verify.rows, "atom"), counted(frames, "frame"),
-                         verify.seed);
+      return fmt::format("{} in {}{} (seed {})", counted(verify.rows, "atom"), counted(frames, "frame"),
+                         intervals_text(verify), verify.seed);
     case VerifyMode::none:
       break;
   }
@@ -49,6 +56,36 @@ std::string cost_text(const ReplayReport& report, const ReplayTotals& totals) {
   const auto frames = static_cast<double>(report.frames.size());
   return fmt::format("read {}, maintain {}, list {}", readable(totals.read_ms / frames),
                      readable(totals.maintain_ms / frames), readable(totals.list_ms / frames));
+}
+
+void add_between_rows(const BetweenReport& between, const std::string& unit, std::vector<Row>& rows) {
+  const IntervalRecord totals = between.totals();
+  const auto intervals = static_cast<std::int64_t>(between.intervals.size());
+  rows.push_back({"between frames", fmt::format("{} that no frame shows; {} come, {} go ({})",
+                                                counted(totals.hidden, "contact"), grouped(totals.come),
+                                                grouped(totals.go), counted(totals.events(), "event"))});
+  if (between.closest) {
+    rows.push_back({"closest hidden",
+                    fmt::format("{} {}: the ids {} and {} between frames {} and {}",
+                                readable(between.closest->closest), unit_suffix(unit), between.closest->i,
+                                between.closest->j, between.closest->frame, between.closest->next_frame)});
+  }
+  std::vector<std::string> left_out;
+  if (between.followed() < intervals) {
+    const auto first =
+        std::find_if(between.intervals.begin(), between.intervals.end(),
+                     [](const IntervalRecord& interval) { return !interval.undetermined.empty(); });
+    left_out.push_back(fmt::format("{} of {} (the first after frame {}: {})",
+                                   grouped(intervals - between.followed()), counted(intervals, "interval"),
+                                   first->frame, first->undetermined));
+  }
+  if (totals.undetermined_atoms > 0)
+    left_out.push_back(
+        fmt::format("{} that moved half a box or more", counted(totals.undetermined_atoms, "atom")));
+  if (totals.unmatched_atoms > 0)
+    left_out.push_back(fmt::format("{} in one frame alone", counted(totals.unmatched_atoms, "atom")));
+  if (!left_out.empty()) rows.push_back({"not followed", fmt::format("{}", fmt::join(left_out, "; "))});
+  rows.push_back({"ms an interval", readable(totals.ms / static_cast<double>(intervals))});
 }
 
 }  // namespace
@@ -98,6 +135,7 @@ std::vector<Row> report_rows(const ReplayReport& report) {
     rows.push_back({"levels", levels_text(report)});
   }
   rows.push_back({"ms a frame", cost_text(report, totals)});
+  if (report.between) add_between_rows(*report.between, report.unit, rows);
   rows.push_back({"verified", verify_text(report.verify)});
   rows.push_back({"mismatches", mismatch_text(report.verify)});
   return rows;
@@ -105,7 +143,7 @@ std::vector<Row> report_rows(const ReplayReport& report) {
 
 std::string render_rows(const std::vector<Row>& rows) {
   std::string table;
-  for (const Row& row : rows) table += fmt::format("  {:<16}{}\n", row.name, row.value);
+  for (const Row& row : rows) table += fmt::format("  {:<15} {}\n", row.name, row.value);
   return table;
 }
 

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Value>
-Json column(const SphereReport& report, Value value) {
+Json block_values(const SphereReport& report, Value value) {
   Json array = Json::array();
   for (const SphereBlock& block : report.blocks) array.push_back(number_or_null(value(block)));
   return array;
@@ -23,12 +23,12 @@ Json column(const SphereReport& report, Value value) {
 
 Json blocks_json(const SphereReport& report) {
   Json json = Json::object();
-  json["time"] = column(report, [](const SphereBlock& b) { return b.time; });
+  json["time"] = block_values(report, [](const SphereBlock& b) { return b.time; });
   json["collisions"] = Json::array();
   for (const SphereBlock& block : report.blocks) json["collisions"].push_back(block.collisions);
-  json["pressure"] = column(report, [](const SphereBlock& b) { return b.pressure; });
-  json["energy"] = column(report, [](const SphereBlock& b) { return b.energy; });
-  json["seconds"] = column(report, [](const SphereBlock& b) { return b.seconds; });
+  json["pressure"] = block_values(report, [](const SphereBlock& b) { return b.pressure; });
+  json["energy"] = block_values(report, [](const SphereBlock& b) { return b.energy; });
+  json["seconds"] = block_values(report, [](const SphereBlock& b) { return b.seconds; });
   return json;
 }
 

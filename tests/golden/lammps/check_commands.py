@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The command `dch` and the ways to load it, in a real LAMMPS."""
+"""The command `dch` and the ways to load it, in a real LAMMPS.
+
+More than 300 lines: CTest runs the classes one by one, and all share the scripts that they vary."""
 
 import re
 import unittest
@@ -31,6 +33,7 @@ class Loading(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn("entered command dch\nentered pair lj/cut/dch\n", output)
         self.assertIn("entered compute necklace/contact\n", output)
+        self.assertIn("entered fix necklace/crossing\n", output)
         self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
         stock = thermo_tables(run(MELT + "run 20\n"))
         for table in thermo_tables(output):

@@ -38,6 +38,9 @@ void enter(Entry* entry, void* handle) {
   } else if (std::strcmp(entry->style, "compute") == 0) {
     (*lammps->modify->compute_map)[entry->name] =
         reinterpret_cast<LAMMPS_NS::Modify::ComputeCreator>(entry->create_with_arguments);
+  } else if (std::strcmp(entry->style, "fix") == 0) {
+    (*lammps->modify->fix_map)[entry->name] =
+        reinterpret_cast<LAMMPS_NS::Modify::FixCreator>(entry->create_with_arguments);
   } else if (std::strcmp(entry->style, "command") == 0) {
     (*lammps->input->command_map)[entry->name] =
         reinterpret_cast<LAMMPS_NS::Input::CommandCreator>(entry->create);

@@ -2,6 +2,8 @@
 //
 // Small systems with forces known from formulas, and larger ones against OpenMM's own force. The cases are
 // those of OpenMM's TestNonbondedForce.
+//
+// More than 300 lines: the cases of OpenMM's own test, in its order.
 #include "all_pairs_oracle.hpp"
 
 namespace OpenMMDCH {

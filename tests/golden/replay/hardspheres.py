@@ -102,6 +102,36 @@ def check_growth(checks, command, docs, folder):
     checks.that(report["pressure"] > 1e4, f"jammed spheres go on: {report['pressure']}")
 
 
+def check_few(checks, command, folder):
+    """Spheres of which none collide: a run takes as long as it is told, growth ends, and no collision is waited for."""
+    one = state_of(folder, "one.json")
+    parts = ("radii", "masses", "positions", "velocities")
+    for name, state in (("none.json", {part: [] for part in parts}), ("single.json", {part: one[part][:1] for part in parts}),
+                        ("alike.json", {"velocities": [[1, 0, 0]] * len(one["radii"])})):
+        with open(os.path.join(folder, name), "w") as file:
+            json.dump({**one, **state}, file)
+        report, _ = collide(checks, command, folder, "--from", name, "--time", 1)
+        checks.that(report["collisions"] == 0 and report["pressure"] in (None, 1), f"{name}: {report}")
+        expect_failure(checks, command, ["hardspheres", "--from", os.path.join(folder, name), "--collisions", "5"], 2,
+                       ["--collisions 5", "never collide", "--time"])
+    with open(os.path.join(folder, "late.json"), "w") as file:
+        json.dump({**one, "time": 1e20}, file)
+    expect_failure(checks, command, ["hardspheres", "--from", os.path.join(folder, "late.json"), "--collisions", "5", "--every",
+                                     "0.1", "--out", "run.h5"], 2, ["--every 0.1", "rounding"])
+    with open(os.path.join(folder, "passing.json"), "w") as file:
+        json.dump({**one, "box_edge": 4, "radii": [0.5, 0.25], "masses": [], "positions": [[1, 1, 1], [3, 2, 0.5]],
+                   "velocities": [[1, 0, 0], [-1, 0, 0]]}, file)
+    expect_failure(checks, command, ["hardspheres", "--from", os.path.join(folder, "passing.json"), "--collisions", "5"], 2,
+                   ["nothing collides", "--time"])
+    with open(os.path.join(folder, "fast.json"), "w") as file:
+        json.dump({**one, "velocities": [[1e40, 0, 0], *one["velocities"][1:]]}, file)
+    for length in (["--time", "1"], ["--jam", "10"]):
+        expect_failure(checks, command, ["hardspheres", "--from", os.path.join(folder, "fast.json"), *length], 2,
+                       ["edges of the box", "slower spheres"])
+    report, _ = collide(checks, command, folder, "--from", "none.json", "--jam", 10)
+    checks.that(report["spheres"] == 0 and not report["jam"]["is_jammed"], f"nothing grows: {report}")
+
+
 def check_usage(checks, command):
     begin = ["--spheres", "64", "--fraction", "0.4"]
     for options, parts in (([], ["--spheres and --fraction are required", "--from"]), (begin, ["--time, --collisions or --jam"]),
@@ -124,6 +154,7 @@ def check_usage(checks, command):
                             ["collided 20 times", "restitution of 0.1", "nearer to 1"]),
                            ([*begin, "--time", "1", "--out", "run.h5"], ["--out and --every go together"]),
                            ([*begin, "--time", "1", "--every", "0.1"], ["--out and --every go together"]),
+                           ([*begin, "--time", "1", "--every", "1e-300", "--out", "run.h5"], ["--every 1e-300", "frames"]),
                            ([*begin, "--time", "-1"], ["--time -1", "above 0"]),
                            ([*begin, "--jam", "1"], ["--jam 1", "above 1"]),
                            ([*begin, "--time", "1", "--report", "x", "--restart", "x"], ["--restart and --report", "same file"]),
@@ -154,6 +185,7 @@ def main(command, docs):
         check_pressures(checks, command, folder)
         check_restart(checks, command, folder)
         check_growth(checks, command, docs, folder)
+        check_few(checks, command, folder)
         check_bad_files(checks, command, folder)
     check_usage(checks, command)
     checks.finish()

@@ -99,7 +99,8 @@ def check_lists(checks, command, data, docs, folder):
         doubled = [sorted(frame + [(b, a) for a, b in frame]) for frame in kinds["half"]]
         checks.that(doubled == [sorted(frame) for frame in kinds["full"]], f"{name}: half and full lists differ")
     run(command, "replay", os.path.join(data, "water.trr"), "--cutoff", "0.4", "--out", os.path.join(folder, "lists.h5"))
-    example = re.search(r"```python\n(.*?)```", open(os.path.join(docs, "cli.md")).read(), re.DOTALL).group(1)
+    blocks = re.findall(r"```python\n(.*?)```", open(os.path.join(docs, "cli.md")).read(), re.DOTALL)
+    example = next(block for block in blocks if "has the neighbors" in block)
     result = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
     checks.that(result.returncode == 0 and "has the neighbors [" in result.stdout, f"the example: {result}")
     print("the example of cli.md:", result.stdout.strip())

@@ -15,7 +15,7 @@ SPHERES = ["hardspheres", "--spheres", "32", "--fraction", "0.2", "--time", "1"]
 
 
 def wrong_commands(data):
-    """(arguments, what the message has to hold)"""
+    """(arguments, what the message has to hold). More than 60 lines: a table, a line a mistake."""
     water = os.path.join(data, "water.trr")
     polymer = os.path.join(data, "polymer.lammpstrj")
     outputs = ["--out", "lists.h5", "--report", "report.json", "--plot", "report.html"]
@@ -150,6 +150,8 @@ def check_outputs_that_cannot_be(checks, command, data):
         expect_failure(checks, command, ["convert", water, os.path.join(folder, "w.xyz")], 3, ["w.xyz", ".h5"])
         expect_failure(checks, command, ["generate", "melt", "--chains", "10", "--beads", "10",
                                          os.path.join(folder, "no", "m.data")], 3, ["no/m.data"])
+    expect_failure(checks, command, ["replay", polymer, "--cutoff", "8", "--report", "new", "--plot", "./new"], 2,
+                   ["--report and --plot", "same file"])
 
 
 def check_full_disk(checks, command, data, chains):

@@ -13,18 +13,13 @@
 #include "contact_oracle.hpp"
 #include "hard_case.hpp"
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "listed_hierarchy.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
 
 namespace dch::hard {
 namespace {
-
-ListParams within(double radius) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(radius);
-  return params;
-}
 
 /// Edges that are powers of ten, ten or twenty decades apart.
 Finding edges_of_any_size() {

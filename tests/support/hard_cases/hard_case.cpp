@@ -11,6 +11,10 @@ std::vector<Case> all_cases(const Effort& effort) {
   for (const auto& cases :
        {list_cases(), structure_cases(effort), refusal_cases(), necklace_cases(effort), extreme_cases()})
     all.insert(all.end(), cases.begin(), cases.end());
+#ifdef DCH_HAS_ZONOTOPE
+  const std::vector<Case> zonotopes = zonotope_cases();
+  all.insert(all.end(), zonotopes.begin(), zonotopes.end());
+#endif
   return all;
 }
 

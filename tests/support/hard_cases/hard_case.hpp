@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct Case {
   std::function<Finding()> run;
 };
 
+inline std::ostream& operator<<(std::ostream& out, const Case& hard) {
+  return out << hard.area << ": " << hard.name;
+}
+
 /// How much to do.
 struct Effort {
   int repairs = 100000;             ///< in a row
@@ -34,6 +39,8 @@ std::vector<Case> structure_cases(const Effort& effort);
 std::vector<Case> refusal_cases();
 std::vector<Case> necklace_cases(const Effort& effort);
 std::vector<Case> extreme_cases();
+/// Where zonotopes are built.
+std::vector<Case> zonotope_cases();
 /// Those that need the power diagram.
 std::vector<Case> diagram_cases();
 

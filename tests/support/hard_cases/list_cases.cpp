@@ -10,6 +10,7 @@
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
 
@@ -23,12 +24,6 @@ struct Scene {
   Box box;
   double radius = 1;
 };
-
-ListParams within(double radius) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(radius);
-  return params;
-}
 
 /// The lists of the hierarchy and of the cell list, and what is wrong with either or with the hierarchy.
 struct Lists {

@@ -13,12 +13,10 @@
 #include "hard_case.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch::hard {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Passes if the call throws an Error whose message holds the part.
 Case refused(const std::string& name, const std::string& part, std::function<void()> call) {

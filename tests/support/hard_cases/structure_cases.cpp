@@ -9,6 +9,7 @@
 
 #include "hard_case.hpp"
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "listed_hierarchy.hpp"
 #include "long_double_pairs.hpp"
 #include "scenes.hpp"
@@ -23,12 +24,6 @@ StructureParams with(double radius, double base_radius, int max_roots = 1,
   params.base_radius = base_radius;
   params.max_roots = max_roots;
   params.policy = policy;
-  return params;
-}
-
-ListParams within(double radius) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(radius);
   return params;
 }
 
@@ -74,7 +69,7 @@ Finding exactly_the_covering_radius() {
   return {counts + " centers, " + or_valid(fault), counts == "1, 2, 1" && fault.empty()};
 }
 
-/// Erratum E2: with the thesis's text an update without motion demotes and promotes most points.
+/// With the thesis's text (5.5.3) an update without motion demotes and promotes most points.
 Finding no_oscillation() {
   const Box box = Box::orthorhombic({5, 5, 5});
   const std::vector<Vec3> points = scenes::fcc(box, 0.5, 500);

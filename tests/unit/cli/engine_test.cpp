@@ -2,6 +2,7 @@
 #include "engines/engine.hpp"
 
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include <dch/base/error.hpp>
 #include <dch/lists/all_pairs.hpp>
@@ -10,6 +11,9 @@
 #include "small_scene.hpp"
 
 namespace dch::cli {
+
+inline std::ostream& operator<<(std::ostream& out, EngineKind kind) { return out << to_string(kind); }
+
 namespace {
 
 class Engines : public testing::TestWithParam<EngineKind> {

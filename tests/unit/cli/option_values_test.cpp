@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "options/option_values.hpp"
 
+#include <utility>
+
 #include "base/exit_code.hpp"
 #include "expect_error.hpp"
 #include "temporary_folder.hpp"
@@ -94,6 +96,23 @@ TEST_F(DistinctFiles, RefusesOneFileUnderTwoNames) {
         require_distinct_files({}, {{"--report", path("new")}, {"--plot", detour}});
       },
       {"--report and --plot", "same file"});
+}
+
+TEST_F(DistinctFiles, RefusesOneFileThatIsNotThereYetUnderTwoNames) {
+  std::filesystem::create_symlink("new", path("link"));
+  std::filesystem::create_symlink(path("link"), path("chain"));
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(path(""));
+  for (const auto& [report, plot] :
+       {std::pair("new", "./new"), std::pair("new", "link"), std::pair("./chain", "new")}) {
+    expect_error<UsageError>(
+        [&] {
+          require_distinct_files({}, {{"--report", report}, {"--plot", plot}});
+        },
+        {"--report and --plot", "same file"});
+  }
+  EXPECT_NO_THROW(require_distinct_files({}, {{"--report", "new"}, {"--plot", "./newer"}}));
+  std::filesystem::current_path(before);
 }
 
 TEST_F(DistinctFiles, AcceptsDifferentFilesAndNamesNotGiven) {

@@ -74,6 +74,68 @@ TEST(Report, SumsUpTheFrames) {
   EXPECT_DOUBLE_EQ(totals.list_ms, 12);
 }
 
+/// Two intervals, of which the second could not be followed.
+void add_between(ReplayReport& report) {
+  IntervalRecord interval;
+  interval.next_frame = 4;
+  interval.hidden = 2;
+  interval.come = 3;
+  interval.go = 4;
+  interval.undetermined_atoms = 1;
+  interval.unmatched_atoms = 5;
+  interval.ms = 6;
+  report.between.emplace().add(
+      interval, {{7, 8, 0.25, 0.5, 1.9, true}, {3, 9, 0.1, 0.2, 1.5, true}, {3, 5, 0, 0.2, 0.5, false}},
+      report.cutoff);
+  interval = {};
+  interval.frame = 4;
+  interval.next_frame = 8;
+  interval.undetermined = "the box changes";
+  report.between->add(interval, {}, report.cutoff);
+}
+
+TEST(ReportBetween, CountsWhatIsHidden) {
+  ReplayReport report = sample_report();
+  add_between(report);
+  const auto json = nlohmann::json::parse(render_json(report))["between"];
+  EXPECT_EQ(json["intervals"], 2);
+  EXPECT_EQ(json["followed"], 1);
+  EXPECT_EQ(json["hidden"], 2);
+  EXPECT_EQ(json["events"], 11);
+  EXPECT_EQ(json["closest"]["distance"], 1.5);
+  EXPECT_EQ(json["closest"]["i"], 3);
+  EXPECT_EQ(json["closest"]["next_frame"], 4);
+  EXPECT_EQ(json["distance_histogram"][75], 1);
+  EXPECT_EQ(json["distance_histogram"][95], 1);
+  EXPECT_EQ(json["duration_histogram"][25], 1);
+  EXPECT_EQ(json["per_interval"]["closest"], (nlohmann::json{1.5, nullptr}));
+  EXPECT_EQ(json["per_interval"]["undetermined"], (nlohmann::json{nullptr, "the box changes"}));
+  const std::string table = render_table(report);
+  for (const char* part : {"2 contacts that no frame shows; 3 come, 4 go (11 events)",
+                           "1.5 [the dump's unit]: the ids 3 and 9 between",
+                           "1 of 2 intervals (the first after frame 4: the box changes); 1 atom that moved "
+                           "half a box or more; 5 atoms in "
+                           "one frame alone",
+                           "ms an interval  3"}) {
+    EXPECT_THAT(table, HasSubstr(part));
+  }
+  const std::string page = render_html(report);
+  for (const char* card :
+       {"<h2>Between frames", "<h2>How close hidden contacts come", "<h2>How long hidden contacts last"})
+    EXPECT_THAT(page, HasSubstr(card));
+  EXPECT_THAT(render_html(sample_report()), Not(HasSubstr("Between frames")));
+}
+
+TEST(ReportBetween, OfNoContacts) {
+  ReplayReport report = sample_report();
+  report.between.emplace().add({}, {}, 1);
+  const auto json = nlohmann::json::parse(render_json(report))["between"];
+  EXPECT_EQ(json["closest"]["distance"], nullptr);
+  EXPECT_THAT(render_table(report), HasSubstr("0 contacts that no frame shows; 0 come, 0 go"));
+  EXPECT_THAT(render_table(report), Not(HasSubstr("not followed")));
+  EXPECT_THAT(render_html(report), Not(HasSubstr("How close")));
+}
+
 TEST(ReportJson, HoldsWhatTheReportHolds) {
   ReplayReport report = sample_report();
   add_mismatch(report);

@@ -47,18 +47,16 @@ VerifyResult verify(VerifyMode mode, const ListParams& params, const trajectory:
   return verifier.result();
 }
 
-class VerifierModes : public testing::TestWithParam<std::tuple<VerifyMode, ListKind>> {
+/// Whether all atoms are verified, or a sample; and whether the list is full, or half of one.
+class VerifierModes : public testing::TestWithParam<std::tuple<bool, bool>> {
  protected:
-  VerifyMode mode() const { return std::get<0>(GetParam()); }
-  ListKind kind() const { return std::get<1>(GetParam()); }
+  VerifyMode mode() const { return std::get<0>(GetParam()) ? VerifyMode::all : VerifyMode::sample; }
+  ListKind kind() const { return std::get<1>(GetParam()) ? ListKind::full : ListKind::half; }
 };
-INSTANTIATE_TEST_SUITE_P(SampleAndAll, VerifierModes,
-                         testing::Combine(testing::Values(VerifyMode::sample, VerifyMode::all),
-                                          testing::Values(ListKind::half, ListKind::full)),
+INSTANTIATE_TEST_SUITE_P(SampleAndAll, VerifierModes, testing::Combine(testing::Bool(), testing::Bool()),
                          [](const auto& modes) {
-                           const bool sample = std::get<0>(modes.param) == VerifyMode::sample;
-                           const bool half = std::get<1>(modes.param) == ListKind::half;
-                           return std::string(sample ? "sample_" : "all_") + (half ? "half" : "full");
+                           return std::string(std::get<0>(modes.param) ? "all_" : "sample_") +
+                                  (std::get<1>(modes.param) ? "full" : "half");
                          });
 
 TEST_P(VerifierModes, FindsNothingInARightList) {

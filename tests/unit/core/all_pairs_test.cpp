@@ -8,17 +8,11 @@
 #include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "scenes.hpp"
 
 namespace dch {
 namespace {
-
-ListParams within(double cutoff, ListKind kind = ListKind::half) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(cutoff);
-  params.kind = kind;
-  return params;
-}
 
 /// Sites of a simple cubic lattice of spacing 1, `side` along each axis.
 std::vector<Vec3> cubic_sites(int side) {

@@ -10,15 +10,13 @@
 #include <dch/geometry/box.hpp>
 
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch {
 namespace {
 
 using scenes::Random;
 using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double norm(Vec3 v) { return std::sqrt(norm2(v)); }
 Vec3 operator-(Vec3 v) { return -1.0 * v; }

@@ -12,17 +12,11 @@
 #include <dch/lists/all_pairs.hpp>
 
 #include "list_compare.hpp"
+#include "list_params.hpp"
 #include "scenes.hpp"
 
 namespace dch {
 namespace {
-
-ListParams within(double cutoff, ListKind kind = ListKind::half) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(cutoff);
-  params.kind = kind;
-  return params;
-}
 
 void expect_oracle(PairSearch& search, const std::vector<Vec3>& points, const Box& box,
                    const ListParams& params, const std::string& scene) {

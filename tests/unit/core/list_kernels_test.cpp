@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Every instruction set gives what the definitions in list_kernels.hpp say, saturation and wrapping included.
+//
+// More than 300 lines: one test a kernel, each beside the definition that it is compared with.
 #include "simd/list_kernels.hpp"
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "instruction_sets.hpp"
 #include "scenes.hpp"
 
 namespace dch::detail {
@@ -52,87 +55,120 @@ constexpr Limit kLimits[] = {Limit::one, Limit::by_size, Limit::by_type};
 struct RandomLimits {
   RandomLimits(Limit which, CandidateArrays& candidates, std::size_t count, int most, scenes::Random& random)
       : kind(which) {
-    one_in = static_cast<std::int16_t>(random.below(static_cast<std::size_t>(most)));
-    one_out = static_cast<std::int16_t>(std::min<std::size_t>(32767, one_in + random.below(400)));
-    band = static_cast<std::int16_t>(random.below(500));
-    for (int a = 0; a < kKernelTypes; ++a)
-      for (int b = 0; b < kKernelTypes; ++b) {
-        type_in[a].limit[b] = static_cast<std::int16_t>(random.below(static_cast<std::size_t>(most)));
-        type_out[a].limit[b] =
-            static_cast<std::int16_t>(std::min<std::size_t>(32767, type_in[a].limit[b] + random.below(400)));
-      }
-    const std::size_t tags = kind == Limit::by_type ? kKernelTypes : 12000;
-    for (std::size_t k = 0; k < count; ++k) candidates.tag[k] = static_cast<std::int16_t>(random.below(tags));
-    for (std::int16_t& tag : row) tag = static_cast<std::int16_t>(random.below(tags));
+    const auto number = [&](int below) {
+      return static_cast<std::int16_t>(random.below(static_cast<std::size_t>(below)));
+    };
+    row_limits.middle = number(most);
+    row_limits.band = number(random.below(3) == 0 ? 1 : 500);
+    row_limits.skin = number(500);
+    row_limits.raise = number(500);
+    row_limits.by_type = by_type;
+    row_limits.rows = row;
+    for (TypeLimits& of_type : by_type)
+      for (std::int16_t& limit : of_type.limit)
+        limit = static_cast<std::int16_t>(number(most) - (random.below(4) == 0 ? most : 0));
+    const int tags = kind == Limit::by_type ? kKernelTypes : 12000;
+    for (std::size_t k = 0; k < count; ++k) candidates.tag[k] = number(tags);
+    for (std::int16_t& tag : row) tag = number(tags);
   }
-  int in(int r, int tag) const {
-    if (kind == Limit::one) return one_in;
-    return kind == Limit::by_type ? type_in[row[r]].limit[tag] : square(row[r] + tag) - band;
+  int middle(int r, int tag) const {
+    if (kind == Limit::one) return row_limits.middle;
+    if (kind == Limit::by_type) return by_type[row[r]].limit[tag];
+    return saturated(square(saturated(tag + row_limits.skin + row[r])) + row_limits.raise);
   }
-  int out(int r, int tag) const {
-    if (kind == Limit::one) return one_out;
-    return kind == Limit::by_type ? type_out[row[r]].limit[tag] : saturated(square(row[r] + tag) + band);
+  /// What a filter goes by.
+  int out(int tag) const {
+    if (kind == Limit::one) return row_limits.middle;
+    return kind == Limit::by_type ? by_type[row[0]].limit[tag]
+                                  : saturated(square(row[0] + tag) + row_limits.band);
   }
 
   Limit kind;
-  std::int16_t one_in, one_out, band;
+  RowLimits row_limits;
   std::int16_t row[kBlock];  ///< sizes or types of the rows
-  TypeLimits type_in[kKernelTypes], type_out[kKernelTypes];
+  TypeLimits by_type[kKernelTypes];
 };
 
-TEST_P(ListKernelsTest, TestTellsInsideFromOpenPairs) {
-  scenes::Random random(1);
-  for (int trial = 0; trial < 300; ++trial) {
-    const int most = trial % 4 == 0 ? 16383 : 4000;  // differences up to twice that
-    const std::size_t count = random.below(170);
-    const auto chunks = static_cast<std::int32_t>((count + kChunk - 1) / kChunk), stride = chunks + trial % 2;
-    BlockPoints points;
-    for (int lane = 0; lane < kBlock; ++lane) {
-      points.x[lane] = coordinate(random, most);
-      points.y[lane] = coordinate(random, most);
-      points.z[lane] = coordinate(random, most);
-    }
-    CandidateArrays candidates(count, most, random);
-    const RandomLimits limits(kLimits[trial % 3], candidates, count, trial % 2 ? 3000 : 32767, random);
-    std::vector<std::uint32_t> mask(static_cast<std::size_t>(kBlock * stride));
-    std::vector<Unsettled> unsettled(static_cast<std::size_t>(kBlock * chunks));
-    const auto size = static_cast<std::int32_t>(count);
-    std::int32_t left = 0;
-    switch (limits.kind) {
-      case Limit::one:
-        left = kernels().test(points, candidates.view(), size, limits.one_in, limits.one_out, mask.data(),
-                              stride, unsettled.data());
-        break;
-      case Limit::by_size:
-        left = kernels().test_by_size(points, limits.row, candidates.view(), size, limits.band, mask.data(),
-                                      stride, unsettled.data());
-        break;
-      case Limit::by_type:
-        left = kernels().test_by_type(points, limits.row, candidates.view(), size, limits.type_in,
-                                      limits.type_out, mask.data(), stride, unsettled.data());
-        break;
-    }
-    std::int32_t expected_left = 0;
-    for (int row = 0; row < kBlock; ++row)
-      for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
-        std::uint32_t inside = 0, open = 0;
-        for (std::size_t k = chunk * kChunk; k < std::min<std::size_t>(count, (chunk + 1) * kChunk); ++k) {
-          const int t = saturated(saturated(square(wrapped(candidates.x[k] - points.x[row])) +
-                                            square(wrapped(candidates.y[k] - points.y[row]))) +
-                                  square(wrapped(candidates.z[k] - points.z[row])));
-          const bool is_inside = t < limits.in(row, candidates.tag[k]);
-          if (is_inside) inside |= 1u << (k % kChunk);
-          if (!is_inside && t < limits.out(row, candidates.tag[k])) open |= 1u << (k % kChunk);
+BlockPoints random_points(scenes::Random& random, int most) {
+  BlockPoints points;
+  for (auto* axis : {points.x, points.y, points.z})
+    for (int lane = 0; lane < kBlock; ++lane) axis[lane] = coordinate(random, most);
+  return points;
+}
+
+/// Rows of a block by their definition.
+struct ExpectedRows {
+  std::vector<std::int32_t> j, end;
+  std::vector<OpenLanes> open;
+
+  ExpectedRows(const BlockPoints& points, int rows, const CandidateArrays& c, std::size_t count,
+               const RandomLimits& limits, const RandomLimits* near, bool own_first) {
+    for (int r = 0; r < rows; ++r)
+      for (int part = 0; part < (near != nullptr ? 2 : 1); ++part) {
+        const auto begin = static_cast<std::int32_t>(j.size());
+        for (std::size_t k = 0; k < count; ++k) {
+          if (k % kChunk == 0)
+            open.push_back({r, static_cast<std::int32_t>(end.size()), static_cast<std::int32_t>(k / kChunk),
+                            static_cast<std::int32_t>(j.size()) - begin, 0, 0});
+          const int t = saturated(
+              saturated(square(wrapped(c.x[k] - points.x[r])) + square(wrapped(c.y[k] - points.y[r]))) +
+              square(wrapped(c.z[k] - points.z[r])));
+          if (own_first && k <= static_cast<std::size_t>(r)) continue;
+          if (near != nullptr && (t < near->middle(r, c.tag[k])) != (part == 0)) continue;
+          const int middle = limits.middle(r, c.tag[k]), band = limits.row_limits.band;
+          const std::uint32_t bit = 1u << (k % kChunk);
+          if (t < middle) {
+            j.push_back(c.id[k]);
+            open.back().within |= bit;
+          }
+          if (t >= middle - band && t < middle + band) open.back().lanes |= bit;
         }
-        ASSERT_EQ(mask[static_cast<std::size_t>(row * stride + chunk)], inside) << row << ", " << chunk;
-        if (open == 0) continue;
-        ASSERT_LT(expected_left, left);
-        const Unsettled& entry = unsettled[static_cast<std::size_t>(expected_left++)];
-        ASSERT_EQ(entry.row, row);
-        ASSERT_EQ(entry.chunk, chunk);
-        ASSERT_EQ(entry.lanes, open);
+        end.push_back(static_cast<std::int32_t>(j.size()));
       }
-    ASSERT_EQ(left, expected_left);
+    open.erase(std::remove_if(open.begin(), open.end(), [](const OpenLanes& o) { return o.lanes == 0; }),
+               open.end());
+  }
+};
+
+TEST_P(ListKernelsTest, RowsHoldWhatIsWithinTheirLimitsAndNoteWhatIsOpen) {
+  scenes::Random random(1);
+  for (int trial = 0; trial < 600; ++trial) {
+    const int most = trial % 4 == 0 ? 16383 : 4000;  // differences up to twice that
+    const std::size_t count = random.below(260);
+    const bool own_first = count >= kBlock && trial % 2 == 0, has_shell = trial % 5 == 0;
+    const auto rows = static_cast<std::int32_t>(random.below(kBlock + 1));
+    const BlockPoints points = random_points(random, most);
+    CandidateArrays candidates(count, most, random);
+    const RandomLimits limits(kLimits[trial % 3], candidates, count, trial % 2 ? 3000 : 32000, random);
+    RandomLimits near = limits;
+    near.row_limits.middle = static_cast<std::int16_t>(limits.row_limits.middle / 2);
+    near.row_limits.skin = static_cast<std::int16_t>(limits.row_limits.skin / 2);
+    near.row_limits.raise = near.row_limits.band = 0;
+    near.row_limits.by_type = near.by_type;
+    near.row_limits.rows = near.row;
+    const ExpectedRows expected(points, rows, candidates, count, limits, has_shell ? &near : nullptr,
+                                own_first);
+
+    const auto kernel = limits.kind == Limit::one       ? kernels().rows
+                        : limits.kind == Limit::by_size ? kernels().rows_by_size
+                                                        : kernels().rows_by_type;
+    std::vector<std::int32_t> j(kBlock * (count + kChunk) + kChunk + 1, -7), end(2 * kBlock);
+    std::vector<OpenLanes> open(2 * kBlock * (count / kChunk + 1));
+    const std::int32_t noted =
+        kernel(points, rows, candidates.view(), static_cast<std::int32_t>(count), limits.row_limits,
+               has_shell ? &near.row_limits : nullptr, {j.data(), end.data(), open.data(), own_first});
+    ASSERT_TRUE(std::equal(expected.end.begin(), expected.end.end(), end.begin())) << trial;
+    ASSERT_TRUE(std::equal(expected.j.begin(), expected.j.end(), j.begin())) << trial;
+    ASSERT_EQ(j[expected.j.size() + kChunk], -7) << "writes farther than it says";
+    ASSERT_EQ(noted, static_cast<std::int32_t>(expected.open.size())) << trial;
+    for (std::size_t k = 0; k < expected.open.size(); ++k) {
+      ASSERT_EQ(open[k].row, expected.open[k].row);
+      ASSERT_EQ(open[k].segment, expected.open[k].segment);
+      ASSERT_EQ(open[k].chunk, expected.open[k].chunk);
+      ASSERT_EQ(open[k].before, expected.open[k].before);
+      ASSERT_EQ(open[k].lanes, expected.open[k].lanes);
+      ASSERT_EQ(open[k].within, expected.open[k].within);
+    }
   }
 }
 
@@ -159,8 +195,7 @@ TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
       for (int axis = 0; axis < 3; ++axis)
         t = saturated(
             t + square(std::max(0, std::abs(wrapped(at[axis] - box.center[axis])) - box.half_width[axis])));
-      if (t >= limits.out(0, from.tag[k]) || (chosen && (valid[k / kChunk] >> (k % kChunk) & 1) == 0))
-        continue;
+      if (t >= limits.out(from.tag[k]) || (chosen && (valid[k / kChunk] >> (k % kChunk) & 1) == 0)) continue;
       expected.x[kept] = from.x[k];
       expected.y[kept] = from.y[k];
       expected.z[kept] = from.z[k];
@@ -173,14 +208,15 @@ TEST_P(ListKernelsTest, FilterKeepsWhatIsNearTheBox) {
     std::int32_t found = 0;
     switch (limits.kind) {
       case Limit::one:
-        found = kernels().filter(box, limits.one_out, from.view(), chosen, size, target);
+        found = kernels().filter(box, limits.row_limits.middle, from.view(), chosen, size, target);
         break;
       case Limit::by_size:
-        found = kernels().filter_by_size(box, limits.row[0], limits.band, from.view(), chosen, size, target);
+        found = kernels().filter_by_size(box, limits.row[0], limits.row_limits.band, from.view(), chosen,
+                                         size, target);
         break;
       case Limit::by_type:
         found =
-            kernels().filter_by_type(box, limits.type_out[limits.row[0]], from.view(), chosen, size, target);
+            kernels().filter_by_type(box, limits.by_type[limits.row[0]], from.view(), chosen, size, target);
         break;
     }
     ASSERT_EQ(found, static_cast<std::int32_t>(kept));
@@ -246,43 +282,24 @@ TEST_P(ListKernelsTest, ShiftMovesWholeBlocksAndNoMore) {
   }
 }
 
-TEST_P(ListKernelsTest, CompressKeepsTheOrder) {
-  scenes::Random random(2);
-  for (int trial = 0; trial < 300; ++trial) {
-    const std::size_t chunks = random.below(5);
-    std::vector<std::uint32_t> mask(chunks);
-    for (std::uint32_t& lanes : mask)
-      lanes = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)) &
-              (trial % 2 ? ~0u : static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)));
-    std::vector<std::int32_t> ids(chunks * kChunk), expected;
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      ids[k] = static_cast<std::int32_t>(random.below(1000000));
-      if ((mask[k / kChunk] >> (k % kChunk) & 1) != 0) expected.push_back(ids[k]);
-    }
-    std::vector<std::int32_t> out(ids.size() + 16 + 1, -7);
-    const std::int32_t written =
-        kernels().compress(mask.data(), static_cast<std::int32_t>(chunks), ids.data(), out.data());
-    ASSERT_EQ(written, static_cast<std::int32_t>(expected.size()));
-    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), out.begin()));
-    ASSERT_EQ(out[expected.size() + 16], -7) << "writes farther than it says";
-  }
-}
-
 TEST_P(ListKernelsTest, LeaveOutKeepsTheOrderOfTheOthers) {
   scenes::Random random(6);
   for (int trial = 0; trial < 300; ++trial) {
     const std::size_t count = random.below(70);
-    std::vector<std::int32_t> row(count + 16), excluded(random.below(20));
+    std::vector<std::int32_t> row(count + 16), to(count + 17, -7), excluded(random.below(20));
     for (std::int32_t& id : row) id = static_cast<std::int32_t>(random.below(60));
     for (std::int32_t& id : excluded) id = static_cast<std::int32_t>(random.below(60));
     std::vector<std::int32_t> expected;
     for (std::size_t k = 0; k < count; ++k)
       if (std::find(excluded.begin(), excluded.end(), row[k]) == excluded.end()) expected.push_back(row[k]);
+    const bool in_place = trial % 2 == 0;
     const std::int32_t left =
         kernels().leave_out(row.data(), static_cast<std::int32_t>(count), excluded.data(),
-                            static_cast<std::int32_t>(excluded.size()));
-    row.resize(static_cast<std::size_t>(left));
-    ASSERT_EQ(row, expected);
+                            static_cast<std::int32_t>(excluded.size()), in_place ? row.data() : to.data());
+    ASSERT_EQ(to[expected.size() + 16], -7) << "writes farther than it says";
+    std::vector<std::int32_t>& result = in_place ? row : to;
+    result.resize(static_cast<std::size_t>(left));
+    ASSERT_EQ(result, expected);
   }
 }
 

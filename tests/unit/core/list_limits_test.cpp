@@ -64,6 +64,12 @@ TEST(ListLimits, OfOneCutoff) {
     EXPECT_FALSE(limits.per_pair);
     EXPECT_NEAR(limits.cutoff, largest, 1e-9 * largest);
     EXPECT_NEAR(limits.off, off, 1e-9);
+    const RowLimits rows = limits.for_rows(limits.all, false), open = limits.for_rows(limits.all, true);
+    EXPECT_LE(rows.middle - rows.band, limits.all.in);
+    EXPECT_GE(rows.middle + rows.band, limits.all.out);
+    EXPECT_LE(2 * rows.band, limits.all.out - limits.all.in + 1);
+    EXPECT_EQ(open.middle, limits.all.out);
+    EXPECT_EQ(open.band, 0);
     if (limits.all.out == 32767) return;
     // The farthest whose sum of squares can be below `out`, which is rounded by 3/2.
     const double farthest = off + std::sqrt((limits.all.out + 0.5) * kScale);
@@ -99,13 +105,20 @@ TEST(ListLimits, OfTypes) {
       for (int t = 0; t < 4; ++t) {
         const std::int16_t in = limits.all.type_in[s].limit[t], out = limits.all.type_out[s].limit[t];
         EXPECT_EQ(limits.near.type_out[s].limit[t], limits.near.type_in[s].limit[t]);
+        const RowLimits rows = limits.for_rows(limits.all, false);
+        const int middle = rows.by_type[s].limit[t];
+        EXPECT_EQ(limits.for_rows(limits.all, true).by_type[s].limit[t], out);
+        EXPECT_EQ(limits.for_rows(limits.all, true).band, 0);
         if (params.cutoffs(s, t) == 0) {
+          EXPECT_LT(middle + rows.band, 0) << "nor left open";
           EXPECT_EQ(out, 0) << "no pair of such types is listed";
           EXPECT_EQ(limits.near.type_in[s].limit[t], 0);
           continue;
         }
         const double reach = (params.cutoffs(s, t) + params.skin) / unit;
         expect_limits(in, out, reach, off);
+        EXPECT_LE(middle - rows.band, in);
+        EXPECT_GE(middle + rows.band, out);
         EXPECT_NEAR(limits.type_cutoff[s][t], reach, 1e-9 * reach);
         EXPECT_NEAR(limits.near.type_in[s].limit[t], in_range(square_of(reach - 0.05 * length)),
                     0.5 + kDigits);
@@ -158,10 +171,17 @@ TEST(ListLimits, OfRadii) {
       EXPECT_NEAR(limits.all.skin, 0.2 * length, 0.5);
       EXPECT_NEAR(limits.near.skin, 0.15 * length, 0.5);
       EXPECT_EQ(limits.near.band, 0);
+      const RowLimits rows = limits.for_rows(limits.all, false), open = limits.for_rows(limits.all, true);
+      EXPECT_EQ(rows.skin, limits.all.skin);
+      EXPECT_EQ(rows.band, limits.all.band);
+      EXPECT_EQ(rows.raise, 0);
+      EXPECT_EQ(open.raise, limits.all.band);
+      EXPECT_EQ(open.band, 0);
       EXPECT_NEAR(limits.off, off + kSizes, 1e-9);
       for (double pair = 0.3 * length; pair <= farthest; pair += 0.05 * length) {
         const double size = pair + kSizes;
-        const double beyond = off + std::sqrt((square_of(size) + 2 + limits.all.band) * kScale) - pair;
+        // Sums below square + band: at most one less, and 1/2 and 3/2 more before they are rounded.
+        const double beyond = off + std::sqrt((square_of(size) + 1 + limits.all.band) * kScale) - pair;
         EXPECT_GE(limits.margin / unit, beyond) << "pairs of " << pair;
         if (pair > 0.3 * length) continue;
         EXPECT_LE(limits.margin / unit, beyond + 0.01) << "the smallest pairs";

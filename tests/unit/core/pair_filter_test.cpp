@@ -197,9 +197,9 @@ TEST(PairFilter, Radii) {
 }
 
 /// Takes all pairs or none.
-class Always : public PairTest {
+class Always : public TieBreaker {
  public:
-  Always(double error, bool answer) : PairTest(error), answer_(answer) {}
+  Always(double error, bool answer) : TieBreaker(error), answer_(answer) {}
   bool accepts(std::int32_t, std::int32_t) const override { return answer_; }
 
  private:
@@ -212,7 +212,7 @@ TEST(PairFilter, TheHostDecidesNearTheCutoffAlone) {
   for (const bool answer : {false, true}) {
     const Always host(0.2, answer);
     ListParams params;
-    params.near_cutoff = &host;
+    params.tie_breaker = &host;
     params.types = types;
     params.cutoffs = TypeCutoffs(2, {1, 1, 1, 0});
     const PairFilter filter(points, Box::none(), params, params.cutoff_error());
@@ -237,7 +237,7 @@ TEST(PairFilter, TheHostDecidesAboutCoincidentPointsWhereItsErrorIsTheCutoff) {
   for (const bool answer : {false, true}) {
     const Always host(1, answer);
     ListParams params;
-    params.near_cutoff = &host;
+    params.tie_breaker = &host;
     const PairFilter filter(points, Box::none(), params, params.cutoff_error());
     EXPECT_EQ(filter.accept(0, 1, 0), answer);
   }

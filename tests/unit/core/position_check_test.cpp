@@ -9,6 +9,7 @@
 #include <dch/base/error.hpp>
 
 #include "lists/list_check.hpp"
+#include "special_numbers.hpp"
 
 namespace dch::detail {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(CheckPositions, NamesIndexAndValue) {
   const auto check = [](Vec3 p) {

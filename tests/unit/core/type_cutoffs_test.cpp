@@ -5,11 +5,10 @@
 #include <dch/base/error.hpp>
 #include <dch/lists/list_params.hpp>
 
+#include "special_numbers.hpp"
+
 namespace dch {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(TypeCutoffs, OneForAll) {
   const TypeCutoffs cutoffs(2.5);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// More than 300 lines: the stale test and the list that goes by it, one scene a clause.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -23,11 +23,11 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 
 TEST(IndexCount, EndsAtTheLargestIndexOrAtTheLimitGiven) {
   EXPECT_EQ(index_count(0, "points", ""), 0);
-  EXPECT_EQ(index_count(kMost, "points", ""), kMost);
+  EXPECT_EQ(index_count(kMax, "points", ""), kMax);
   EXPECT_EQ(index_count(7, "points", "", 7), 7);
   EXPECT_THAT(
       test::message_of<InvalidParameter>([] { index_count(2147483648, "points", "take fewer"); }),
@@ -39,7 +39,7 @@ TEST(IndexCount, EndsAtTheLargestIndexOrAtTheLimitGiven) {
 TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
   constexpr std::int64_t most = detail::kMaxBlocks;
   EXPECT_EQ(most, (std::int64_t{1} << 28) - 1);
-  EXPECT_LE(most * detail::kBlock, kMost);
+  EXPECT_LE(most * detail::kBlock, kMax);
   EXPECT_EQ(detail::block_count(most), most);
   EXPECT_THAT(
       test::message_of<InvalidParameter>([] { detail::block_count(most + 1); }),
@@ -47,7 +47,7 @@ TEST(LeafBlocks, SlotsStayBelowTheLargestIndex) {
 }
 
 TEST(LeafBlocks, NumberOfBlocksOfAnyNumberOfPoints) {
-  for (const std::int32_t points : {0, 1, 7, 8, 9, 16, kMost - 8, kMost - 7, kMost})
+  for (const std::int32_t points : {0, 1, 7, 8, 9, 16, kMax - 8, kMax - 7, kMax})
     EXPECT_EQ(detail::blocks_for(points), (std::int64_t{points} + 7) / 8) << points;
 }
 
@@ -55,9 +55,9 @@ TEST(CellNumbering, DenseBlocksStayBelowTheLargestIndex) {
   const auto fits = &detail::CellNumbering::fits_dense_block;
   EXPECT_TRUE(fits(1000, {0, 0, 0}, {9, 9, 39}));
   EXPECT_FALSE(fits(1000, {0, 0, 0}, {9, 9, 40})) << "memory goes by the number of points";
-  EXPECT_TRUE(fits(kMost, {0, 0, 0}, {kMost - 1, 0, 0}));
-  EXPECT_FALSE(fits(kMost, {0, 0, 0}, {1023, 1023, 2047})) << "2^31 cells for 2^31 - 1 points";
-  EXPECT_FALSE(fits(kMost, {-(1 << 30), -(1 << 30), -(1 << 30)}, {1 << 30, 1 << 30, 1 << 30}));
+  EXPECT_TRUE(fits(kMax, {0, 0, 0}, {kMax - 1, 0, 0}));
+  EXPECT_FALSE(fits(kMax, {0, 0, 0}, {1023, 1023, 2047})) << "2^31 cells for 2^31 - 1 points";
+  EXPECT_FALSE(fits(kMax, {-(1 << 30), -(1 << 30), -(1 << 30)}, {1 << 30, 1 << 30, 1 << 30}));
 }
 
 TEST(Chains, RefuseMoreParticlesThanIndices) {
@@ -69,8 +69,8 @@ TEST(Chains, RefuseMoreParticlesThanIndices) {
 
 TEST(Shapes, RefuseMoreBeadsThanIndices) {
   EXPECT_THROW(necklace::torus_knot(2, 3, 100'000'000), InvalidParameter);
-  EXPECT_THROW(necklace::torus_knot(kMost, kMost - 1, 100), InvalidParameter);
-  EXPECT_THROW(necklace::facing_bumps(kMost, kMost, 0.5, 0), InvalidParameter);
+  EXPECT_THROW(necklace::torus_knot(kMax, kMax - 1, 100), InvalidParameter);
+  EXPECT_THROW(necklace::facing_bumps(kMax, kMax, 0.5, 0), InvalidParameter);
 }
 
 TEST(PairList, ImagesAndTypesBeyondIndicesAreRefused) {
@@ -92,8 +92,8 @@ TEST(PairList, ImagesAndTypesBeyondIndicesAreRefused) {
     EXPECT_THAT(test::message_of<InvalidPosition>([&] { make(periods, 0); }),
                 AllOf(HasSubstr("2.2e+09"), HasSubstr("2147483647"), HasSubstr("wrap")));
   }
-  EXPECT_EQ(make(0, kMost - 1).types, kMost);
-  EXPECT_THROW(make(0, kMost), InvalidParameter);
+  EXPECT_EQ(make(0, kMax - 1).types, kMax);
+  EXPECT_THROW(make(0, kMax), InvalidParameter);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 //
 // The certificate under which repair is put off: each of its clauses in a scene in which it alone stands
 // between the list and a missing pair, and the limit itself to the last digit.
+//
+// More than 300 lines: all scenes start from the fixture that sets one clause against another.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -19,7 +21,7 @@ namespace {
 
 constexpr double kListRadius = 1;
 
-/// R_0 = 1, so rho_1 = 3.8: clusters may use up (3.8 - 1) / 2 = 1.4 with their extent and their motion.
+/// R_0 = 1, so rho_1 = 3.8: leaves may use up (3.8 - 1) / 2 = 1.4 with their extent and their motion.
 StructureParams params_with(int max_roots) {
   StructureParams params;
   params.radius = kListRadius;
@@ -108,7 +110,7 @@ TEST_F(Certificate, CountsTheMotionOfACenterWhosePointsStay) {
   expect_right();
 }
 
-TEST_F(Certificate, CountsTheExtentOfAClusterWhoseCenterStays) {
+TEST_F(Certificate, CountsTheExtentOfALeafWhoseCenterStays) {
   start({{0, 0, 0}, {3.9, 0, 0}}, {{1, 0, 0}, {2.9, 0, 0}});
   move(2, {1.95, 0, 0});
   update();
@@ -127,7 +129,7 @@ TEST_F(Certificate, AddsExtentAndMotion) {
   expect_right();
 }
 
-TEST_F(Certificate, LooksAtEveryCluster) {
+TEST_F(Certificate, LooksAtEveryLeaf) {
   for (std::size_t mover = 0; mover < 4; ++mover) {
     start({{0, 0, 0}, {20, 0, 0}, {40, 0, 0}, {60, 0, 0}}, {});
     move(mover, points_[mover] + Vec3{0, 1.5, 0});
@@ -164,7 +166,7 @@ TEST_F(Certificate, ItsLimitMissesNoPairHoweverNearTheThreshold) {
   expect_right();
 }
 
-// Displacements are from where the clusters were when the structure was in order, not from one update to the
+// Displacements are from where the leaves were when the structure was in order, not from one update to the
 // next.
 TEST_F(Certificate, AddsUpOverUpdates) {
   start({{0, 0, 0}, {3.9, 0, 0}}, {});
@@ -202,8 +204,8 @@ TEST_F(Certificate, KnowsTheLargestMotion) {
 }
 
 /// A point on its own at the origin, in the level with the given number: no node of that level is within its
-/// threshold, but one is in the level above. And a cluster of two points.
-class CertificateOfLonePoints : public Certificate, public ::testing::WithParamInterface<int> {
+/// threshold, but one is in the level above. And a leaf of two points.
+class CertificateOfSingletons : public Certificate, public ::testing::WithParamInterface<int> {
  protected:
   void SetUp() override {
     const int level = GetParam();
@@ -224,21 +226,21 @@ class CertificateOfLonePoints : public Certificate, public ::testing::WithParamI
   double distance_ = 0;
 };
 
-TEST_P(CertificateOfLonePoints, SeesOneFlyIntoACluster) {
+TEST_P(CertificateOfSingletons, SeesOneFlyIntoALeaf) {
   move(0, {-distance_ + 0.9, 0, 0});
   update();
   EXPECT_FALSE(is_put_off());
   expect_right();
 }
 
-TEST_P(CertificateOfLonePoints, HoldsToTheLastDigitOfItsLimit) {
+TEST_P(CertificateOfSingletons, HoldsToTheLastDigitOfItsLimit) {
   const auto& levels = inside().levels;
-  const double of_a_cluster = 0.5 * (levels[1].threshold - kListRadius) / kInflate;
+  const double of_a_leaf = 0.5 * (levels[1].threshold - kListRadius) / kInflate;
   const double further = 0.5 * (levels[static_cast<std::size_t>(GetParam())].radius - levels[1].radius);
-  EXPECT_EQ(largest_step(0, 2 * distance_), of_a_cluster + further / kInflate);
+  EXPECT_EQ(largest_step(0, 2 * distance_), of_a_leaf + further / kInflate);
 }
 
-TEST_P(CertificateOfLonePoints, AddsUpOverUpdates) {
+TEST_P(CertificateOfSingletons, AddsUpOverUpdates) {
   const double limit = 1.4 + 0.5 * (std::ldexp(1.0, GetParam()) - 2);
   move(0, {-0.75 * limit, 0, 0});
   update();
@@ -250,7 +252,7 @@ TEST_P(CertificateOfLonePoints, AddsUpOverUpdates) {
   expect_right();
 }
 
-TEST_P(CertificateOfLonePoints, LooksAtEachOfThem) {
+TEST_P(CertificateOfSingletons, LooksAtEachOfThem) {
   points_.push_back({-2 * distance_, 0, 0});
   build_and_fold();
   ASSERT_EQ(inside().singletons.size(), 2u);
@@ -265,7 +267,7 @@ TEST_P(CertificateOfLonePoints, LooksAtEachOfThem) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, CertificateOfLonePoints, ::testing::Values(2, 3, 4, 7),
+INSTANTIATE_TEST_SUITE_P(Levels, CertificateOfSingletons, ::testing::Values(2, 3, 4, 7),
                          ::testing::PrintToStringParamName());
 
 /// Of a cube of side 8, whose corner is the origin: a point `k` cells away rounds like one 8 k farther out.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// More than 300 lines: one test a promise of hierarchy.hpp, in its order.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -33,7 +35,7 @@ TEST(HierarchyTest, RefusesParametersOutOfRange) {
   EXPECT_THROW(ListedHierarchy(with_radius(-1)), InvalidParameter);
   EXPECT_THROW(ListedHierarchy(with_radius(std::numeric_limits<double>::quiet_NaN())), InvalidParameter);
   EXPECT_THROW(ListedHierarchy(with_radius(std::numeric_limits<double>::infinity())), InvalidParameter);
-  EXPECT_THROW(ListedHierarchy(with_radius(9e-31)), InvalidParameter) << "clusters hold single precision";
+  EXPECT_THROW(ListedHierarchy(with_radius(9e-31)), InvalidParameter) << "leaves hold single precision";
   EXPECT_THROW(ListedHierarchy(with_radius(1.1e30)), InvalidParameter);
   StructureParams params = with_radius(1);
   params.c = 1.04;
@@ -190,7 +192,7 @@ TEST(HierarchyTest, ParentsLeadToARootInEveryLevel) {
 }
 
 // A point on its own stands in all levels up to its highest, though it is not in memory in the lower ones.
-TEST(HierarchyTest, LonePointsStandInAllLevelsBelow) {
+TEST(HierarchyTest, SingletonsStandInAllLevelsBelow) {
   StructureParams params = with_radius(1);
   params.base_radius = 0.5;
   params.max_roots = 1;

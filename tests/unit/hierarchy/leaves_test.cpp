@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What lists are made from: each number of it beside its definition, in small scenes that hold every case.
+//
+// More than 300 lines: the three values of leaves, one after the other, of the same scenes.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,7 +17,7 @@
 namespace dch::detail {
 namespace {
 
-/// Clusters of given sizes, their points at random around the centers, in chains of blocks.
+/// Leaves of given sizes, their points at random around the centers, in chains of blocks.
 struct Scene {
   Scene(const Box& scene_box, const std::vector<std::int32_t>& sizes, std::uint64_t seed) : box(scene_box) {
     scenes::Random random(seed);
@@ -42,7 +44,7 @@ struct Scene {
     if (box.periodic(0)) positions[2] = positions[2] + 5.0 * box.vector(0);  // more than a cell away
   }
   template <class F>
-  void for_each_block(const F& f) const {  // f(cluster, number in the cluster, block)
+  void for_each_block(const F& f) const {  // f(leaf, number in the leaf, block)
     for (std::int32_t k = 0; k < centers.size(); ++k)
       for (std::int32_t n = 0, block = centers.first_child[k]; block != kNone; block = blocks.next[block])
         f(k, n++, block);
@@ -55,12 +57,12 @@ struct Scene {
   std::vector<Vec3> positions;
 };
 
-constexpr double kCovered2 = 25;  // a point of each cluster is exactly there at first
+constexpr double kCovered2 = 25;  // a point of each leaf is exactly there at first
 
 void expect_measured(const MeasuredLeaves& points, const Scene& scene) {
-  const std::size_t clusters = scene.centers.position.size();
-  std::vector<MeasuredLeaves::Leaf> expected(clusters);
-  std::vector<Vec3> low(clusters), high(clusters);
+  const std::size_t leaves = scene.centers.position.size();
+  std::vector<MeasuredLeaves::Leaf> expected(leaves);
+  std::vector<Vec3> low(leaves), high(leaves);
   std::int32_t blocks = 0;
   scene.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t block) {
     MeasuredLeaves::Leaf& leaf = expected[static_cast<std::size_t>(k)];
@@ -94,7 +96,7 @@ void expect_measured(const MeasuredLeaves& points, const Scene& scene) {
   });
   EXPECT_EQ(points.blocks, blocks);
   double extent = 0, width = 0, block_width = 0;
-  for (std::size_t k = 0; k < clusters; ++k) {
+  for (std::size_t k = 0; k < leaves; ++k) {
     EXPECT_EQ(points.leaves[k].blocks, expected[k].blocks);
     EXPECT_NEAR(points.leaves[k].extent, expected[k].extent, 1e-12);
     EXPECT_NEAR(points.leaves[k].width, expected[k].width, 1e-12);
@@ -118,7 +120,7 @@ const std::vector<Box>& boxes() {
 TEST(MeasuredLeaves, MeasuresThemAndTakesNewPositions) {
   for (const Box& box : boxes()) {
     MeasuredLeaves points;
-    for (const std::uint64_t seed : {1, 2, 3}) {  // more clusters, then fewer, in the same object
+    for (const std::uint64_t seed : {1, 2, 3}) {  // more leaves, then fewer, in the same object
       Scene scene(box,
                   seed == 2 ? std::vector<std::int32_t>{3, 8, 0, 19, 2, 30, 9, 16}
                             : std::vector<std::int32_t>{5, 0, 21},

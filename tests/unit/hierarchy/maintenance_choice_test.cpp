@@ -36,7 +36,7 @@ void expect_work(const detail::MaintenanceWork& work, double edges, double orpha
   EXPECT_DOUBLE_EQ(work.candidates, candidates);
 }
 
-/// A cluster of three points, one at the covering radius of its level, and one far away. Edges, in both
+/// A leaf of three points, one at the covering radius of its level, and one far away. Edges, in both
 /// directions: 0 and 3 in level 1, 0 and 4 in levels 5 and 6.
 const std::vector<Vec3> kLevels{{0, 0, 0}, {60, 0, 0}, {0, 0, 2}, {0.5, 0, 0}, {0, 0.5, 0}};
 
@@ -49,7 +49,7 @@ TEST(MaintenanceWorkTest, CountsPointsThatTheirCentersCoverNoMore) {
   const auto work = work_of(h, points);
   EXPECT_EQ(work.points, 5);
   EXPECT_EQ(work.samples, 0);
-  expect_work(work, 6, 1, 2);  // with one cluster beside its own
+  expect_work(work, 6, 1, 2);  // with one leaf beside its own
 }
 
 TEST(MaintenanceWorkTest, CountsNodesOfEachLevelThatTheirParentsCoverNoMore) {
@@ -77,7 +77,7 @@ TEST(MaintenanceWorkTest, CountsTheNeighborsOfTheParentsInTheirLevel) {
   expect_work(work_of(h, points), edges, 2, 2 * 2);
 }
 
-/// A chain of three clusters each of which is too close to the next one when the outer two have come nearer
+/// A chain of three leaves each of which is too close to the next one when the outer two have come nearer
 /// to that in the middle.
 struct Chain {
   /// @param order of the three; 0 stays and 1 is between 0 and 2
@@ -122,7 +122,7 @@ TEST(MaintenanceWorkTest, CountsTheSamplesOfABaseRadiusThatIsFound) {
   EXPECT_GT(work.samples, 0);
 }
 
-/// 20 clusters each of which an edge joins to all others, and 542 points in all, of which some lose their
+/// 20 leaves each of which an edge joins to all others, and 542 points in all, of which some lose their
 /// centers. Where these are 479, both ways cost 137,277 by the weights of the decision record: 12.5 * 542 +
 /// 15 * 380 + 38 * 479 + 5.3 * 20 * 479 + 103 * 542 for the repair and 130 * 542 + 46 * 380 + 103 * 479.
 TEST(MaintenanceChoice, RepairsUpToEqualWorkAndBuildsBeyond) {
@@ -148,15 +148,15 @@ void expect_exchange_pays_up_to(ListedHierarchy& h, std::size_t particles) {
   EXPECT_FALSE(HierarchyTestAccess::impl(h).exchange_pays(particles + 1));
 }
 
-// One of them costs 100 and 7.5 for its own cluster, to build 130 a point: 5590 for 52 and for 43.
+// One of them costs 100 and 7.5 for its own leaf, to build 130 a point: 5590 for 52 and for 43.
 TEST(MaintenanceChoice, ExchangesUpToEqualWork) {
   ListedHierarchy h = of_insertions(std::vector<Vec3>(43), 16);
   expect_exchange_pays_up_to(h, 52);
 }
 
-// Two clusters of 20 and 5 points that an edge joins and one of 10: 60 candidates for 35 points, so 112.857
+// Two leaves of 20 and 5 points that an edge joins and one of 10: 60 candidates for 35 points, so 112.857
 // for one; 130 * 35 + 46 * 2 to build.
-TEST(MaintenanceChoice, AnExchangeLooksAtTheClustersBesideThatOfTheParticle) {
+TEST(MaintenanceChoice, AnExchangeLooksAtTheLeavesBesideThatOfTheParticle) {
   std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}, {9, 0, 0}};
   for (const auto& [x, count] : {std::pair<double, int>{0, 19}, {3, 4}, {9, 9}})
     for (int k = 0; k < count; ++k) points.push_back({x, 0.5, 0});
@@ -166,7 +166,7 @@ TEST(MaintenanceChoice, AnExchangeLooksAtTheClustersBesideThatOfTheParticle) {
 }
 
 // Its points are those of another one: 107.5 for one, 130 * 30 to build.
-TEST(MaintenanceChoice, AnExchangeLooksAtNoClusterThatWasGivenUp) {
+TEST(MaintenanceChoice, AnExchangeLooksAtNoLeafThatWasGivenUp) {
   std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}};
   for (int k = 2; k < 30; ++k) points.push_back({k < 20 ? 0.0 : 3.0, 0, 0.25});
   ListedHierarchy h(params_of(EdgeRule::additive, 16));

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <ostream>
 
 #include "hierarchy_test_access.hpp"
 #include "listed_hierarchy.hpp"
@@ -17,9 +18,9 @@
 namespace dch {
 namespace {
 
-constexpr int kMostChildren[] = {1, 3, 19, 87};  ///< by dimension
+constexpr int kMaxChildren[] = {1, 3, 19, 87};  ///< by dimension
 
-StructureParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::automatic) {
+StructureParams params_for_packing(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::automatic) {
   StructureParams params;
   params.radius = 1;
   params.edge_rule = rule;
@@ -56,7 +57,7 @@ int overfull_level(ListedHierarchy& h, int dimensions) {
     if (static_cast<double>(h.level(i).max_degree) >
         largest_degree(dimensions, reach(h, i), separation(h, i)))
       return i;
-    if (i > 1 && most_children(h, i) > kMostChildren[dimensions]) return i;
+    if (i > 1 && most_children(h, i) > kMaxChildren[dimensions]) return i;
   }
   return 0;
 }
@@ -78,6 +79,10 @@ struct DenseScene {
   int full_levels;  ///< lowest levels with more nodes than may be joined to one
 };
 
+std::ostream& operator<<(std::ostream& out, const DenseScene& scene) {
+  return out << scene.points << " points in " << scene.dimensions << " dimensions";
+}
+
 class Packing : public ::testing::TestWithParam<DenseScene> {
  protected:
   std::vector<Vec3> points() const { return scenes::uniform(GetParam().points, GetParam().lengths, 5); }
@@ -85,7 +90,7 @@ class Packing : public ::testing::TestWithParam<DenseScene> {
 
 TEST_P(Packing, EdgesAndChildrenOfEveryLevelStayWithinTheBound) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    ListedHierarchy h(params_of(rule));
+    ListedHierarchy h(params_for_packing(rule));
     std::vector<Vec3> at = points();
     h.build(at, Box::none());
     ASSERT_GT(h.levels(), GetParam().full_levels);
@@ -98,7 +103,7 @@ TEST_P(Packing, EdgesAndChildrenOfEveryLevelStayWithinTheBound) {
 
 TEST_P(Packing, TheCheckSeesTooManyEdges) {
   for (int level = 1; level <= GetParam().full_levels; ++level) {
-    ListedHierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_for_packing(EdgeRule::additive));
     h.build(points(), Box::none());
     join_all(HierarchyTestAccess::impl(h), level);
     EXPECT_EQ(overfull_level(h, GetParam().dimensions), level);
@@ -123,7 +128,7 @@ std::vector<Vec3> line_spaced_for(int top, const StructureParams& params) {
 TEST(PackingOfLines, TheBoundIsReached) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis})
     for (int level = 1; level <= 8; ++level) {
-      const StructureParams params = params_of(rule);
+      const StructureParams params = params_for_packing(rule);
       ListedHierarchy h(params);
       h.build(line_spaced_for(level, params), Box::none());
       ASSERT_EQ(h.level(level).nodes, 64);
@@ -140,23 +145,23 @@ TEST(PackingOfLines, TheBoundIsReached) {
 // wider than that in the lowest levels, so it does not hold there.
 TEST(PackingOfLines, TheThesisFormHoldsForTheThesisRule) {
   for (int level = 1; level <= 6; ++level) {
-    const StructureParams params = params_of(EdgeRule::thesis);
+    const StructureParams params = params_for_packing(EdgeRule::thesis);
     ListedHierarchy h(params);
     h.build(line_spaced_for(level, params), Box::none());
     EXPECT_LE(static_cast<double>(h.neighbors(32, level).size()), 8 * params.c) << level;
   }
-  const StructureParams params = params_of(EdgeRule::additive);
+  const StructureParams params = params_for_packing(EdgeRule::additive);
   ListedHierarchy wider(params);
   wider.build(line_spaced_for(1, params), Box::none());
   EXPECT_GT(wider.level(1).edge_threshold, 4 * params.c * wider.level(0).covering_radius);
 }
 
 // Lemma 5.3.3 speaks of levels whose nodes are separated, which the points are not.
-TEST(PackingOfClusters, LevelOneHasAnyNumberOfChildren) {
-  ListedHierarchy h(params_of(EdgeRule::additive));
+TEST(PackingOfLeaves, LevelOneHasAnyNumberOfChildren) {
+  ListedHierarchy h(params_for_packing(EdgeRule::additive));
   h.build(scenes::uniform(400, {0.2, 0.2, 0.2}, 3), Box::none());
   EXPECT_EQ(most_children(h, 1), 400);
-  EXPECT_GT(most_children(h, 1), kMostChildren[3]);
+  EXPECT_GT(most_children(h, 1), kMaxChildren[3]);
 }
 
 }  // namespace

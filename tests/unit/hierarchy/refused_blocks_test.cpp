@@ -16,7 +16,7 @@
 namespace dch {
 namespace {
 
-/// Clusters of a few points, or gas most of whose points stand on their own.
+/// Leaves of a few points, or gas most of whose points stand on their own.
 class RefusedBlocks : public ::testing::Test {
  protected:
   static constexpr std::size_t kPoints = 100;
@@ -67,7 +67,7 @@ TEST_F(RefusedBlocks, InsertChangesNothing) {
   expect_right(points_);
 }
 
-// Two points that shared the block of their center are each a cluster without it.
+// Two points that shared the block of their center are each a leaf without it.
 TEST_F(RefusedBlocks, RemoveLeavesItEmpty) {
   hierarchy_.build(std::vector<Vec3>{{3, 3, 3}}, box_);
   hierarchy_.insert({3.9, 3, 3});

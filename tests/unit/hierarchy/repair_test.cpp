@@ -57,7 +57,7 @@ TEST(Repair, OfTwoCentersAlikeTheOneWithTheSmallerIdStaysWhereverItStands) {
   }
 }
 
-// In a cluster that is looked at because another point left it.
+// In a leaf that is looked at because another point left it.
 TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
   ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}};
@@ -73,8 +73,8 @@ TEST(Repair, OnlyThePointsBeyondTheCoveringRadiusAreOrphans) {
   expect_right(h, points, Box::none());
 }
 
-// A cluster that is given up has handed its points on, which are looked at there.
-TEST(Repair, OrphansOfAMergedClusterAreLookedAtOnce) {
+// A leaf that is given up has handed its points on, which are looked at there.
+TEST(Repair, OrphansOfAMergedLeafAreLookedAtOnce) {
   ListedHierarchy h(params_of(EdgeRule::additive, 16));
   std::vector<Vec3> points{{0, 0, 0}, {3, 0, 0}, {3.5, 0, 0}};
   h.build({points.data(), 2}, Box::none());
@@ -153,7 +153,7 @@ TEST(Repair, NodesAtTheSeparationOfTheirLevelAreMergedAndThoseBeyondStay) {
 }
 
 // It never had a node in level 1, and may get one that others have to give way to.
-TEST(Repair, ALonePointMayFlyToAnyPlaceAmongClusters) {
+TEST(Repair, ASingletonMayFlyToAnyPlaceAmongLeaves) {
   for (double x = -2; x < 20; x += 0.25) {
     ListedHierarchy h(params_of(EdgeRule::additive, 1));
     std::vector<Vec3> points;
@@ -175,7 +175,7 @@ TEST(Repair, MotionOfUpperLevelsAddsUpUntilTheirEdgesAreFoundAnew) {
   for (const double step : {0.02, 0.05, 0.2}) {
     ListedHierarchy h(params_of(EdgeRule::additive, 1));
     std::vector<Vec3>
-        points;  // two clusters beyond each other's edges at level 2, and more to have levels above
+        points;  // two leaves beyond each other's edges at level 2, and more to have levels above
     for (const double x : {0.0, 9.0, 60.0})
       for (const double y : {0.0, 0.4}) points.push_back({x, y, 0});
     h.build(points, Box::none());

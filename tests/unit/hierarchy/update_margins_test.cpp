@@ -34,7 +34,7 @@ double number_near(double guess, const Is& is_it) {
   return guess;
 }
 
-/// A cluster with another one in the covering radius of level 1, R_1 = 2; and a point far away, for levels.
+/// A leaf with another one in the covering radius of level 1, R_1 = 2; and a point far away, for levels.
 const std::vector<Vec3> kBefore{{0, 0, 0}, {0, 60, 0}, {-2, 0, 0}};
 
 // A node of level 2 may have a child within 1 of the point if it is within 1 + R_2 - R_1 = 3 itself.
@@ -61,7 +61,7 @@ TEST(Insertion, LooksForEdgesAmongTheChildrenOfNodesUpToItsReachAndNoFarther) {
   EXPECT_GT(work_of(before, {reach, 0, 0}), work_of(before, {std::nextafter(reach, 6), 0, 0}));
 }
 
-// From a cluster that is given, all that are wanted are its neighbors if the point is within rho_1 - 1 of it.
+// From a leaf that is given, all that are wanted are its neighbors if the point is within rho_1 - 1 of it.
 TEST(Insertion, ClimbsFromAFriendThatIsFartherThanItsSurroundingsAreWide) {
   const double room = 3 - 1 * kInflate;
   const auto work_at = [&](double x) { return work_of(kBefore, {x, 0, 0}, 0); };
@@ -72,7 +72,7 @@ TEST(Insertion, ClimbsFromAFriendThatIsFartherThanItsSurroundingsAreWide) {
   EXPECT_GT(work_at(exact * (1 + 1e-13)), without_climbing);
 }
 
-// A point on its own in level 2, whose cluster is not in memory: it may cover the point if it is within 1.
+// A point on its own in level 2, whose leaf is not in memory: it may cover the point if it is within 1.
 TEST(Insertion, ExpandsSingletonsUpToItsReachAndNoFarther) {
   const auto work_at = [](double x) {
     ListedHierarchy h(params_of(EdgeRule::additive, 1));
@@ -96,9 +96,9 @@ TEST(Insertion, OfTwoCentersAsNearTheFirstOneIsTaken) {
   EXPECT_EQ(h.parent(h.insert({0.75, 0, 0}), 0), 0);
 }
 
-// Clusters in a row that no edge of level 1 joins. The points of one that loses its center are looked for
+// Leaves in a row that no edge of level 1 joins. The points of one that loses its center are looked for
 // places beside its neighbors in level 2, not from the 50 roots.
-TEST(Removal, LooksForPlacesNearTheClusterThatLostItsCenter) {
+TEST(Removal, LooksForPlacesNearTheLeafThatLostItsCenter) {
   std::vector<Vec3> points;
   for (int k = 0; k < 200; ++k) points.push_back({5.0 * k, 0, 0});
   for (int k = 0; k < 200; ++k)

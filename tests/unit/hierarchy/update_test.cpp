@@ -3,6 +3,7 @@
 // What update() does with removed and inserted points, points on their own and blocks, and many small scenes
 // in which every level changes at every step. Small, so that each is checked after each step.
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include "exact_scene.hpp"
 #include "listed_hierarchy.hpp"
@@ -119,6 +120,8 @@ struct SmallScene {
   double side;  ///< of the cube that 40 points are in
   bool periodic;
 };
+
+std::ostream& operator<<(std::ostream& out, const SmallScene& scene) { return out << scene.name; }
 
 /// Some points of a scene in which levels come and go: pairs, coincident points, points on their own.
 class RepairOfSmallScenes : public ::testing::TestWithParam<SmallScene> {

@@ -98,7 +98,7 @@ TEST_F(ValidateTest, ReportsAPointThatIsNotItsOwnParent) {
   expect_report("without a node below");
 }
 
-TEST_F(ValidateTest, ReportsABlockOfAnotherCluster) {
+TEST_F(ValidateTest, ReportsABlockOfAnotherLeaf) {
   inside().points.leaf[inside().levels[1].first_child[0]] = 1;
   expect_report("are not its own");
 }
@@ -145,9 +145,9 @@ TEST_F(ValidateTest, ReportsAMissingEdgeWhileRepairIsPending) {
 }
 
 /// A dense cube and three points far from it and from each other.
-class ValidateLonePointsTest : public ::testing::Test {
+class ValidateSingletonsTest : public ::testing::Test {
  protected:
-  ValidateLonePointsTest() : hierarchy_(params()) {
+  ValidateSingletonsTest() : hierarchy_(params()) {
     std::vector<Vec3> points = scenes::uniform(200, {8, 8, 8}, 7);
     for (const Vec3 far : {Vec3{100, 0, 0}, Vec3{0, 200, 0}, Vec3{0, 0, 300}}) points.push_back(far);
     hierarchy_.build(points, Box::none());
@@ -167,12 +167,12 @@ class ValidateLonePointsTest : public ::testing::Test {
   ListedHierarchy hierarchy_;
 };
 
-TEST_F(ValidateLonePointsTest, SoundHierarchyPasses) {
+TEST_F(ValidateSingletonsTest, SoundHierarchyPasses) {
   EXPECT_EQ(hierarchy_.validate(), "");
   ASSERT_EQ(inside().singletons.size(), 3u);
 }
 
-TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
+TEST_F(ValidateSingletonsTest, ReportsASingletonThatHasNeighbors) {
   const auto [level, node] = inside().singletons[0];
   const Vec3 near_the_others = hierarchy_.position(0) + Vec3{0.01, 0, 0};
   for (int i = level; i < hierarchy_.levels(); ++i)  // all its nodes
@@ -182,12 +182,12 @@ TEST_F(ValidateLonePointsTest, ReportsALonePointThatHasNeighbors) {
   EXPECT_NE(hierarchy_.validate(), "");
 }
 
-TEST_F(ValidateLonePointsTest, ReportsALonePointThatAnotherPlaceClaims) {
+TEST_F(ValidateSingletonsTest, ReportsASingletonThatAnotherPlaceClaims) {
   std::swap(inside().singletons[0], inside().singletons[1]);
   expect_report("is not that of its point");
 }
 
-TEST_F(ValidateLonePointsTest, ReportsALonePointWithAnEdge) {
+TEST_F(ValidateSingletonsTest, ReportsASingletonWithAnEdge) {
   const auto [level, node] = inside().singletons[0];
   inside().levels[level].edges.push(node, node == 0 ? 1 : 0);
   expect_report("is not on its own");

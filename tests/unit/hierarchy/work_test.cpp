@@ -13,7 +13,7 @@
 namespace dch {
 namespace {
 
-StructureParams params_of(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::always_repair) {
+StructureParams params_for_work(EdgeRule rule, MaintenancePolicy policy = MaintenancePolicy::always_repair) {
   StructureParams params;
   params.radius = 1;
   params.edge_rule = rule;
@@ -45,7 +45,7 @@ double distances_of_build(ListedHierarchy& h, const std::vector<Vec3>& points) {
 // more.
 TEST(Work, BuildGrowsWithTheLevelsAlone) {
   for (const EdgeRule rule : {EdgeRule::additive, EdgeRule::thesis}) {
-    ListedHierarchy few(params_of(rule)), many(params_of(rule));
+    ListedHierarchy few(params_for_work(rule)), many(params_for_work(rule));
     const double of_few = distances_of_build(few, uniform_of(1000));
     const double of_many = distances_of_build(many, uniform_of(8000));
     EXPECT_GE(many.levels(), few.levels());
@@ -56,7 +56,7 @@ TEST(Work, BuildGrowsWithTheLevelsAlone) {
 
 // Clusters down to a thousandth of the cell: the levels follow the aspect ratio, the work follows the levels.
 TEST(Work, BuildOfClusters) {
-  ListedHierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_for_work(EdgeRule::additive));
   const Box box = Box::orthorhombic({200, 200, 200});
   const std::vector<Vec3> points = scenes::clustered(box, 3000, 3);
   const double work = distances_of(h, [&] { h.build(points, box); }) / 3000;
@@ -65,7 +65,7 @@ TEST(Work, BuildOfClusters) {
 
 TEST(Work, InsertionGrowsWithTheLevelsAlone) {
   for (const std::size_t n : {1000u, 8000u}) {
-    ListedHierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_for_work(EdgeRule::additive));
     const std::vector<Vec3> points = uniform_of(n), more = uniform_of(n, 2);
     h.build(points, Box::none());
     const double from_the_roots = distances_of(h, [&] {
@@ -85,8 +85,8 @@ TEST(Work, InsertionGrowsWithTheLevelsAlone) {
 }
 
 // A point ten thousand radii away is one distance a level from the others, whatever there is among them.
-TEST(Work, InsertionFarAwayLooksAtNoCluster) {
-  ListedHierarchy h(params_of(EdgeRule::additive));
+TEST(Work, InsertionFarAwayLooksAtNoLeaf) {
+  ListedHierarchy h(params_for_work(EdgeRule::additive));
   h.build(uniform_of(8000), Box::none());
   h.insert({1e4, 0, 0});
   const double work = distances_of(h, [&] { h.insert({0, 1e4, 0}); });
@@ -98,11 +98,11 @@ TEST(Work, InsertionFarAwayLooksAtNoCluster) {
 TEST(Work, UpdateWithoutMotionLooksOnceAtEachPoint) {
   for (const std::size_t n : {1000u, 8000u}) {
     const std::vector<Vec3> points = uniform_of(n);
-    ListedHierarchy certified(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
+    ListedHierarchy certified(params_for_work(EdgeRule::additive, MaintenancePolicy::automatic));
     certified.build(points, Box::none());
     EXPECT_EQ(distances_of(certified, [&] { certified.update(points, Box::none()); }),
               static_cast<double>(n));
-    ListedHierarchy repaired(params_of(EdgeRule::additive));
+    ListedHierarchy repaired(params_for_work(EdgeRule::additive));
     repaired.build(points, Box::none());
     const double work = distances_of(repaired, [&] { repaired.update(points, Box::none()); });
     EXPECT_LE(work / static_cast<double>(n), 190) << n;
@@ -115,7 +115,7 @@ TEST(Work, IsWhatItWas) {
   const Box box = Box::orthorhombic({200, 200, 200});
   std::vector<Vec3> points = scenes::clustered(box, 400, 3);
   for (const Vec3 p : scenes::uniform_in(box, 60, 4)) points.push_back(p);
-  ListedHierarchy h(params_of(EdgeRule::additive, MaintenancePolicy::automatic));
+  ListedHierarchy h(params_for_work(EdgeRule::additive, MaintenancePolicy::automatic));
   EXPECT_EQ(distances_of(h, [&] { h.build({points.data(), 440}, box); }), 27726);
   EXPECT_EQ(distances_of(h,
                          [&] {
@@ -146,7 +146,7 @@ TEST(Work, IsWhatItWas) {
 TEST(Work, AChangedBoxCostsOneRepair) {
   const auto box_of = [](double side) { return Box::orthorhombic({side, side, side}); };
   const std::vector<Vec3> points = scenes::uniform(2000, {10, 10, 10}, 1);
-  ListedHierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_for_work(EdgeRule::additive));
   h.build(points, box_of(10));
   const double before = distances_of(h, [&] { h.update(points, box_of(10)); });
   const double changed = distances_of(h, [&] { h.update(points, box_of(10.0001)); });
@@ -157,7 +157,7 @@ TEST(Work, AChangedBoxCostsOneRepair) {
 
 TEST(Work, LargeMotionCostsOneRepair) {
   std::vector<Vec3> points = uniform_of(2000);
-  ListedHierarchy h(params_of(EdgeRule::additive));
+  ListedHierarchy h(params_for_work(EdgeRule::additive));
   h.build(points, Box::none());
   const double before = distances_of(h, [&] { h.update(points, Box::none()); });
   for (Vec3& p : points) p.x += 3;
@@ -172,7 +172,7 @@ TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
   const std::vector<Vec3> points = uniform_of(8000);
   const double n = static_cast<double>(points.size());
   for (const std::size_t lost : {0u, 10u, 100u, 1000u}) {
-    ListedHierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_for_work(EdgeRule::additive));
     h.build(points, Box::none());
     std::vector<Vec3> moved = points;
     scenes::Random random(4);
@@ -189,7 +189,7 @@ TEST(Work, RepairGrowsWithThoseThatLostTheirParents) {
 TEST(Work, SmallMotionLeavesTheEdgesOfUpperLevelsAlone) {
   const std::vector<Vec3> points = uniform_of(8000);
   const auto distances_after = [&](double step) {
-    ListedHierarchy h(params_of(EdgeRule::additive));
+    ListedHierarchy h(params_for_work(EdgeRule::additive));
     h.build(points, Box::none());
     std::vector<Vec3> moved = points;
     scenes::Random random(5);

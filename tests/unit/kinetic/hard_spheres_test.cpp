@@ -10,6 +10,7 @@
 
 #include "error_message.hpp"
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch::kinetic {
 namespace {
@@ -17,8 +18,6 @@ namespace {
 using test::message_of;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 HardSphereParams with_radii(std::vector<double> radii, const Box& box = {}) {
   HardSphereParams params;

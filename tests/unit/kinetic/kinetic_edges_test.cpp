@@ -10,6 +10,7 @@
 
 #include "error_message.hpp"
 #include "scenes.hpp"
+#include "special_numbers.hpp"
 
 namespace dch::kinetic {
 namespace {
@@ -18,8 +19,6 @@ using test::message_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 KineticParams with_cutoff(double cutoff, const Box& box = {}) {
   KineticParams params;

@@ -15,7 +15,7 @@
 namespace dch::kinetic {
 namespace {
 
-KineticParams with_cutoff(double cutoff, const Box& box = {}) {
+KineticParams hierarchy_cutoff(double cutoff, const Box& box = {}) {
   KineticParams params;
   params.box = box;
   params.cutoff = cutoff;
@@ -37,7 +37,7 @@ std::vector<EdgeEvent> run_valid(KineticHierarchy& hierarchy, double end) {
 }
 
 /// Fig. 5.1 and 5.2: m bumps pass over m others. Beads of a bump are 1 apart, its peak passes the other peak
-/// at a gap of 0.4: less than half the bond (erratum E20), so that peaks alone come near each other.
+/// at a gap of 0.4: less than half the bond, so that peaks alone come near each other.
 std::vector<FlightPlan> passing_bumps(int bumps) {
   std::vector<FlightPlan> plans;
   for (int k = 0; k < bumps; ++k)
@@ -51,7 +51,7 @@ std::vector<FlightPlan> passing_bumps(int bumps) {
 TEST(KineticHierarchy, EachBumpThatPassesAnotherIsAnEventOfTheLevels) {
   for (const int bumps : {2, 4, 6}) {
     const std::vector<FlightPlan> plans = passing_bumps(bumps);
-    auto hierarchy = make_kinetic_hierarchy(with_cutoff(1.25), plans, 0);  // R_0 = 0.5
+    auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(1.25), plans, 0);  // R_0 = 0.5
     const std::vector<EdgeEvent> edges = run_valid(*hierarchy, 12.0 * bumps + 10);
     // A peak of level 1 comes within R_0 of the other's, and leaves it again.
     EXPECT_GE(hierarchy->counters().demotions, bumps * bumps);
@@ -61,7 +61,7 @@ TEST(KineticHierarchy, EachBumpThatPassesAnotherIsAnEventOfTheLevels) {
 }
 
 /// Fig. 5.5: an upper row moves along a lower one, so that one pair after the other is matched. After the
-/// start there are m (m + 1) / 2 - 1 of them (erratum E21).
+/// start there are m (m + 1) / 2 - 1 of them.
 TEST(KineticHierarchy, RowsThatAreShiftedMatchOnePairAfterTheOther) {
   constexpr double kGap = 4;
   for (const int m : {2, 3, 5}) {
@@ -70,7 +70,7 @@ TEST(KineticHierarchy, RowsThatAreShiftedMatchOnePairAfterTheOther) {
       plans.push_back({0, {kGap * j * m, 0, 0}, {}, {}});
       plans.push_back({0, {kGap * j * (m - 1), 1, 0}, {1, 0, 0}, {}});
     }
-    auto hierarchy = make_kinetic_hierarchy(with_cutoff(1.25), plans, 0);
+    auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(1.25), plans, 0);
     EXPECT_EQ(hierarchy->edges().size(), 1U);
     std::size_t matched = 0;
     for (const EdgeEvent& event : run_valid(*hierarchy, kGap * m * m)) matched += event.appears;
@@ -84,7 +84,7 @@ TEST(KineticHierarchy, EventsAreBoundedByThePairsTimesTheLevels) {
   for (int scene = 0; scene < 5; ++scene) {
     std::vector<FlightPlan> plans;
     for (int k = 0; k < 60; ++k) plans.push_back({0, random.in_cube(10), random.in_cube(1), {}});
-    auto hierarchy = make_kinetic_hierarchy(with_cutoff(1), plans, 0);
+    auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(1), plans, 0);
     const int levels_before = hierarchy->levels();
     hierarchy->advance_to(40);
     EXPECT_EQ(hierarchy->validate(), "");
@@ -102,7 +102,7 @@ TEST(KineticHierarchy, GrowsAndShrinksAtTheRoot) {
     const Vec3 p = random.in_cube(1);
     plans.push_back({0, p, 100.0 * p, {}});
   }
-  auto hierarchy = make_kinetic_hierarchy(with_cutoff(0.5), plans, 0);
+  auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(0.5), plans, 0);
   const int before = hierarchy->levels();
   run_valid(*hierarchy, 10);
   const int grown = hierarchy->levels();
@@ -117,8 +117,8 @@ TEST(KineticHierarchy, GrowsAndShrinksAtTheRoot) {
 TEST(KineticHierarchy, ALatticeThatShrinksStaysValid) {
   std::vector<FlightPlan> plans;
   for (const Vec3 p : scenes::fcc(Box::none(), std::sqrt(2.0))) plans.push_back({0, p, -0.125 * p, {}});
-  auto hierarchy = make_kinetic_hierarchy(with_cutoff(std::sqrt(0.5)), plans, 0);
-  auto engine = make_kinetic_edges(with_cutoff(std::sqrt(0.5)), plans, 0);
+  auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(std::sqrt(0.5)), plans, 0);
+  auto engine = make_kinetic_edges(hierarchy_cutoff(std::sqrt(0.5)), plans, 0);
   const std::vector<EdgeEvent> events = run_valid(*hierarchy, 7.5);
   EXPECT_EQ(events.size(), plans.size() * (plans.size() - 1) / 2)
       << "each pair comes within the cutoff, and none leaves it";
@@ -135,7 +135,7 @@ TEST(KineticHierarchy, OnePointFarAwayComesBack) {
   scenes::Random random(53);
   std::vector<FlightPlan> plans{{0, {1e12, 0, 0}, {-1e6, 0, 0}, {}}};
   for (int k = 0; k < 20; ++k) plans.push_back({0, random.in_cube(2), {}, {}});
-  auto hierarchy = make_kinetic_hierarchy(with_cutoff(1), plans, 0);
+  auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(1), plans, 0);
   EXPECT_GE(hierarchy->levels(), 40);
   EXPECT_EQ(run_valid(*hierarchy, 1e6 - 1).size(), 0U);
   EXPECT_LE(hierarchy->levels(), 24);
@@ -143,12 +143,12 @@ TEST(KineticHierarchy, OnePointFarAwayComesBack) {
 }
 
 TEST(KineticHierarchy, NoPointsOnePointAndPointsOnOneSpot) {
-  auto none = make_kinetic_hierarchy(with_cutoff(1), std::vector<FlightPlan>(), 0);
+  auto none = make_kinetic_hierarchy(hierarchy_cutoff(1), std::vector<FlightPlan>(), 0);
   EXPECT_TRUE(run_valid(*none, 1).empty());
-  auto one = make_kinetic_hierarchy(with_cutoff(1), std::vector<FlightPlan>{{0, {}, {1, 0, 0}, {}}}, 0);
+  auto one = make_kinetic_hierarchy(hierarchy_cutoff(1), std::vector<FlightPlan>{{0, {}, {1, 0, 0}, {}}}, 0);
   EXPECT_TRUE(run_valid(*one, 1).empty());
   EXPECT_EQ(one->levels(), 1);
-  auto spot = make_kinetic_hierarchy(with_cutoff(1), std::vector<FlightPlan>(4), 0);
+  auto spot = make_kinetic_hierarchy(hierarchy_cutoff(1), std::vector<FlightPlan>(4), 0);
   EXPECT_EQ(spot->edges().size(), 6U);
   EXPECT_EQ(spot->levels(), 2);
   spot->set_motion(3, {0, 0, 2});
@@ -165,7 +165,7 @@ TEST(KineticHierarchy, CountsItsQualities) {
     scenes::Random random(54);
     std::vector<FlightPlan> plans;
     for (const Vec3 p : scenes::uniform_in(wide, points, 55)) plans.push_back({0, p, random.in_cube(1), {}});
-    auto hierarchy = make_kinetic_hierarchy(with_cutoff(1.5, wide), plans, 0);
+    auto hierarchy = make_kinetic_hierarchy(hierarchy_cutoff(1.5, wide), plans, 0);
     hierarchy->advance_to(0.3);
     EXPECT_EQ(hierarchy->validate(), "");
     return hierarchy;

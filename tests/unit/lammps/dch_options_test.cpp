@@ -48,7 +48,7 @@ TEST(DchOptions, Verify) {
 TEST(DchOptions, Precision) {
   EXPECT_EQ(parse_request({"precision", "mixed"}).action, Request::Action::precision);
   EXPECT_EQ(parse_request({"precision", "mixed"}).precision, ForcePrecision::mixed);
-  EXPECT_EQ(parse_request({"precision", "double"}).precision, ForcePrecision::full);
+  EXPECT_EQ(parse_request({"precision", "double"}).precision, ForcePrecision::double_precision);
 }
 
 TEST(DchOptions, Skin) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// More than 300 lines: one test a promise of contact_finder.hpp, all in both turns.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <string>

@@ -23,7 +23,7 @@ using dch::necklace::Verification;
 using dch::necklace::WrappedHierarchy;
 using dch::test::fault;
 
-void shake(std::vector<Vec3>& positions, double by, std::uint64_t seed) {
+void shake_beads(std::vector<Vec3>& positions, double by, std::uint64_t seed) {
   dch::scenes::Random random(seed);
   for (Vec3& p : positions) p = p + random.in_ball(by);
 }
@@ -53,7 +53,7 @@ TEST(WatchedCages, HaveTheBasesThatTheNaiveWayFinds) {
         naive.update(walk.positions, Box::none());
         ASSERT_EQ(first_difference(watched, naive), -1) << "step " << step << ", update " << k;
         ASSERT_EQ(fault(watched), "") << "step " << step << ", update " << k;
-        shake(walk.positions, step, k);
+        shake_beads(walk.positions, step, k);
       }
       EXPECT_EQ(watched.stats().escapes, naive.stats().escapes);
       EXPECT_EQ(watched.stats().basis_changes, naive.stats().basis_changes);
@@ -104,7 +104,7 @@ TEST(WatchedCages, AreSeldomLookedAtUnderSmallSteps) {
   constexpr int kUpdates = 40;
   for (std::uint64_t k = 0; k <= kUpdates; ++k) {
     watched.update(walk.positions, Box::none());
-    shake(walk.positions, 0.02, k);
+    shake_beads(walk.positions, 0.02, k);
   }
   EXPECT_EQ(fault(watched), "");
   const auto& stats = watched.stats();
@@ -122,7 +122,7 @@ TEST(WatchedCages, FollowChainsThroughEveryBox) {
       for (const Vec3& p : walk.positions) wrapped_in.push_back(scene.box.wrap(p));
       watched.update(wrapped_in, scene.box);
       ASSERT_EQ(fault(watched), "") << scene.name << ", update " << k;
-      shake(walk.positions, 0.05, k);
+      shake_beads(walk.positions, 0.05, k);
       // The whole chain drifts through the faces.
       for (Vec3& p : walk.positions) p = p + Vec3{0.3, -0.2, 0.1};
     }
@@ -141,7 +141,7 @@ TEST(WatchedCages, CoincidentAndFlatChains) {
       for (std::uint64_t update = 0; update < 4; ++update) {
         watched.update(shape.positions, Box::none());
         ASSERT_EQ(fault(watched), "") << "shape " << k << ", radius " << radius << ", update " << update;
-        if (update == 1) shake(shape.positions, 1e-3, 1);
+        if (update == 1) shake_beads(shape.positions, 1e-3, 1);
         if (update == 2) shape.positions = shapes[k].positions;
       }
     }

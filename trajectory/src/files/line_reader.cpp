@@ -11,6 +11,8 @@ namespace dch::trajectory {
 namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+constexpr std::size_t kFirstBuffer = std::size_t{1}
+                                     << 16;  ///< pages of a longer one cost a short file most of its time
 
 }  // namespace
 
@@ -19,7 +21,7 @@ LineReader::LineReader(std::string path, FinalNewline final_newline, const ReadL
       final_newline_(final_newline),
       limits_(limits),
       source_(open_byte_source(path_)),
-      buffer_(2 * kLongestLine) {}
+      buffer_(kFirstBuffer) {}
 
 bool LineReader::next(std::string_view& line) {
   if (!std::exchange(again_, false)) {
@@ -57,9 +59,11 @@ std::size_t LineReader::find_newline() {
 }
 
 bool LineReader::fill() try {
+  const bool is_full = end_ == buffer_.size();
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
+  if (is_full && buffer_.size() < 2 * kLongestLine) buffer_.resize(2 * buffer_.size());
   const std::size_t got = source_->read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += got;
   if (source_->is_compressed()) count_expanded(got);

@@ -11,11 +11,11 @@
 namespace dch::trajectory {
 namespace {
 
-constexpr std::int32_t kMagic = 1995;
+constexpr std::int32_t kXtcMagic = 1995;
 constexpr std::int32_t kMagicOfLargeSystems = 2023;
 constexpr std::int64_t kMaxUncompressedAtoms = 9;
 
-struct Header {
+struct XtcHeader {
   std::int64_t atoms = 0;
   std::int32_t step = 0;
   double time = 0;
@@ -42,7 +42,7 @@ void read_range(XdrCursor& cursor, XtcStream& stream) {
   }
 }
 
-void read_stream_header(XdrCursor& cursor, Header& header) {
+void read_stream_header(XdrCursor& cursor, XtcHeader& header) {
   XtcStream& stream = header.stream;
   stream.precision = static_cast<float>(cursor.read_real("the precision"));
   if (!(stream.precision > 0) || !std::isfinite(stream.precision)) {
@@ -64,12 +64,12 @@ void read_stream_header(XdrCursor& cursor, Header& header) {
   }
 }
 
-Header read_header(XdrCursor& cursor) {
-  Header header;
+XtcHeader read_xtc_header(XdrCursor& cursor) {
+  XtcHeader header;
   const std::int32_t magic = cursor.read_int("the XTC magic number");
-  if (magic != kMagic && magic != kMagicOfLargeSystems) {
-    cursor.fail_here(
-        fmt::format("expected the XTC magic number {} or {}, found {}", kMagic, kMagicOfLargeSystems, magic));
+  if (magic != kXtcMagic && magic != kMagicOfLargeSystems) {
+    cursor.fail_here(fmt::format("expected the XTC magic number {} or {}, found {}", kXtcMagic,
+                                 kMagicOfLargeSystems, magic));
   }
   header.has_long_size = magic == kMagicOfLargeSystems;
   header.atoms = cursor.read_int("the number of atoms");
@@ -96,7 +96,7 @@ Header read_header(XdrCursor& cursor) {
 
 FrameExtent XtcDecoder::measure(Bytes head) const {
   XdrCursor cursor(head);
-  const Header header = read_header(cursor);
+  const XtcHeader header = read_xtc_header(cursor);
   FrameExtent extent;
   extent.atoms = header.atoms;
   extent.needed = header.data + header.size;
@@ -106,7 +106,7 @@ FrameExtent XtcDecoder::measure(Bytes head) const {
 
 void XtcDecoder::decode(Bytes bytes, Frame& frame) const {
   XdrCursor cursor(bytes);
-  const Header header = read_header(cursor);
+  const XtcHeader header = read_xtc_header(cursor);
   frame.step = header.step;
   frame.time = header.time;
   frame.box = header.cell.box();

@@ -23,7 +23,8 @@ struct LjConstants;
 enum class ForcePrecision {
   mixed,  ///< pairs in single precision, sums of energy and virial in double: forces are off by about 1.5e-6
           ///< of their root mean square
-  full    ///< all in double: by a few 1e-15
+  double_precision,        ///< all in double: by a few 1e-15
+  full = double_precision  ///< the name of before, for one version
 };
 
 /// Energy 4 epsilon ((sigma/r)^12 - (sigma/r)^6) of a pair with r < cutoff, else 0.
@@ -99,7 +100,8 @@ class LennardJones {
   void set_executor(Executor* executor) { executor_ = executor; }
 
   int types() const { return types_; }
-  /// Whether single precision can hold the coefficients: else only ForcePrecision::full is to be had.
+  /// Whether single precision can hold the coefficients: else only ForcePrecision::double_precision is to be
+  /// had.
   bool fits_single() const { return fits_single_; }
   /// Of charges too.
   double largest_cutoff() const { return largest_cutoff_; }

@@ -62,7 +62,7 @@ class HardSpheres {
  public:
   /// @throws InvalidParameter for radii and masses that do not fit or are out of range, numbers that are not
   ///   finite, a restitution outside of (0, 1], and spheres that overlap, which it names; InvalidPosition;
-  ///   CutoffTooLarge if the largest diameter exceeds kLargestShareOfBox of box.max_cutoff().
+  ///   CutoffTooLarge if the largest diameter exceeds kMaxShareOfBox of box.max_cutoff().
   HardSpheres(const HardSphereParams& params, Span<const Vec3> positions, Span<const Vec3> velocities,
               double start = 0);
   ~HardSpheres();

@@ -46,7 +46,8 @@ struct KineticParams {
 };
 
 /// Largest distance of a pair over box.max_cutoff(): the rest is room for motion between two searches.
-inline constexpr double kLargestShareOfBox = 0.9;
+inline constexpr double kMaxShareOfBox = 0.9;
+inline constexpr double kLargestShareOfBox = kMaxShareOfBox;  ///< the name of before, for one version
 
 /// The pairs of moving points within a distance of each other, at every time, and when each comes and goes:
 /// the edges of level 0 of a kinetic DCH (thesis 5.5.1). Distances are those of nearest images.
@@ -126,7 +127,7 @@ class KineticEdges {
 /// @throws InvalidParameter for a cutoff or a radius out of range, radii that do not fit, plans that begin
 /// after
 ///   `start`, and numbers that are not finite or beyond kMaxMagnitude; InvalidPosition; CutoffTooLarge if the
-///   largest distance exceeds kLargestShareOfBox of box.max_cutoff().
+///   largest distance exceeds kMaxShareOfBox of box.max_cutoff().
 std::unique_ptr<KineticEdges> make_kinetic_edges(const KineticParams& params, Span<const FlightPlan> plans,
                                                  double start);
 

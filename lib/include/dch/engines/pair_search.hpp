@@ -91,10 +91,11 @@ std::unique_ptr<PairSearch> make_dch_search(double radius);
 std::unique_ptr<PairSearch> make_cell_search(double radius, int divisions = 1);
 
 /// Points sorted into cells anew at every update, rows found with the vector units as those of the hierarchy
-/// are: the twin of the hierarchy, fastest where the density is even and points move far. It keeps nothing
-/// from update to update. The width of cells, and whether particles of different sizes have grids of their
-/// own, goes by counts of the points; so where list radii reach half the box, or points lie a million cells
-/// apart, it finds pairs as make_cell_search() does.
+/// are: the twin of the hierarchy, fastest where the density is even and points move far. From update to
+/// update it keeps only how wide cells were and how many points they held: update() puts points into cells
+/// for lists as the last ones, and other lists take a pass more. The width of cells, and whether particles of
+/// different sizes have grids of their own, goes by counts of the points; so where list radii reach half the
+/// box, or points lie a million cells apart, it finds pairs as make_cell_search() does.
 /// @param executor threads to make lists with; null for that of the caller alone. Not owned; results do not
 ///   depend on it.
 /// @throws InvalidParameter unless radius is in kMinListRadius..kMaxListRadius.

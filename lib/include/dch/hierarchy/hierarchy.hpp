@@ -57,7 +57,7 @@ class Hierarchy {
   /// Takes new positions, indexed by id, in a possibly changed box. With MaintenancePolicy::automatic repair
   /// is put off as long as the displacements so far certify that the edges of level 1 still join all leaves
   /// with points within `radius` of each other: lists are exact all the same. Else the structure is brought
-  /// up to date by black-box repair (5.5.2/5.5.3 with errata E2, E7, E8, E10), right for any displacement,
+  /// up to date by black-box repair (5.5.2 and 5.5.3, corrected), right for any displacement,
   /// O(n + k lg alpha) for k changes; or a build, as the policy decides. Entries of ids that were removed are
   /// ignored.
   /// @throws InvalidParameter, changing nothing, if the number of positions is not capacity(); as build()

@@ -38,11 +38,11 @@ class TypeCutoffs {
 
 /// A host's own decision about pairs that are as far apart as their cutoff, to within rounding: for hosts
 /// that compute distances otherwise than ListParams says, from images of particles that they made themselves.
-class PairTest {
+class TieBreaker {
  public:
   /// @param error how far the distance of the host may be from the pair distance at most [length]
-  explicit PairTest(double error) : error_(error) {}
-  virtual ~PairTest() = default;
+  explicit TieBreaker(double error) : error_(error) {}
+  virtual ~TieBreaker() = default;
 
   /// Whether the pair of these particles is within its cutoff + skin. Asked from all threads of a list's
   /// executor, about pairs whose pair distance is within error() of that, and maybe about others nearby,
@@ -51,12 +51,13 @@ class PairTest {
   double error() const { return error_; }
 
  protected:
-  PairTest(const PairTest&) = default;
-  PairTest& operator=(const PairTest&) = default;
+  TieBreaker(const TieBreaker&) = default;
+  TieBreaker& operator=(const TieBreaker&) = default;
 
  private:
   double error_;
 };
+using PairTest = TieBreaker;  ///< the name of before, for one version
 
 /// What a list has to hold.
 ///
@@ -76,10 +77,10 @@ struct ListParams {
   Span<const std::int32_t> types{};  ///< one per particle in [0, cutoffs.types()); may be empty for one type
   const Exclusions* exclusions = nullptr;  ///< pairs left out; not owned, may be null
   /// Particles from this index on are ghosts: pairs of two ghosts are left out, and the rows of ghosts are
-  /// empty in full lists and in those ordered by structure. Negative: there are none.
+  /// empty in full lists and in unsorted ones. Negative: there are none.
   std::int32_t first_ghost = -1;
 
-  /// >= 0; where cutoffs go by radii, not more than the skin [length]. In lists by structure, neighbors that
+  /// >= 0; where cutoffs go by radii, not more than the skin [length]. In unsorted lists, neighbors that
   /// are farther than their cutoff + skin less this come last in their row (NeighborList::near_end); 0 for no
   /// such order. With shell = skin, neighbors inside the cutoff come first in each row, so the branch of a
   /// force loop predicts well. Squared distances are rounded for this, by up to 2/1000 of that of the list
@@ -93,10 +94,10 @@ struct ListParams {
 
   /// Decides in place of the pair distance where the cutoff is near; not owned, may be null. Its error counts
   /// with list_radius() as to what radius an engine has to be made for.
-  const PairTest* near_cutoff = nullptr;
+  const TieBreaker* tie_breaker = nullptr;
 
-  /// Error of near_cutoff, 0 if there is none [length].
-  double cutoff_error() const { return near_cutoff != nullptr ? near_cutoff->error() : 0; }
+  /// Error of tie_breaker, 0 if there is none [length].
+  double cutoff_error() const { return tie_breaker != nullptr ? tie_breaker->error() : 0; }
 
   /// Largest cutoff plus skin: r_list. O(n) where there are radii.
   double list_radius() const;

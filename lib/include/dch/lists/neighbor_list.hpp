@@ -17,15 +17,16 @@ enum class ListKind {
 enum class RowOrder {
   by_index,  ///< row i is particle i, neighbors ascending, each pair of a half list in the row of its smaller
              ///< index
-  by_structure  ///< rows and neighbors as they lie in the engine's structure, close to each other in space,
-                ///< each pair of a half list in either row: several times faster to make, and kind to caches
+  unsorted,  ///< rows and neighbors as they lie in the engine's structure, close to each other in space, each
+             ///< pair of a half list in either row: several times faster to make, and kind to caches
+  by_structure = unsorted  ///< the name of before, for one version
 };
 
 /// Neighbor list in CSR form; the neighbors of row k are j[first[k]] .. j[first[k+1]-1].
 struct NeighborList {
   ListKind kind = ListKind::half;
   std::vector<std::int64_t> first{0};
-  std::vector<std::int32_t> j{};         ///< may be longer than first.back() if the order is by structure
+  std::vector<std::int32_t> j{};         ///< may be longer than first.back() if unsorted
   std::vector<std::int32_t> particle{};  ///< whose row it is; empty if row k is particle k
   /// By row, the end of the neighbors before the shell (ListParams::shell); empty if none was asked for or
   /// the order is by index.

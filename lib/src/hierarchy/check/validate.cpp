@@ -74,7 +74,7 @@ void check_blocks(const Structure& h, Verdict& verdict) {
 
 /// Singletons: known to their points, without edges and children. That no other node is near is for
 /// check_pairs().
-void check_lone_nodes(const Structure& h, Verdict& verdict) {
+void check_singletons(const Structure& h, Verdict& verdict) {
   for (std::size_t k = 0; k < h.singletons.size(); ++k) {
     const auto [i, node] = h.singletons[k];
     const std::int32_t place = Structure::place_of_singleton(static_cast<std::int32_t>(k));
@@ -101,7 +101,7 @@ void check_nesting(const Structure& h, Verdict& verdict) {
   }
   const std::int64_t places = h.points.alive + static_cast<std::int64_t>(h.singletons.size());
   verdict.require(count == places, 0, count, " points but ", places, " nodes");
-  check_lone_nodes(h, verdict);
+  check_singletons(h, verdict);
   for (int i = 0; i <= h.top(); ++i) {
     std::int64_t promoted = 0;
     for (std::int32_t k = 0; k < h.size(i); ++k) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <dch/base/error.hpp>
+
 #include "base/seconds_since.hpp"
 #include "geometry/position_check.hpp"
 #include "hierarchy/build/base_radius.hpp"
@@ -32,7 +34,7 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   balls.reset();
   const auto start = Clock::now();
   try {
-    largest_reach = check_positions_of_points(positions, b);
+    largest_reach = take_positions(positions, b);
     detail::check_radius(params.radius, b);
     check_base_radius(b);
     // A build would bring removed points back.
@@ -43,7 +45,6 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
       box = b;
       for (Level& level : levels) level.complete = same_box ? level.complete : 0;
       if (!pending) anchors = levels[1].position;
-      raw.assign(positions.begin(), positions.end());
       with_metric(box, [&](const auto& metric) {
         refresh_leaves(metric);
         if (params.policy == MaintenancePolicy::automatic && same_box && edges_are_certified(metric)) {
@@ -67,12 +68,25 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
   stats.maintain_seconds += seconds_since(start);
 }
 
-double Hierarchy::Impl::check_positions_of_points(Span<const Vec3> positions, const Box& b) const {
-  if (free_ids.empty()) return detail::check_positions(positions, b);
-  std::vector<Vec3> live(positions.begin(), positions.end());
-  for (std::size_t id = 0; id < live.size(); ++id)
-    if (slot_of_id[id] == kNone) live[id] = b.origin();
-  return detail::check_positions(live, b);
+/// Copies positions to `raw` and checks them, a cache of them at a time; those of free ids are not looked at.
+/// Returns a bound on their WrapError::reach.
+double Hierarchy::Impl::take_positions(Span<const Vec3> positions, const Box& b) {
+  constexpr std::size_t kAtATime = 1024;
+  raw.resize(positions.size());
+  double reach = 0;
+  for (std::size_t first = 0; first < positions.size(); first += kAtATime) {
+    const std::size_t count = std::min(kAtATime, positions.size() - first);
+    std::copy_n(positions.begin() + first, count, raw.begin() + static_cast<std::ptrdiff_t>(first));
+    for (std::size_t id = first; id < first + count && !free_ids.empty(); ++id)
+      if (slot_of_id[id] == kNone) raw[id] = b.origin();
+    try {
+      reach = std::max(reach, detail::check_positions({raw.data() + first, count}, b));
+    } catch (const InvalidPosition&) {
+      detail::check_positions({raw.data(), first + count}, b);  // which names the index
+      throw;
+    }
+  }
+  return reach;
 }
 
 template <class Metric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Black-box repair after motion (thesis 5.5.3 with errata E2, E7 to E10). From the top level down, with all
-// levels above in order:
+// Black-box repair after motion (thesis 5.5.3, corrected: docs/thesis-map.md). From the top level down, with
+// all levels above in order:
 //   1. cover: every node of the level finds a parent again, near its old one first, or is promoted;
 //   2. connect: edges are enumerated among children of equal or neighboring *new* parents, which
 //      Lemma 5.3.1(5) makes complete for any displacement; from level 2 on only where they may have become

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Places for single points: descents, promotion, insertion (thesis 5.4, errata E4, E8, E10).
+// Places for single points: descents, promotion, insertion (thesis 5.4, corrected: docs/thesis-map.md).
 #include <algorithm>
 #include <cmath>
 

@@ -9,7 +9,7 @@ using detail::kBlock;
 using detail::kNone;
 
 namespace {
-constexpr int kMostBlocks = 16;  ///< of a chain, looked at to find room for a point
+constexpr int kMaxLookedAt = 16;  ///< of a chain, looked at to find room for a point
 }
 
 std::int32_t Hierarchy::Impl::add_node(int level, std::int32_t point, Vec3 at) {
@@ -50,11 +50,11 @@ void Hierarchy::Impl::detach(int level, std::int32_t node) {
 std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int32_t leaf) {
   std::int32_t& first = levels[1].first_child[leaf];
   int looked = 0;
-  for (; first != kNone && looked < kMostBlocks && points.count[first] == kBlock; ++looked)
+  for (; first != kNone && looked < kMaxLookedAt && points.count[first] == kBlock; ++looked)
     points.turn(first);
   std::int32_t nearest = kNone;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t block = first; block != kNone && looked < kMostBlocks; block = points.next[block]) {
+  for (std::int32_t block = first; block != kNone && looked < kMaxLookedAt; block = points.next[block]) {
     ++looked;
     if (points.count[block] == kBlock) continue;
     const double d2 = norm2(points.position[static_cast<std::size_t>(block) * kBlock] - at);

@@ -23,10 +23,10 @@ struct ClosestPairStats {
 ///
 /// Neighbors are beads of one chain with at most `skip_bonds` bonds between them. Theorem 4.5.2 looks at
 /// (1) edges of the power diagram, (2) pairs with a common neighbor and (3) pairs with an improper ball as a
-/// neighbor, and asks for balls that are disjoint but for neighbors, and for neighbors that touch (erratum
-/// E26).
+/// neighbor, and asks for balls that are disjoint but for neighbors, and for neighbors that
+/// touch.
 ///
-/// For equal radii (1) and (2) are enough and none of the hypotheses is needed (E27). For let i and j be the
+/// For equal radii (1) and (2) are enough and none of the hypotheses is needed. For let i and j be the
 /// closest pair: a third center k in the closed ball with diameter ij is nearer to i and to j than they are
 /// to each other, so it is a neighbor of both, or stands on the place of one of them. Else ij is an edge.
 ///

@@ -62,7 +62,7 @@ struct Separation {
 /// <= r_i + r_j + gap.
 ///
 /// Cost: of one chain without contact, O(n lg n) cage pairs in the plane and O(n^(4/3)) in space (Theorem
-/// 4.5.1, erratum E24), if the radii and the bonds are bounded by constants from above and below and the
+/// 4.5.1, corrected), if the radii and the bonds are bounded by constants from above and below and the
 /// chain is connected; Necklace::measure() reports the constants. Packed chains and gaps much larger than
 /// beads cost more. Between m chains, pairs of roots come from a cell list if the largest root allows it,
 /// else all m^2/2 are looked at.

@@ -40,13 +40,13 @@ Shape torus_knot(std::int32_t p, std::int32_t q, std::int32_t beads);
 /// face each other at a distance of `gap` between the tops of their bumps; a bent segment of 2n beads joins
 /// their right ends. 10 n + 2 beads, one apart. As `progress` goes from 0 to 1 the upper segment moves to the
 /// left by 2n, and on the way every bump of one passes many of the other. For the changes that the thesis
-/// counts the bond has to be longer than twice the gap (erratum E20), so gap < 1/2.
+/// counts the bond has to be longer than twice the gap, so gap < 1/2.
 /// @throws InvalidParameter unless 1 <= c, c divides n, n >= 4c + 2, 0 < gap <= 1 and 0 <= progress <= 1.
 Shape facing_bumps(std::int32_t n, std::int32_t c, double gap, double progress);
 
 /// 2^k points on the unit circle for which the root of the layered hierarchy is sqrt(k) times as large as
 /// that of the wrapped one (Lemma 4.4.3). The last line of reflection, which the thesis's text leaves
-/// degenerate, is the perpendicular to the one through O and O_{k-1} (erratum E22).
+/// degenerate, is the perpendicular to the one through O and O_{k-1}.
 /// @throws InvalidParameter unless 0 <= k <= 24.
 Shape tight_set(std::int32_t k);
 

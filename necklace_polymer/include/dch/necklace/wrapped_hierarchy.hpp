@@ -41,7 +41,7 @@ struct WrappedStats {
 /// The wrapped hierarchy (thesis 4.4): the cage of a node is the minimum enclosing ball of its beads. It is
 /// stored as the two to four beads it rests on, its basis, which lasts while the chain deforms.
 ///
-/// Children's cages may stick out of their parent's (erratum E25): only beads are enclosed. Hypotheses: none
+/// Children's cages may stick out of their parent's: only beads are enclosed. Hypotheses: none
 /// on the necklace; bounds on the cost of queries need those of Theorem 4.5.1 (contacts.hpp). Not
 /// thread-safe; distinct objects are independent.
 class WrappedHierarchy : public CageHierarchy {

@@ -41,6 +41,8 @@ struct FarSums {
 /// A point exerts nothing on itself, nor on points that coincide with it: pairs nearer than 1e-140 of the
 /// extent of the points are left out, and in periodic boxes those no farther apart than tree.rounding().
 ///
+/// Charges so far away that exp(-kappa r) is below 1e-300 may count as if it were 1e-307.
+///
 /// In a periodic box the sum is over all images of all charges, the point's own ones included. Only the
 /// screened kernel has one. So many images are summed over that the rest is below a hundredth of the
 /// tolerance.

@@ -15,7 +15,7 @@ int main() {
   dch::ClusterPairs pairs;
   search->cluster_pairs(params, pairs);
   std::vector<dch::Vec3> forces(2);
-  dch::LennardJones({1, 1, 2.5}).add_forces(pairs, dch::ForcePrecision::full, forces);
+  dch::LennardJones({1, 1, 2.5}).add_forces(pairs, dch::ForcePrecision::double_precision, forces);
   const double expected = 24 * std::pow(1.5, -7) * (1 - 2 * std::pow(1.5, -6));  // towards each other
   std::printf("%.15g, expected %.15g\n", forces[0].x, expected);
   return std::abs(forces[0].x - expected) <= 1e-12 * expected ? 0 : 1;

@@ -15,7 +15,7 @@ int main() {
   dch::ClusterPairs pairs;
   search->cluster_pairs(params, pairs);
   std::vector<dch::Vec3> forces(2);
-  dch::LennardJones({1, 1, 2.5}).add_forces(pairs, dch::ForcePrecision::full, forces);
+  dch::LennardJones({1, 1, 2.5}).add_forces(pairs, dch::ForcePrecision::double_precision, forces);
   const dch::necklace::Chains chains;
   std::printf("%zu chains, force %g\n", chains.size(), forces[0].x);
   return search->list(params).pairs() == 1 && forces[0].x > 0 ? 0 : 1;

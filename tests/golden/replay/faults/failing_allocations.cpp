@@ -2,7 +2,7 @@
 // A library to be loaded before all others (LD_PRELOAD): it counts the allocations that a process makes from
 // its main() on, and makes some of them fail.
 //
-//   DCH_MEMORY_LOG     a file of kMostProcesses numbers of 8 bytes: how often each process allocated, and how
+//   DCH_MEMORY_LOG     a file of kMaxProcesses numbers of 8 bytes: how often each process allocated, and how
 //                      often it was refused. Process 0 is the first one, others are the children it starts
 //   DCH_MEMORY_FAULT   "PROCESS NUMBER HOW": the allocation, counted from 0, and "once", or "always" for all
 //                      that follow as well; none at all if it is not set
@@ -30,12 +30,12 @@ void* __libc_memalign(size_t alignment, size_t size);
 
 namespace {
 
-constexpr int kMostProcesses = 16;
+constexpr int kMaxProcesses = 16;
 
 struct Tally {
   std::atomic<long> allocations, refusals;
 };
-using Log = std::array<Tally, kMostProcesses>;
+using Log = std::array<Tally, kMaxProcesses>;
 
 Log* log = nullptr;  ///< null until main() starts
 int process = 0, children = 0;
@@ -44,7 +44,7 @@ long first_to_fail = 0, last_to_fail = -1;
 
 bool is_refused() {
   if (!log) return false;
-  Tally& tally = (*log)[static_cast<std::size_t>(std::min(process, kMostProcesses - 1))];
+  Tally& tally = (*log)[static_cast<std::size_t>(std::min(process, kMaxProcesses - 1))];
   const long k = tally.allocations.fetch_add(1);
   if (process != fault_process || k < first_to_fail || k > last_to_fail) return false;
   tally.refusals.fetch_add(1);

@@ -31,7 +31,7 @@
 namespace {
 
 constexpr std::size_t kLogBytes = std::size_t{1} << 20;
-constexpr std::size_t kMostDescriptors = 1024;
+constexpr std::size_t kMaxDescriptors = 1024;
 constexpr std::size_t kNameBytes = 64;
 
 struct Log {
@@ -53,7 +53,7 @@ int fault_process = -1;
 long fault_call = -1;
 Fault wanted;
 /// Names of the open files that count; empty for others.
-std::array<std::array<char, kNameBytes>, kMostDescriptors> names;
+std::array<std::array<char, kNameBytes>, kMaxDescriptors> names;
 
 template <class Function>
 Function next(const char* name) {
@@ -94,12 +94,12 @@ Fault strike(const char* function, const char* name) {
 }
 
 const char* name_of(int descriptor) {
-  const bool known = descriptor >= 0 && descriptor < static_cast<int>(kMostDescriptors);
+  const bool known = descriptor >= 0 && descriptor < static_cast<int>(kMaxDescriptors);
   return known ? names[static_cast<std::size_t>(descriptor)].data() : nullptr;
 }
 
 void set_name(int descriptor, const char* name) {
-  if (descriptor < 0 || descriptor >= static_cast<int>(kMostDescriptors)) return;
+  if (descriptor < 0 || descriptor >= static_cast<int>(kMaxDescriptors)) return;
   std::snprintf(names[static_cast<std::size_t>(descriptor)].data(), kNameBytes, "%s", name);
 }
 

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+//
+// Tests and rows in one loop, over a vector type `Simd`: see list_kernels_loops.hpp for the rules.
+#pragma once
+
+#include "simd/list_kernels.hpp"
+
+namespace dch::detail {
+namespace {
+
+constexpr std::int32_t kAhead = 768;     ///< entries that memory is asked for before they are written
+constexpr std::int32_t kIdsInLine = 16;  ///< of a cache line
+
+// NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
+
+// --- limits of a row's pairs: `middle(k)` for the candidates from k on, as RowLimits has it
+
+template <class Simd>
+struct OneMiddle {
+  using V = typename Simd::V;
+  explicit OneMiddle(const RowLimits& limits, const Candidates&) : all(Simd::set1(limits.middle)) {}
+  void use_row(int) {}
+  V middle(std::int32_t) const { return all; }
+  V all;
+};
+
+template <class Simd>
+struct MiddleBySize {
+  using V = typename Simd::V;
+  explicit MiddleBySize(const RowLimits& limits, const Candidates& candidates)
+      : sizes(limits.rows), tags(candidates.tag), skin(limits.skin), raise(Simd::set1(limits.raise)) {}
+  void use_row(int row) { size = Simd::set1(static_cast<std::int16_t>(sizes[row] + skin)); }
+  V middle(std::int32_t k) const {
+    return Simd::adds(Simd::square(Simd::adds(Simd::load(tags + k), size)), raise);
+  }
+  const std::int16_t *sizes, *tags;
+  std::int16_t skin;
+  V raise, size{};
+};
+
+template <class Simd>
+struct MiddleByType {
+  using V = typename Simd::V;
+  explicit MiddleByType(const RowLimits& limits, const Candidates& candidates)
+      : types(limits.rows), tags(candidates.tag), by_type(limits.by_type) {}
+  void use_row(int row) { of_row = Simd::table(by_type[types[row]].limit); }
+  V middle(std::int32_t k) const { return Simd::look_up(of_row, Simd::load(tags + k)); }
+  const std::int16_t *types, *tags;
+  const TypeLimits* by_type;
+  typename Simd::Table of_row{};
+};
+
+/// A point of a block and the candidates that it is tested against.
+template <class Simd, class Middle>
+struct RowTest {
+  using V = typename Simd::V;
+  RowTest(const BlockPoints& points, const Candidates& others, const RowLimits& limits)
+      : block(points), candidates(others), limit(limits, others), band(Simd::set1(limits.band)) {}
+  void use_row(int row) {
+    px = Simd::set1(block.x[row]);
+    py = Simd::set1(block.y[row]);
+    pz = Simd::set1(block.z[row]);
+    limit.use_row(row);
+  }
+  V sum(std::int32_t k) const {
+    const V dx = Simd::sub(Simd::load(candidates.x + k), px);
+    const V dy = Simd::sub(Simd::load(candidates.y + k), py);
+    const V dz = Simd::sub(Simd::load(candidates.z + k), pz);
+    return Simd::adds(Simd::adds(Simd::square(dx), Simd::square(dy)), Simd::square(dz));
+  }
+  /// Lanes of a chunk within the limit; `least` gets how far their sums are above the band's begin, modulo
+  /// 2^16.
+  std::uint32_t lanes_within(std::int32_t chunk, V& least) const {
+    std::uint32_t within = 0;
+    for (int part = 0; part < kChunk / Simd::kLanes; ++part) {
+      const std::int32_t k = chunk * kChunk + part * Simd::kLanes;
+      const V t = sum(k), middle = limit.middle(k);
+      within |= (Simd::bits_greater(middle, t) & Simd::kAll) << (part * Simd::kLanes);
+      least = Simd::least(least, Simd::sub(t, Simd::sub(middle, band)));
+    }
+    return within;
+  }
+
+  const BlockPoints& block;
+  Candidates candidates;  // a copy: what is written might overlap with the other for all that compilers know
+  Middle limit;
+  V band, px{}, py{}, pz{};
+};
+
+/// Which lanes of the chunks hold candidates of a row, and no point of the block at or before it.
+struct ValidLanes {
+  ValidLanes(std::int32_t count, std::int32_t chunk_count, bool own_first)
+      : chunks(chunk_count),
+        last(~0u >> ((kChunk - count % kChunk) % kChunk)),
+        first(own_first ? ~1u : ~0u),
+        step(own_first ? 1 : 0) {}
+  std::uint32_t operator()(std::int32_t chunk) const {
+    std::uint32_t lanes = ~0u;
+    if (chunk == 0) lanes = first;
+    if (chunk == chunks - 1) lanes &= last;
+    return lanes;
+  }
+  void next_row() { first <<= step; }
+  std::int32_t chunks;
+  std::uint32_t last, first;
+  int step;
+};
+
+/// Rare, so apart from the loop over all chunks, and with copies of what that keeps in registers.
+/// `in_segment(chunk)`: its lanes that belong to the segment.
+template <class Simd, class Middle, class InSegment>
+[[gnu::noinline]] std::int32_t note_open(RowTest<Simd, Middle> test, ValidLanes valid, std::int16_t band,
+                                         std::int32_t row, InSegment in_segment, std::int32_t segment,
+                                         OpenLanes* open) {
+  using V = typename Simd::V;
+  std::int32_t noted = 0, before = 0;
+  for (std::int32_t chunk = 0; chunk < valid.chunks; ++chunk) {
+    std::uint32_t within = 0, in_band = 0;
+    for (int part = 0; part < kChunk / Simd::kLanes; ++part) {
+      const std::int32_t k = chunk * kChunk + part * Simd::kLanes;
+      const V t = test.sum(k), middle = test.limit.middle(k);
+      const V above = Simd::sub(t, Simd::sub(middle, test.band));
+      within |= (Simd::bits_greater(middle, t) & Simd::kAll) << (part * Simd::kLanes);
+      in_band |= (Simd::bits_below(above, Simd::set1(static_cast<std::int16_t>(2 * band))) & Simd::kAll)
+                 << (part * Simd::kLanes);
+    }
+    const std::uint32_t lanes = valid(chunk) & in_segment(chunk);
+    within &= lanes;
+    in_band &= lanes;
+    if (in_band != 0) open[noted++] = {row, segment, chunk, before, in_band, within};
+    before += __builtin_popcount(within);
+  }
+  return noted;
+}
+
+/// @tparam kFixed the number of chunks, or 0 for any
+template <class Simd, class Middle, int kFixed>
+std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Candidates& candidates,
+                        std::int32_t count, const RowLimits& limits, const RowsTo& to) {
+  using V = typename Simd::V;
+  const std::int32_t chunks = kFixed > 0 ? kFixed : (count + kChunk - 1) / kChunk;
+  RowTest<Simd, Middle> test(points, candidates, limits);
+  ValidLanes valid(count, chunks, to.own_first);
+  const std::int16_t band = limits.band;
+  const auto width = static_cast<std::uint16_t>(2 * band);
+  const std::int32_t* const id = candidates.id;
+  std::int32_t* const j = to.j;
+  std::int32_t* const end = to.end;
+  OpenLanes* const open = to.open;
+  std::int32_t written = 0, noted = 0;
+  for (std::int32_t row = 0; row < rows; ++row) {
+    test.use_row(row);
+    __builtin_prefetch(j + written + kAhead, 1);
+    __builtin_prefetch(j + written + kAhead + kIdsInLine, 1);
+    V least = Simd::set1(-1);
+    for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
+      const std::uint32_t lanes = test.lanes_within(chunk, least) & valid(chunk);
+      written += Simd::compress_chunk(lanes, id + chunk * kChunk, j + written);
+    }
+    end[row] = written;
+    if (Simd::any_below(least, width))
+      noted += note_open(
+          test, valid, band, row, [](std::int32_t) { return ~0u; }, row, open + noted);
+    valid.next_row();
+  }
+  return noted;
+}
+
+/// The same with those nearer than another limit first in each row.
+template <class Simd, class Middle>
+std::int32_t write_rows_with_shell(const BlockPoints& points, std::int32_t rows, const Candidates& candidates,
+                                   std::int32_t count, const RowLimits& limits, const RowLimits& near,
+                                   const RowsTo& to) {
+  using V = typename Simd::V;
+  const std::int32_t chunks = (count + kChunk - 1) / kChunk;
+  RowTest<Simd, Middle> test(points, candidates, limits), near_test(points, candidates, near);
+  ValidLanes valid(count, chunks, to.own_first);
+  const auto width = static_cast<std::uint16_t>(2 * limits.band);
+  std::int32_t written = 0, noted = 0;
+  for (std::int32_t row = 0; row < rows; ++row) {
+    test.use_row(row);
+    near_test.use_row(row);
+    for (int part = 0; part < 2; ++part) {
+      V least = Simd::set1(-1), unused = least;
+      const auto in_segment = [&](std::int32_t chunk) {
+        const std::uint32_t lanes = near_test.lanes_within(chunk, unused);
+        return part == 0 ? lanes : ~lanes;
+      };
+      for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
+        const std::uint32_t lanes = test.lanes_within(chunk, least) & valid(chunk) & in_segment(chunk);
+        written += Simd::compress_chunk(lanes, candidates.id + chunk * kChunk, to.j + written);
+      }
+      const std::int32_t segment = 2 * row + part;
+      to.end[segment] = written;
+      if (Simd::any_below(least, width))
+        noted += note_open(test, valid, limits.band, row, in_segment, segment, to.open + noted);
+    }
+    valid.next_row();
+  }
+  return noted;
+}
+
+template <class Simd, class Middle>
+std::int32_t rows_with(const BlockPoints& points, std::int32_t rows, const Candidates& candidates,
+                       std::int32_t count, const RowLimits& limits, const RowLimits* near, const RowsTo& to) {
+  if (near != nullptr)
+    return write_rows_with_shell<Simd, Middle>(points, rows, candidates, count, limits, *near, to);
+  switch ((count + kChunk - 1) / kChunk) {
+    case 1:
+      return write_rows<Simd, Middle, 1>(points, rows, candidates, count, limits, to);
+    case 2:
+      return write_rows<Simd, Middle, 2>(points, rows, candidates, count, limits, to);
+    case 3:
+      return write_rows<Simd, Middle, 3>(points, rows, candidates, count, limits, to);
+    case 4:
+      return write_rows<Simd, Middle, 4>(points, rows, candidates, count, limits, to);
+    case 5:
+      return write_rows<Simd, Middle, 5>(points, rows, candidates, count, limits, to);
+    case 6:
+      return write_rows<Simd, Middle, 6>(points, rows, candidates, count, limits, to);
+    default:
+      return write_rows<Simd, Middle, 0>(points, rows, candidates, count, limits, to);
+  }
+}
+
+// NOLINTEND(bugprone-easily-swappable-parameters)
+
+}  // namespace
+}  // namespace dch::detail

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+//
+// A closest pair that is kept up, in scenes in which everything is random, against all pairs: after motion of
+// all points and of some, while a repair is put off, after insertions and removals. And counts: the work
+// grows with what changes.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <dch/base/error.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/proximity/kept_closest_pair.hpp>
+
+#include "effort.hpp"
+#include "error_message.hpp"
+#include "proximity_checks.hpp"
+#include "proximity_scene.hpp"
+#include "scenes.hpp"
+#include "special_numbers.hpp"
+
+namespace dch {
+namespace {
+
+using Answer = std::tuple<double, std::int32_t, std::int32_t>;
+
+Answer of_all_pairs(const HierarchyView& view) {
+  Answer least{kInfinity, -1, -1};
+  const auto ids = static_cast<std::int32_t>(view.capacity());
+  for (std::int32_t a = 0; a < ids; ++a)
+    for (std::int32_t b = a + 1; b < ids; ++b)
+      if (view.contains(a) && view.contains(b))
+        least = std::min(least, {view.box().distance2(view.position(a), view.position(b)), a, b});
+  return least;
+}
+
+Answer of(const ClosestPoints& found) { return {found.distance2, found.a, found.b}; }
+
+/// Where points are, to tell which of them have changed.
+class Places {
+ public:
+  std::vector<std::int32_t> changed(const HierarchyView& view) {
+    std::vector<std::int32_t> ids;
+    std::vector<std::pair<bool, Vec3>> now;
+    for (std::int32_t id = 0; id < static_cast<std::int32_t>(view.capacity()); ++id) {
+      const auto k = static_cast<std::size_t>(id);
+      now.emplace_back(view.contains(id), view.contains(id) ? view.position(id) : Vec3{});
+      if (k >= places_.size() || places_[k] != now[k]) ids.push_back(id);
+    }
+    places_ = std::move(now);
+    return ids;
+  }
+
+ private:
+  std::vector<std::pair<bool, Vec3>> places_;
+};
+
+TEST(KeptClosestPairs, EqualAllPairsInRandomScenes) {
+  for (int k = 0; k < effort(400); ++k) {
+    ProximityScene scene(7200000 + static_cast<std::uint64_t>(k), 120);
+    KeptClosestPair kept, told;
+    Places places;
+    for (int step = 0; step < 12; ++step) {
+      const HierarchyView view = scene.view();
+      const Answer expected = of_all_pairs(view);
+      ASSERT_EQ(of(kept.find(view)), expected) << scene.what() << ", step " << step;
+      ASSERT_EQ(of(told.find(view, places.changed(view))), expected) << scene.what() << ", step " << step;
+      scene.change(step / 2);
+    }
+  }
+}
+
+/// As in a simulation: many short steps of all points, of which few have to ask.
+TEST(KeptClosestPairs, EqualAllPairsInRandomScenesOfShortSteps) {
+  for (int k = 0; k < effort(150); ++k) {
+    ProximityScene scene(7300000 + static_cast<std::uint64_t>(k), 120);
+    KeptClosestPair kept;
+    const double motion = scene.radius() * std::pow(10, scene.random.uniform(-4, -1));
+    for (int step = 0; step < 25; ++step) {
+      const HierarchyView view = scene.view();
+      ASSERT_EQ(of(kept.find(view)), of_all_pairs(view)) << scene.what() << ", step " << step;
+      if (step % 5 == 4) scene.exchange();
+      scene.move(motion);
+    }
+  }
+}
+
+/// Points on the sites of a lattice, all of which are as close, and a few spots with many points each.
+TEST(KeptClosestPairs, HaveTheSmallestIdsOfMany) {
+  scenes::Random random(73);
+  for (int k = 0; k < effort(60); ++k) {
+    const Box box = k % 2 == 0 ? Box::none() : Box::orthorhombic({6, 6, 6});
+    const double sites = k % 3 == 0 ? 2 : 6;
+    const auto site = [&] {
+      return Vec3{std::floor(random.uniform(0, sites)), std::floor(random.uniform(0, sites)),
+                  std::floor(random.uniform(0, sites))};
+    };
+    std::vector<Vec3> points;
+    for (int p = 0; p < 60; ++p) points.push_back(site());
+    HierarchyParams params;
+    params.radius = 1;
+    Hierarchy hierarchy(params);
+    hierarchy.build(points, box);
+    KeptClosestPair kept;
+    for (int step = 0; step < 40; ++step) {
+      const HierarchyView view = hierarchy.kept_view();
+      ASSERT_EQ(of(kept.find(view)), of_all_pairs(view)) << "scene " << k << ", step " << step;
+      const auto id = static_cast<std::int32_t>(random.below(hierarchy.capacity()));
+      if (hierarchy.contains(id)) hierarchy.remove(id);
+      if (random.below(3) > 0) hierarchy.insert(site());
+    }
+  }
+}
+
+TEST(KeptClosestPairs, OfFewerThanTwoPointsThereAreNone) {
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  KeptClosestPair kept;
+  hierarchy.build({}, Box::none());
+  EXPECT_EQ(of(kept.find(hierarchy.view())), Answer(kInfinity, -1, -1));
+  const std::int32_t id = hierarchy.insert({1, 1, 1});
+  EXPECT_EQ(of(kept.find(hierarchy.view())), Answer(kInfinity, -1, -1));
+  hierarchy.insert({1, 1, 3});
+  EXPECT_EQ(of(kept.find(hierarchy.view())), Answer(4, 0, 1));
+  hierarchy.remove(id);
+  EXPECT_EQ(of(kept.find(hierarchy.view())), Answer(kInfinity, -1, -1));
+}
+
+TEST(KeptClosestPairs, RefuseIdsThatCannotBe) {
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  hierarchy.build(scenes::coincident(Box::none(), 3), Box::none());
+  KeptClosestPair kept;
+  kept.find(hierarchy.view());
+  for (const std::int32_t id : {-1, 3}) {
+    const std::vector<std::int32_t> changed{id};
+    const std::string message =
+        test::message_of<InvalidParameter>([&] { kept.find(hierarchy.view(), changed); });
+    EXPECT_NE(message.find("point " + std::to_string(id)), std::string::npos) << message;
+  }
+  EXPECT_EQ(of(kept.find(hierarchy.view())), Answer(0, 0, 1));
+}
+
+struct Uniform {
+  explicit Uniform(std::size_t points)
+      : side(std::cbrt(static_cast<double>(points))), box(Box::orthorhombic({side, side, side})) {
+    for (std::size_t k = 0; k < points; ++k) positions.push_back(somewhere());
+    HierarchyParams params;
+    params.radius = 1.5;
+    hierarchy.emplace(params);
+    hierarchy->build(positions, box);
+  }
+  Vec3 somewhere() { return {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)}; }
+
+  scenes::Random random{74};
+  double side;
+  Box box;
+  std::vector<Vec3> positions;
+  std::optional<Hierarchy> hierarchy;
+};
+
+/// Counts of one step in which ten points go and ten come, in the mean.
+KeptClosestWork work_of_a_step(std::size_t points) {
+  constexpr int kSteps = 50, kChanged = 10;
+  Uniform scene(points);
+  KeptClosestPair kept;
+  kept.find(scene.hierarchy->kept_view());
+  const KeptClosestWork before = kept.work();
+  for (int step = 0; step < kSteps; ++step) {
+    std::vector<std::int32_t> changed;
+    for (int k = 0; k < kChanged; ++k) {
+      const auto id = static_cast<std::int32_t>(scene.random.below(points));
+      scene.hierarchy->remove(id);
+      changed.push_back(scene.hierarchy->insert(scene.somewhere()));
+      EXPECT_EQ(changed.back(), id);
+    }
+    kept.find(scene.hierarchy->kept_view(), changed);
+  }
+  KeptClosestWork work = kept.work();
+  EXPECT_EQ(work.searches, before.searches);
+  work.compared = (work.compared - before.compared) / kSteps;
+  work.asked = (work.asked - before.asked) / kSteps;
+  work.nearest.nodes = (work.nearest.nodes - before.nearest.nodes) / kSteps;
+  work.nearest.blocks = (work.nearest.blocks - before.nearest.blocks) / kSteps;
+  work.nearest.points = (work.nearest.points - before.nearest.points) / kSteps;
+  return work;
+}
+
+TEST(KeptClosestPairs, LookAtWhatHasChangedAlone) {
+  for (const std::size_t points : {10000, 40000, effort(160000)}) {
+    const KeptClosestWork work = work_of_a_step(points);
+    std::printf("%zu points: %lld asked, %lld nodes, %lld blocks, %lld points\n", points,
+                static_cast<long long>(work.asked), static_cast<long long>(work.nearest.nodes),
+                static_cast<long long>(work.nearest.blocks), static_cast<long long>(work.nearest.points));
+    EXPECT_EQ(work.compared, 10);
+    EXPECT_LE(work.asked, 12);
+    EXPECT_LE(work.nearest.nodes, 2500);
+    EXPECT_LE(work.nearest.blocks, 1000);
+    EXPECT_LE(work.nearest.points, 300);
+  }
+}
+
+/// All on one spot: each is as close to each. The points of a few are compared, not those of all.
+TEST(KeptClosestPairs, OfPointsThatCoincideAskFew) {
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  hierarchy.build(scenes::coincident(Box::none(), 3000), Box::none());
+  KeptClosestPair kept;
+  for (std::int32_t step = 0; step < 20; ++step) {
+    EXPECT_EQ(of(kept.find(hierarchy.kept_view())), Answer(0, step, step + 1));
+    hierarchy.remove(step);
+  }
+  EXPECT_LE(kept.work().asked, 20 * 30);
+}
+
+/// Steps of a thousandth of the mean distance of neighbors.
+TEST(KeptClosestPairs, AskFewOfThePointsThatAllMoveALittle) {
+  Uniform scene(20000);
+  KeptClosestPair kept;
+  kept.find(scene.hierarchy->view());
+  for (int step = 0; step < 20; ++step) {
+    for (Vec3& p : scene.positions) p = p + scene.random.in_cube(0.001);
+    scene.hierarchy->update(scene.positions, scene.box);
+    kept.find(scene.hierarchy->view());
+  }
+  EXPECT_EQ(kept.work().searches, 1);
+  EXPECT_LE(kept.work().asked, 20 * 20000 / 50);
+}
+
+}  // namespace
+
+void check_kept_closest_pair(ProximityScene& scene, KeptClosestPair& kept) {
+  const HierarchyView view = scene.view();
+  ASSERT_EQ(of(kept.find(view)), of_all_pairs(view)) << scene.what();
+}
+
+}  // namespace dch
