@@ -86,13 +86,15 @@ def compile_commands(build):
     return {entry["file"]: entry for entry in entries}
 
 
-def objects_of(build, programs):
+def objects_of(build, commands, programs):
+    """What the build makes of the tests' sources, joined or one by one; objects of an earlier build may lie beside it."""
     found = []
     for program in programs:
-        folder = build / "tests" / pathlib.Path(program).parent / "CMakeFiles" / (pathlib.Path(program).name + ".dir")
-        objects = sorted(folder.glob("*.o"))
-        if not objects:
-            sys.exit(f"{folder} holds no objects: build {pathlib.Path(program).name} first")
+        outputs = (re.search(rf" -o (\S*/{pathlib.Path(program).name}\.dir/\S+\.o) ", entry["command"])
+                   for entry in commands.values())
+        objects = sorted(build / output[1] for output in outputs if output)
+        if not objects or not all(path.exists() for path in objects):
+            sys.exit(f"{build} holds no objects of {program}: build {pathlib.Path(program).name} first")
         found += objects
     return found
 
@@ -169,7 +171,7 @@ class Program:
         compiler = shlex.split(next(iter(self.commands.values()))["command"])[0]
         if not runtime.exists():
             subprocess.run([compiler, "-O2", "-c", str(HERE / "mutants.cpp"), "-o", str(runtime)], check=True)
-        subprocess.run([compiler, "-o", str(self.path), *map(str, objects_of(self.build, self.programs)),
+        subprocess.run([compiler, "-o", str(self.path), *map(str, objects_of(self.build, self.commands, self.programs)),
                         *map(str, objects), str(runtime), str(self.build / "forces" / "libdch_forces.a"),
                         str(self.build / "lib" / "libdch_core.a"),
                         "-lgtest_main", "-lgmock", "-lgtest", "-lpthread"], check=True)
