@@ -14,9 +14,9 @@
 
 namespace dch::faults {
 
-/// Which allocations fail: each, or each third one under the address sanitizer, which takes ten times as
-/// long.
-#if defined(__SANITIZE_ADDRESS__)
+/// Which allocations fail: each, or each third one under the address and the thread sanitizer, which take ten
+/// times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr long kEach = 3;
 #else
 inline constexpr long kEach = 1;
