@@ -30,8 +30,8 @@ ROOT = HERE.parent.parent
 SOURCES = ROOT / "lib" / "src"
 # What is reported of memory.
 SKIPPED_FUNCTIONS = {"memory_bytes"}
-# What is only measured and counted; tests of the counts alone see it.
-SKIPPED_LINES = r"seconds|stats\.distances|\btested\b|\bClock\b|counting"
+# What is only measured and counted, which tests of the counts alone see, and what only saves time.
+SKIPPED_LINES = r"seconds|stats\.distances|stats\.visited|\btested\b|\bClock\b|counting|__builtin_prefetch"
 
 # What is run for a file: objects of test programs, and which of their tests, stage by stage.
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],

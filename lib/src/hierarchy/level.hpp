@@ -52,7 +52,7 @@ struct Level {
     return k;
   }
   void retire(std::int32_t k) {
-    id[k] = kNone;
+    id[k] = first_child[k] = kNone;  // loops over nodes pass by a dead one, which has no children
     free.push_back(k);
   }
   void resize(std::int32_t n) {

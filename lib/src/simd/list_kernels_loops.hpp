@@ -11,6 +11,11 @@
 namespace dch::detail {
 namespace {
 
+/// So many bits, up to 32.
+inline std::uint32_t first_lanes(std::int32_t count) {
+  return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+}
+
 // NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
 
 template <class Simd>
@@ -37,7 +42,7 @@ std::int32_t collect(const BlockSpan& box, std::int16_t limit, const BlockSpans&
       const V gx = gap(0, cx, wx), gy = gap(1, cy, wy), gz = gap(2, cz, wz);
       const V t = Simd::adds(Simd::adds(Simd::square(gx), Simd::square(gy)), Simd::square(gz));
       std::uint32_t lanes = Simd::bits_greater(most, t) & Simd::kAll;
-      if (end - k < Simd::kLanes) lanes &= ~(~0u << (end - k));
+      if (end - k < Simd::kLanes) lanes &= first_lanes(end - k);
       found += Simd::compress_lanes(lanes, Simd::kLanes, boxes.number + k, block + found);
     }
     range_end[r] = found;
@@ -119,7 +124,7 @@ std::int32_t filter_with(const BlockSpan& box, const Limit& limit, const Candida
     const V t = Simd::adds(Simd::adds(Simd::square(gx), Simd::square(gy)), Simd::square(gz));
     std::uint32_t lanes = Simd::bits_greater(limit.out(k), t) & Simd::kAll;
     if (valid) lanes &= valid[k / kChunk] >> (k % kChunk);
-    if (count - k < Simd::kLanes) lanes &= ~(~0u << (count - k));
+    if (count - k < Simd::kLanes) lanes &= first_lanes(count - k);
     if constexpr (Limit::kTags) Simd::move_to_front(lanes, Simd::load(from.tag + k), to.tag + kept);
     kept += Simd::move_to_front(lanes, px, py, pz, from.id + k, to.x + kept, to.y + kept, to.z + kept,
                                 to.id + kept);
@@ -153,8 +158,7 @@ std::int32_t leave_out(const std::int32_t* row, std::int32_t count, const std::i
                        std::int32_t excluded_count, std::int32_t* to) {
   std::int32_t kept = 0;
   for (std::int32_t k = 0; k < count; k += Simd::kIds) {
-    std::uint32_t lanes = (1u << Simd::kIds) - 1;
-    if (count - k < Simd::kIds) lanes = (1u << (count - k)) - 1;
+    std::uint32_t lanes = first_lanes(count - k < Simd::kIds ? count - k : Simd::kIds);
     for (std::int32_t e = 0; e < excluded_count; ++e) lanes &= ~Simd::equal_ids(row + k, excluded[e]);
     kept += Simd::compress_ids(lanes, row + k, to + kept);
   }

@@ -2,6 +2,7 @@
 //
 // More than 300 lines: one test a promise of hierarchy.hpp, in its order.
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
@@ -10,6 +11,9 @@
 #include <dch/base/error.hpp>
 #include <dch/lists/all_pairs.hpp>
 
+#include "error_message.hpp"
+#include "geometry/position_check.hpp"
+#include "hierarchy/structure.hpp"
 #include "hierarchy_test_access.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
@@ -28,6 +32,30 @@ ListParams list_of(double cutoff, ListKind kind = ListKind::half) {
   params.cutoffs = TypeCutoffs(cutoff);
   params.kind = kind;
   return params;
+}
+
+// Positions are checked some at a time.
+TEST(HierarchyTest, AnUpdateNamesTheOneOfManyPositionsThatIsWrong) {
+  for (const std::size_t wrong : {0u, 1023u, 1024u, 2500u}) {
+    std::vector<Vec3> points = scenes::uniform(3000, {20, 20, 20}, 1);
+    ListedHierarchy h(with_radius(1));
+    h.build(points, Box::none());
+    points[wrong].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THAT(test::message_of<InvalidPosition>([&] { h.update(points, Box::none()); }),
+                testing::HasSubstr(" " + std::to_string(wrong) + " "));
+  }
+}
+
+// A wrapped coordinate is as exact as the one that was given, and edges have to reach as much farther.
+TEST(HierarchyTest, APointFarOutWidensTheThresholds) {
+  const Box box = Box::orthorhombic({10, 10, 10});
+  ListedHierarchy h(with_radius(1));
+  h.build(scenes::uniform(500, {10, 10, 10}, 1), box);
+  const double near = h.view().structure().levels[1].threshold;
+  const double reach = 1e12;
+  h.insert({reach, 0, 0});
+  EXPECT_GE(h.view().structure().levels[1].threshold, near + detail::WrapError(box).bound(reach));
+  EXPECT_EQ(h.validate(), "");
 }
 
 TEST(HierarchyTest, RefusesParametersOutOfRange) {

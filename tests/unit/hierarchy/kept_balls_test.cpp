@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Balls that a hierarchy keeps up are given up where it is repaired, and measured anew when they are wanted.
+#include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 #include <vector>
 
 #include <dch/hierarchy/hierarchy.hpp>
@@ -17,7 +19,9 @@ const Box kBox = Box::orthorhombic({20, 20, 20});
 
 class KeptBalls : public testing::Test {
  protected:
-  KeptBalls() : points_(scenes::uniform(4000, {20, 20, 20}, 1)), hierarchy_(params()) {
+  KeptBalls() : hierarchy_(params()) { begin_with(scenes::uniform(4000, {20, 20, 20}, 1)); }
+  void begin_with(std::vector<Vec3> points) {
+    points_ = std::move(points);
     hierarchy_.build(points_, kBox);
     hierarchy_.kept_view();
   }
@@ -35,6 +39,34 @@ class KeptBalls : public testing::Test {
             << level << ", " << node;
       }
   }
+  /// Each ball holds its points, and no block has a point outside its box.
+  void expect_covering() {
+    const detail::Structure& structure = hierarchy_.kept_view().structure();
+    const double rounding = 1e-6;  // corners are floats
+    for (std::int32_t slot = 0; slot < structure.points.size(); ++slot) {
+      if (!structure.is_alive(0, slot)) continue;
+      const Vec3 at = structure.points.position[static_cast<std::size_t>(slot)];
+      const detail::MeasuredLeaves::Corners& box = structure.balls->corners(slot / detail::kBlock);
+      std::int32_t node = structure.parent(0, slot);
+      const Vec3 offset = kBox.nearest_image(at - structure.levels[1].position[node]);
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_LE(box.low[axis], offset[axis] + rounding) << slot;
+        ASSERT_GE(box.high[axis], offset[axis] - rounding) << slot;
+      }
+      for (int level = 1; node != detail::kNone; node = structure.parent(level++, node))
+        ASSERT_LE(kBox.distance2(at, structure.position(level, node)),
+                  std::pow(structure.balls->radius(level, node) + rounding, 2))
+            << slot << " below node " << node << " of level " << level;
+    }
+  }
+  /// Removes so many points, centers among them, and inserts as many.
+  void exchange(int count) {
+    for (int k = 0; k < count; ++k) {
+      const std::int32_t id = next_++ % static_cast<std::int32_t>(points_.size());
+      if (hierarchy_.contains(id)) hierarchy_.remove(id);
+      hierarchy_.insert(random_.in_cube(10));
+    }
+  }
 
   std::vector<Vec3> points_;
   Hierarchy hierarchy_;
@@ -46,6 +78,7 @@ class KeptBalls : public testing::Test {
     return params;
   }
   scenes::Random random_{2};
+  std::int32_t next_ = 0;
 };
 
 TEST_F(KeptBalls, AreMeasuredAnewAfterMotion) {
@@ -59,6 +92,37 @@ TEST_F(KeptBalls, AreMeasuredAnewWhileARepairIsPutOffAndAfterIt) {
   ASSERT_TRUE(hierarchy_.repair_pending());
   expect_measured();
   hierarchy_.repair();
+  expect_measured();
+}
+
+TEST_F(KeptBalls, HoldTheirPointsAsPointsComeAndGo) {
+  for (int round = 0; round < 40; ++round) {
+    exchange(50);
+    expect_covering();
+  }
+}
+
+TEST_F(KeptBalls, HoldTheirPointsWhereNewNodesStand) {
+  begin_with(scenes::uniform(1000, {5, 20, 20}, 3));
+  for (const Vec3 p : scenes::uniform(1000, {15, 20, 20}, 4)) hierarchy_.insert(p + Vec3{5, 0, 0});
+  expect_covering();
+}
+
+// Balls of few points are as small as these allow.
+TEST_F(KeptBalls, HoldTheSubtreesThatFindANewParent) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    begin_with(scenes::uniform(300, {20, 20, 20}, seed));
+    for (std::int32_t id = 0; id < 250; ++id) {
+      hierarchy_.remove(id);
+      ASSERT_NO_FATAL_FAILURE(expect_covering()) << seed << ", " << id;
+    }
+  }
+}
+
+// As long as nothing asks for the leaves, balls are kept up; then all are measured at once.
+TEST_F(KeptBalls, AreMeasuredAnewWhereLeavesAre) {
+  exchange(500);
+  hierarchy_.view();
   expect_measured();
 }
 

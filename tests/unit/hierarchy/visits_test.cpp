@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "hierarchy/structure.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
@@ -71,6 +72,31 @@ TEST(Visits, InsertionIntoALargeLeafLooksAtAFewBlocks) {
   ListedHierarchy h = one_leaf_of(20'000, 0.4, 1);
   ASSERT_EQ(h.view().level(1).nodes, 1);
   EXPECT_LE(h.stats().visited, 20'000 * 20);
+}
+
+/// What an insertion into the leaf looks at.
+std::int64_t visited_by_insertion(ListedHierarchy& h) {
+  const std::int64_t before = h.stats().visited;
+  h.insert({0.1, 0.1, 0.1});
+  return h.stats().visited - before;
+}
+
+TEST(Visits, InsertionLooksAtSixteenBlocksFullOrNot) {
+  ListedHierarchy short_chain = one_leaf_of(5, 0.4, 1), full_chain = one_leaf_of(320, 0.4, 1),
+                  chain_with_room = one_leaf_of(315, 0.4, 1);
+  const std::int64_t of_one_block = visited_by_insertion(short_chain);
+  EXPECT_EQ(visited_by_insertion(full_chain), of_one_block + 15);
+  EXPECT_EQ(visited_by_insertion(chain_with_room), of_one_block + 15);
+}
+
+// Twenty full blocks stand before twenty that have lost half of their points: the chain turns past them.
+TEST(Visits, InsertionFillsBlocksBehindFullOnes) {
+  ListedHierarchy h = one_leaf_of(320, 0.4, 1);
+  ASSERT_EQ(h.view().structure().points.leaf.size(), 40u);
+  for (std::int32_t id = 2; id < 160; id += 2) h.remove(id);
+  for (int k = 0; k < 79; ++k) h.insert({0.1, 0.1, 0.1});
+  EXPECT_LE(h.view().structure().points.leaf.size(), 42u);
+  EXPECT_EQ(h.validate(), "");
 }
 
 // The center of a ball of points: its children look at the leaves near, those that come from among them too,

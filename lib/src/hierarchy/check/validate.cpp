@@ -204,7 +204,9 @@ void check_pairs(const Metric& metric, const Structure& h, int i, Verdict& verdi
   const double threshold2 = h.levels[i].threshold2;
   const double separation2 = i == 0 ? -1 : h.levels[i - 1].radius2;  // level 0 may hold coincident points
   for (std::int32_t k = 0; k < h.size(i) && i > 0; ++k)
-    verdict.require(h.is_alive(i, k) || h.levels[i].edges.row(k).empty(), i, "a dead node has edges");
+    verdict.require(
+        h.is_alive(i, k) || (h.levels[i].edges.row(k).empty() && h.levels[i].first_child[k] == kNone), i,
+        "a dead node has edges or children");
   Marks joined(h.size(i));
   std::vector<std::int32_t> row;
   // Reaches follow how far out the points are, which may have been farther when an edge was made.

@@ -72,7 +72,6 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
 /// Returns a bound on their WrapError::reach.
 double Hierarchy::Impl::take_positions(Span<const Vec3> positions, const Box& b) {
   constexpr std::size_t kAtATime = 1024;
-  raw.resize(positions.size());
   double reach = 0;
   for (std::size_t first = 0; first < positions.size(); first += kAtATime) {
     const std::size_t count = std::min(kAtATime, positions.size() - first);
@@ -201,10 +200,7 @@ bool Hierarchy::Impl::edges_are_certified(const Metric& metric) {
 void Hierarchy::Impl::allow_for_far_points() {
   if (detail::WrapError(box).bound(largest_reach) <= wrap_slack) return;
   set_wrap_slack();
-  with_metric(box, [&](const auto& metric) {
-    refresh_centers(metric);
-    repair(metric);
-  });
+  with_metric(box, [&](const auto& metric) { repair(metric); });
 }
 
 void Hierarchy::Impl::repair_if_pending() {
@@ -229,8 +225,7 @@ bool Hierarchy::Impl::repair_pays(const Metric& metric) {
 // yet.
 bool Hierarchy::Impl::exchange_pays(std::size_t particles) const {
   double near_all = 0;  // of all points in leaves, what a search near them looks at
-  for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k)) continue;
+  for (std::int32_t k = 0; k < levels[1].size(); ++k) {  // a dead node has no children
     const auto near_one = static_cast<double>(1 + levels[1].edges.row(k).size());
     for (std::int32_t block = levels[1].first_child[k]; block != kNone; block = points.next[block])
       near_all += near_one * points.count[block];

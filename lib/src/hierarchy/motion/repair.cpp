@@ -55,7 +55,7 @@ template <class Metric>
 void Hierarchy::Impl::cover_points(const Metric& metric) {
   uncovered_points.clear();
   for (std::int32_t k = 0; k < levels[1].size(); ++k) {
-    if (!levels[1].is_alive(k) || is_known_to_cover(k)) continue;
+    if (is_known_to_cover(k)) continue;  // as a dead one has no children
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
       ++stats.distances;

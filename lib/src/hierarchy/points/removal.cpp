@@ -45,7 +45,7 @@ template <class Metric>
 Hierarchy::Impl::Left Hierarchy::Impl::take_out(const Metric& metric, std::int32_t point) {
   Left left;
   left.nodes.resize(levels.size());
-  left.hint.resize(levels.size() + 1);
+  left.hint.resize(levels.size());
   const Hint lowest = lowest_node(point);
   if (is_singleton_point(point)) {
     forget_singleton(lowest.level, lowest.node);
@@ -81,7 +81,6 @@ void Hierarchy::Impl::leave_children(const Metric& metric, int level, std::int32
     stats.visited += static_cast<std::int64_t>(left.nodes[level - 1].size());
   } else {
     left.blocks = at.first_child[node];
-    at.first_child[node] = kNone;
   }
   if (level > 1 ? left.nodes[level - 1].empty() : left.blocks == kNone) return;
   // A leaf that covers a child is within 2 R_0, where an edge joins it.
