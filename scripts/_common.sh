@@ -57,8 +57,8 @@ need_packages() {
 }
 
 # configure_and_build PRESET [arguments of cmake --build ...]: leaves the build in build/PRESET.
-# In builds for tests eight sources of a library are compiled as one, in less than half the time; what users get is
-# compiled one by one, so that a source which lacks an include is found.
+# Eight sources of a library are compiled as one, in less than half the time. scripts/check-tidy compiles them one by one,
+# and finds one that lacks an include.
 configure_and_build() {
   local preset=$1 launcher=() quiet=() join=OFF
   shift
@@ -67,7 +67,7 @@ configure_and_build() {
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     export CCACHE_SLOPPINESS=pch_defines,time_macros  # without which it keeps nothing that uses precompiled headers
   fi
-  case $preset in dev | asan-ubsan | tsan) join=ON ;; esac
+  case $preset in release | dev | asan-ubsan | tsan) join=ON ;; esac
   mkdir -p build
   if ! cmake --preset "$preset" -DDCH_JOIN_SOURCES=$join "${launcher[@]}" >"build/$preset.configure.log" 2>&1; then
     cat "build/$preset.configure.log" >&2
