@@ -28,10 +28,10 @@ import mutate
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SOURCES = ROOT / "lib" / "src"
-# What is reported of memory.
-SKIPPED_FUNCTIONS = {"memory_bytes"}
+# What is reported of memory, and what only fetches ahead.
+SKIPPED_FUNCTIONS = {"memory_bytes", "ask_for"}
 # What is only measured and counted, which tests of the counts alone see, and what only saves time.
-SKIPPED_LINES = r"seconds|stats\.distances|stats\.visited|\btested\b|\bClock\b|counting|__builtin_prefetch"
+SKIPPED_LINES = r"seconds|stats\.distances|stats\.visited|\btested\b|\bClock\b|counting|__builtin_prefetch|\bask_for\b"
 
 # What is run for a file: objects of test programs, and which of their tests, stage by stage.
 HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
