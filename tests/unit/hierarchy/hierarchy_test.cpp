@@ -15,6 +15,7 @@
 #include "geometry/position_check.hpp"
 #include "hierarchy/structure.hpp"
 #include "hierarchy_test_access.hpp"
+#include "list_params.hpp"
 #include "listed_hierarchy.hpp"
 #include "scenes.hpp"
 
@@ -24,13 +25,6 @@ namespace {
 StructureParams with_radius(double radius) {
   StructureParams params;
   params.radius = radius;
-  return params;
-}
-
-ListParams list_of(double cutoff, ListKind kind = ListKind::half) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(cutoff);
-  params.kind = kind;
   return params;
 }
 
@@ -145,8 +139,8 @@ TEST(HierarchyTest, RefusesListsBeyondItsRadius) {
   ListedHierarchy h(with_radius(1));
   h.build(scenes::uniform(100, {8, 8, 8}, 1), Box::none());
   NeighborList list;
-  EXPECT_THROW(h.list(list_of(1.1), list), InvalidParameter);
-  ListParams params = list_of(0.9);
+  EXPECT_THROW(h.list(within(1.1), list), InvalidParameter);
+  ListParams params = within(0.9);
   params.skin = 0.2;
   EXPECT_THROW(h.list(params, list), InvalidParameter);
   params.skin = 0.1;
@@ -160,7 +154,7 @@ TEST(HierarchyTest, EmptyAndTinySetsWork) {
     EXPECT_EQ(h.size(), n);
     EXPECT_EQ(h.validate(), "") << n;
     NeighborList list;
-    h.list(list_of(1), list);
+    h.list(within(1), list);
     EXPECT_EQ(list.size(), n);
   }
 }
@@ -197,7 +191,7 @@ TEST(HierarchyTest, NeighborsOfLevelZeroAreTheFullList) {
   ListedHierarchy h(with_radius(1.3));
   h.build(points, box);
   NeighborList list;
-  h.list(list_of(1.3, ListKind::full), list);
+  h.list(within(1.3, ListKind::full), list);
   for (std::int32_t i = 0; i < 300; ++i) {
     const auto row = list.row(i);
     EXPECT_EQ(h.neighbors(i, 0), std::vector<std::int32_t>(row.begin(), row.end())) << i;
@@ -258,7 +252,7 @@ TEST(HierarchyTest, MemoryDoesNotGrowWithTheBox) {
     for (const Vec3 f : scenes::uniform(400, {1, 1, 1}, 4)) points.push_back(width * f);
     h.build(points, Box::orthorhombic({width, width, width}));
     NeighborList list;
-    h.list(list_of(1), list);
+    h.list(within(1), list);
     return static_cast<double>(h.stats().memory_bytes);
   };
   const double narrow = bytes_in(200);
@@ -275,8 +269,8 @@ TEST(HierarchyTest, RenumberingKeepsTheStructure) {
   std::reverse(points.begin(), points.end());
   EXPECT_EQ(h.validate(), "");
   NeighborList list;
-  h.list(list_of(1), list);
-  EXPECT_EQ(list.j, all_pairs(points, Box::none(), list_of(1)).j);
+  h.list(within(1), list);
+  EXPECT_EQ(list.j, all_pairs(points, Box::none(), within(1)).j);
 
   reversed[7] = reversed[8];
   EXPECT_THROW(h.renumber(reversed), InvalidParameter);
@@ -330,8 +324,8 @@ TEST(HierarchyTest, RepairIsPutOffWhileTheEdgesAreCertified) {
   EXPECT_EQ(h.stats().repairs, 0);
   EXPECT_EQ(h.validate(), "");
   NeighborList list;
-  h.list(list_of(1), list);
-  EXPECT_EQ(list.j, all_pairs(points, box, list_of(1)).j);
+  h.list(within(1), list);
+  EXPECT_EQ(list.j, all_pairs(points, box, within(1)).j);
 
   h.repair();
   EXPECT_FALSE(h.repair_pending());

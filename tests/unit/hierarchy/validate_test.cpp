@@ -87,6 +87,15 @@ TEST_F(ValidateTest, ReportsABrokenListOfChildren) {
   expect_report("children");
 }
 
+TEST_F(ValidateTest, ReportsADeadNodeWithChildren) {
+  auto& level = inside().levels[1];
+  const std::int32_t dead = level.add(detail::kNone, {});
+  level.retire(dead);
+  ASSERT_EQ(hierarchy_.validate(), "");
+  level.first_child[dead] = level.first_child[plain_node(1)];
+  expect_report("a dead node has edges or children");
+}
+
 TEST_F(ValidateTest, ReportsANodeWithoutAParent) {
   inside().detach(1, plain_node(1));
   expect_report("has no parent");
