@@ -37,6 +37,15 @@ function(dch_target_defaults target)
   endif()
 endfunction()
 
+# dch_count_lines(<target>)
+#   With DCH_COUNT_LINES what runs of the target is counted, on several threads too, and not of what tests it.
+function(dch_count_lines target)
+  if(DCH_COUNT_LINES)
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+    target_link_options(${target} PUBLIC --coverage)
+  endif()
+endfunction()
+
 # dch_join_sources(<target>)
 #   With DCH_JOIN_SOURCES eight sources are compiled as one. Then a type of one of them looks like that of a header, and
 #   GCC 12 inlines so much more that it warns wrongly about elements of std::initializer_list. A name that two sources of

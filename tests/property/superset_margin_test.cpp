@@ -9,6 +9,7 @@
 
 #include <dch/lists/all_pairs.hpp>
 
+#include "effort.hpp"
 #include "geometry/position_check.hpp"
 #include "size_models.hpp"
 
@@ -83,18 +84,18 @@ class Supersets : public ::testing::TestWithParam<scenes::NamedBox> {};
 
 TEST_P(Supersets, LackNoPairAndKeepToTheirMargin) {
   const Box box = GetParam().box;
-  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, 400, 0.6)) {
+  for (const scenes::NamedPoints& scene : scenes::hard_point_sets(box, effort(400), 0.6)) {
     for (const SizeModel& model : size_models(scene.points.size())) {
+      ListParams params = model.params();
+      const NeighborList least = all_pairs(scene.points, box, params);
+      params.superset = true;
       for (const Engine engine : kEngines) {
         const auto search = search_with(engine);
         search->update(scene.points, box);
-        ListParams params = model.params();
-        params.superset = true;
         const NeighborList list = search->list(params);
         ASSERT_GE(list.margin, 0);
         ASSERT_LE(list.margin, largest_margin(*search, model, scene.points, box))
             << scene.name << ", " << model.name << text(engine);
-        const NeighborList least = all_pairs(scene.points, box, params);
         for (std::size_t i = 0; i < scene.points.size(); ++i) {
           const auto row = list.row(i), needed = least.row(i);
           ASSERT_TRUE(std::includes(row.begin(), row.end(), needed.begin(), needed.end()))
