@@ -122,8 +122,14 @@ double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
   return std::max(now_, start + time_to_contact(apart, velocity, sum * scale_at(start), sum * growth_));
 }
 
+/// Has the flights of partners on their way before the first one is needed.
+void SphereEngine::fetch(const std::vector<std::int32_t>& row) const {
+  for (const std::int32_t other : row) __builtin_prefetch(&sphere(other));
+}
+
 /// What is next for a sphere, with its tracked pairs as they are.
 void SphereEngine::predict(std::int32_t id) {
+  fetch(rows_.of(id));
   Due next{exits_[static_cast<std::size_t>(id)], {id, -1}};
   for (const std::int32_t other : rows_.of(id)) {
     const Due due{contact_time(id, other), {id, other}};
@@ -135,6 +141,7 @@ void SphereEngine::predict(std::int32_t id) {
 
 /// The same for a sphere with a new flight, which its partners are told.
 void SphereEngine::predict_changed(std::int32_t id) {
+  fetch(rows_.of(id));
   Due next{exits_[static_cast<std::size_t>(id)], {id, -1}};
   for (const std::int32_t other : rows_.of(id)) {
     const double time = contact_time(id, other);

@@ -60,6 +60,7 @@ class SphereEngine {
 
   void check_overlap(std::int32_t id) const;
   double contact_time(std::int32_t a, std::int32_t b);
+  void fetch(const std::vector<std::int32_t>& row) const;
   void predict(std::int32_t id);
   void predict_changed(std::int32_t id);
   void tell_partner(std::int32_t partner, std::int32_t id, double time);
