@@ -161,6 +161,18 @@ TEST_P(SearchFaults, TheNextListIsRight) {
   }
 }
 
+/// Pieces that memory did not suffice for leave the particles as they were, for the next list.
+TEST_P(SearchFaults, AListAfterPiecesThatThrewIsRight) {
+  expect_sound(sweep([&] { return used(false); },
+                     [&](const std::unique_ptr<PairSearch>& search) {
+                       search->list_in_pieces(first_.asked.request, [](const NeighborList&) {});
+                     },
+                     [&](const std::unique_ptr<PairSearch>& search, Ending ending) {
+                       return after(ending, difference(*search, first_));
+                     }),
+               1);
+}
+
 /// A list for other sizes that threw must not be taken for one that was made.
 TEST_P(SearchFaults, AnUpdateAfterAListThatThrewIsRight) {
   Asked even;

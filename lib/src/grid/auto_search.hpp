@@ -26,6 +26,11 @@ class AutoSearch final : public PairSearch {
     choose(requests);
     engine().lists(requests, out);
   }
+  void list_in_pieces(const ListParams& params,
+                      const std::function<void(const NeighborList&)>& use) override {
+    choose({&params, 1});
+    engine().list_in_pieces(params, use);
+  }
   using PairSearch::list;
   using PairSearch::lists;
   void cluster_pairs(const ListParams& params, ClusterPairs& out) override;

@@ -8,9 +8,36 @@
 
 namespace dch::detail {
 
+namespace {
+
+/// Pairs of a piece, about: few enough to stay in a cache until they are looked at.
+constexpr std::int64_t kPairsOfPiece = 1 << 14;
+
+}  // namespace
+
 void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>& filters,
                     const std::vector<NeighborList*>& out) {
   for (NeighborList* list : out) start_rows(*list);
+  append(scene, filters, out, [](const std::vector<RowRequest>&, NeighborList*) {});
+}
+
+void GridRows::find_in_pieces(const GridScene& scene, const PairFilter& filter,
+                              const std::function<void(const NeighborList&)>& use) {
+  NeighborList piece;
+  start_rows(piece);
+  append(scene, {&filter}, {&piece}, [&](const std::vector<RowRequest>& requests, NeighborList* list) {
+    if (list->first.back() < kPairsOfPiece) return;
+    const double margin = filter.params().superset ? requests.front().limits.margin : 0;
+    list->margin = margin;
+    use(*list);
+    start_rows(*list);
+    list->margin = margin;
+  });
+  if (piece.size() > 0) use(piece);  // what was left of all threads
+}
+
+void GridRows::append(const GridScene& scene, const std::vector<const PairFilter*>& filters,
+                      const std::vector<NeighborList*>& out, const Appended& appended) {
   const ListParams& params = filters.front()->params();
   const ParticleLabels labels{filters.front()->by(), params.radii, params.types, params.first_ghost};
   const Vec3 origin = scene.positions.empty() ? Vec3{} : scene.box.wrap(scene.positions[0]);
@@ -45,11 +72,13 @@ void GridRows::find(const GridScene& scene, const std::vector<const PairFilter*>
                 [&](CellCandidates& near, RowFinder& finder, NeighborList* lists, int share, int shares) {
                   const std::int32_t last =
                       share + 1 == shares ? rows.cells() : rows.first_cell_of_share(share + 1, shares);
-                  for (std::int32_t cell = rows.first_cell_of_share(share, shares); cell < last; ++cell)
+                  for (std::int32_t cell = rows.first_cell_of_share(share, shares); cell < last; ++cell) {
                     near.for_each_part(
                         cells, cell, [&](const OwnBlocks& own, const Candidates& around, std::int32_t count) {
                           finder.append_rows(cells.requests, own, around, count, lists);
                         });
+                    appended(cells.requests, lists);
+                  }
                 });
   }
 }

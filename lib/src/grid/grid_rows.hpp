@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <dch/base/executor.hpp>
@@ -13,6 +14,7 @@
 #include "grid/cell_layer.hpp"
 #include "lists/pair_filter.hpp"
 #include "lists/row_parts.hpp"
+#include "lists/row_request.hpp"
 
 namespace dch::detail {
 
@@ -38,9 +40,17 @@ class GridRows {
   /// Finds all pairs that each filter accepts, as FindRows says.
   void find(const GridScene& scene, const std::vector<const PairFilter*>& filters,
             const std::vector<NeighborList*>& out);
+  /// The same for one filter in pieces, each of which use() gets on the thread that found it.
+  void find_in_pieces(const GridScene& scene, const PairFilter& filter,
+                      const std::function<void(const NeighborList&)>& use);
   std::size_t memory_bytes() const { return parts_.memory_bytes(); }
 
  private:
+  /// Called when the rows of a cell have been appended to lists, one for each request.
+  using Appended = std::function<void(const std::vector<RowRequest>& requests, NeighborList* lists)>;
+  void append(const GridScene& scene, const std::vector<const PairFilter*>& filters,
+              const std::vector<NeighborList*>& out, const Appended& appended);
+
   RowParts<CellCandidates> parts_;
 };
 

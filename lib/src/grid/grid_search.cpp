@@ -62,10 +62,30 @@ void GridSearch::clear() {
   has_plain_ = false;
 }
 
+std::vector<Vec3> GridSearch::give_back() {
+  std::vector<Vec3> positions = std::move(positions_);
+  positions_.clear();
+  has_plain_ = false;
+  for (Group& group : groups_) group.reach = group.started = 0;
+  return positions;
+}
+
 void GridSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  update_by([&] { take(positions, box, keys); });
+}
+
+void GridSearch::take_over(std::vector<Vec3> positions, const Box& box) {
+  update_by([&] {
+    positions_ = std::move(positions);
+    take(positions_, box, {});
+  });
+}
+
+template <class Take>
+void GridSearch::update_by(const Take& take) {
   const auto start = Clock::now();
   try {
-    take(positions, box, keys);
+    take();
   } catch (...) {
     clear();
     throw;
@@ -106,6 +126,12 @@ GridSearch::Reach GridSearch::prepare(Span<const ListParams> requests) {
   return {error, in_cells};
 }
 
+GridScene GridSearch::scene_of(double error) {
+  GridScene scene{positions_, box_, {}, classes_.reach, error, executor_};
+  for (Group& group : groups_) scene.layers.push_back(&group.layer);
+  return scene;
+}
+
 void GridSearch::make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out) {
   if (requests.empty()) return;
   for (const ListParams& request : requests) check_list_params(request, positions_.size(), radius_);
@@ -114,13 +140,25 @@ void GridSearch::make_lists(Span<const ListParams> requests, const std::vector<N
     const auto listing = Clock::now();
     const auto find_rows = [&, error = error, in_cells = in_cells](const auto& filters, const auto& lists) {
       if (!in_cells) return find_plainly(error, filters, lists);
-      GridScene scene{positions_, box_, {}, classes_.reach, error, executor_};
-      for (Group& group : groups_) scene.layers.push_back(&group.layer);
-      rows_.find(scene, filters, lists);
+      rows_.find(scene_of(error), filters, lists);
     };
     list_finder_.find({positions_, box_, error}, requests, find_rows, out);
     stats_.list_seconds += seconds_since(listing);
   });
+}
+
+void GridSearch::list_in_pieces(const ListParams& params,
+                                const std::function<void(const NeighborList&)>& use) {
+  check_list_params(params, positions_.size(), radius_);
+  const auto [error, in_cells] = prepare({&params, 1});
+  const PairFilter filter(positions_, box_, params, error);
+  if (in_cells) {
+    rows_.find_in_pieces(scene_of(error), filter, use);
+  } else {
+    NeighborList all;
+    find_plainly(error, {&filter}, {&all});
+    use(all);
+  }
 }
 
 std::optional<Occupancy> GridSearch::occupancy_for(Span<const ListParams> requests) {

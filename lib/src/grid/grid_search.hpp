@@ -32,6 +32,7 @@ class GridSearch final : public PairSearch {
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
   void list(const ListParams& params, NeighborList& out) override { make_lists({&params, 1}, {&out}); }
   void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
+  void list_in_pieces(const ListParams& params, const std::function<void(const NeighborList&)>& use) override;
   using PairSearch::list;
   using PairSearch::lists;
   const SearchStats& stats() const override;
@@ -39,6 +40,10 @@ class GridSearch final : public PairSearch {
 
   /// Forgets all particles, and keeps no memory of them.
   void clear();
+  /// As update(), but the positions are taken over instead of copied.
+  void take_over(std::vector<Vec3> positions, const Box& box);
+  /// Forgets all particles, and gives the array of their positions away.
+  std::vector<Vec3> give_back();
   /// Those of the last update.
   Span<const Vec3> positions() const { return positions_; }
   const Box& box() const { return box_; }
@@ -61,12 +66,15 @@ class GridSearch final : public PairSearch {
     } last;
   };
 
+  template <class Take>
+  void update_by(const Take& take);
   void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
   struct Reach {
     double error;   ///< how far distances may be from pair distances [length]
     bool in_cells;  ///< whether pairs can be found in cells
   };
   Reach prepare(Span<const ListParams> requests);
+  GridScene scene_of(double error);
   void make_lists(Span<const ListParams> requests, const std::vector<NeighborList*>& out);
   double take_and_check(Span<const Vec3> positions, const PositionCheck& check);
   std::optional<CellBins> start_cells(Group& group, Span<const Vec3> positions, double reach, double own);

@@ -60,7 +60,8 @@ double GridSearch::take_and_check(Span<const Vec3> positions, const PositionChec
     for (std::size_t at = begin; at < end; at += kPiece) {
       const Span<const Vec3> piece(positions.data() + at, std::min(kPiece, end - at));
       const std::optional<double> of_piece = check.reach_by_box(piece);
-      std::copy(piece.begin(), piece.end(), positions_.data() + at);
+      if (piece.data() != positions_.data() + at)
+        std::copy(piece.begin(), piece.end(), positions_.data() + at);
       checked = checked && of_piece;
       if (!checked) continue;  // positions that are refused are in no cell
       reach = std::max(reach, *of_piece);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,6 +58,14 @@ class PairSearch {
     lists(requests, out);
     return out;
   }
+
+  /// The pairs of list(params), each once, in pieces: for callers who look at each pair and keep none of
+  /// them. Calls use(piece) with half lists, unsorted, each of which holds until use() returns; params.kind
+  /// and params.order have no meaning here. A pair stands in the row of either particle, ghost or not. Which
+  /// pairs a piece has depends on the engine and its threads. Engines that make rows on several threads call
+  /// use() on several at once; the grid never holds more than a piece a thread, other engines a whole list.
+  /// @throws as list(), and what use() throws.
+  virtual void list_in_pieces(const ListParams& params, const std::function<void(const NeighborList&)>& use);
 
   /// The pairs within the list radius for SIMD force kernels, at the positions of the last update: whatever
   /// their types or radii, all of them, except those with a cutoff of 0; params.kind and params.order have no
