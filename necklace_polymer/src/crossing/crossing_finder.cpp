@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <dch/necklace/crossings.hpp>
 
 #include "crossing/directed_bonds.hpp"
+#include "crossing/near_midpoints.hpp"
 #include "crossing/pair_tests.hpp"
 #include "geometry/position_check.hpp"
 
@@ -66,9 +68,10 @@ class CrossingFinder::Impl {
     }
     result_ = StepCrossings();
     const detail::StepMotion motion(before_, box_, positions, box);
-    measure(motion);
-    near_.update(centers_, radii_, motion.middle_box());
-    search({motion, bonds_.bonds, centers_, radii_, bonds_.on_chains, params_.thickness});
+    std::vector<Vec3> centers = measure(motion);
+    near_.update(std::move(centers), bounds_, motion.middle_box());
+    search({motion, bonds_.bonds, near_.centers(), bounds_, near_.largest(), bonds_.on_chains,
+            params_.thickness});
     std::copy(positions.begin(), positions.end(), before_.begin());
     box_ = box;
     is_new_.clear();
@@ -77,7 +80,7 @@ class CrossingFinder::Impl {
   }
 
   std::size_t memory_bytes() const {
-    return (before_.capacity() + centers_.capacity()) * sizeof(Vec3) + radii_.capacity() * sizeof(float) +
+    return before_.capacity() * sizeof(Vec3) + bounds_.capacity() * sizeof(detail::SweepBounds) +
            bonds_.bonds.capacity() * sizeof(IndexPair) + is_new_.capacity() / 8 + near_.memory_bytes();
   }
 
@@ -91,17 +94,18 @@ class CrossingFinder::Impl {
     dch::detail::check_positions(positions, box);
   }
 
-  /// Centers and radii of the sweeps, and which bonds are left out.
-  void measure(const detail::StepMotion& motion) {
+  /// Bounds of the sweeps, and which bonds are left out. Returns the sweeps' centers.
+  std::vector<Vec3> measure(const detail::StepMotion& motion) {
     const std::size_t count = bonds_.bonds.size();
     result_.stats.bonds = static_cast<std::int64_t>(count);
-    centers_.resize(count);
-    radii_.resize(count);
+    std::vector<Vec3> centers = near_.give_back();
+    centers.resize(count);
+    bounds_.resize(count);
     for_ranges(params_.executor, count, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) measure(motion, k);
+      for (std::size_t k = first; k < last; ++k) centers[k] = measure(motion, k);
     });
     for (std::size_t k = 0; k < count; ++k) {
-      if (!(radii_[k] < 0)) continue;
+      if (!bounds_[k].is_left_out()) continue;
       if (!is_new_.empty() && is_new_[k]) {
         ++result_.started;
         continue;
@@ -111,38 +115,43 @@ class CrossingFinder::Impl {
                                       step.beads_determined ? UndeterminedBond::Reason::bond_too_long
                                                             : UndeterminedBond::Reason::bead_moved_too_far});
     }
+    return centers;
   }
 
-  void measure(const detail::StepMotion& motion, std::size_t k) {
+  Vec3 measure(const detail::StepMotion& motion, std::size_t k) {
     const detail::BondStep step = motion.bond(bonds_.bonds[k]);
     const detail::BondSweep sweep(step.ends);
-    centers_[k] = sweep.center;
-    const bool is_left_out =
-        !step.beads_determined || !step.bond_determined || (!is_new_.empty() && is_new_[k]);
+    if (!step.beads_determined || !step.bond_determined || (!is_new_.empty() && is_new_[k])) {
+      bounds_[k] = {};
+      return sweep.center;
+    }
     // Rounded up: to single precision, and by what the ends and an image of the center are off.
-    radii_[k] = is_left_out ? -1.0F
-                            : static_cast<float>((sweep.radius() + 0.5 * params_.thickness +
-                                                  64 * detail::kEndError * step.magnitude) *
-                                                 (1 + 1e-6));
+    const double radius = sweep.radius();
+    const double more = 0.5 * params_.thickness + 64 * detail::kEndError * step.magnitude;
+    const double rounding = 1e-6 * (radius + more);
+    const auto up = [&](double size) { return static_cast<float>(size + more + rounding); };
+    const Vec3 half = sweep.half_widths();
+    bounds_[k] = {up(radius), {up(half.x), up(half.y), up(half.z)}};
+    return sweep.center;
   }
 
   void search(const detail::StepScene& scene) {
-    const std::size_t wide = near_.wide().size();
-    result_.stats.wide = static_cast<std::int64_t>(wide);
-    const int parts = params_.executor ? params_.executor->threads() : 1;
-    std::vector<detail::PairTests> tests(static_cast<std::size_t>(parts), detail::PairTests(scene));
-    const auto part = [&](int k) {
-      detail::PairTests& own = tests[static_cast<std::size_t>(k)];
-      own.take_rows(near_, share_begin(near_.rows(), k, parts), share_begin(near_.rows(), k + 1, parts));
-      for (std::size_t n = share_begin(wide, k, parts); n < share_begin(wide, k + 1, parts); ++n)
-        own.take_wide(near_, near_.wide()[n]);
+    const std::vector<std::int32_t>& wide = near_.wide();
+    result_.stats.wide = static_cast<std::int64_t>(wide.size());
+    std::mutex mutex;
+    const auto test = [&](const auto& take) {
+      detail::PairTests tests(scene);
+      take(tests);
+      const std::lock_guard<std::mutex> lock(mutex);
+      gather(tests.found);
     };
-    if (parts == 1) {
-      part(0);
-    } else {
-      params_.executor->run(parts, part);
-    }
-    for (const detail::PairTests& own : tests) gather(own.found);
+    near_.for_each_piece(
+        [&](const NeighborList& piece) { test([&](detail::PairTests& tests) { tests.take_piece(piece); }); });
+    for_ranges(params_.executor, wide.size(), [&](std::size_t first, std::size_t last) {
+      test([&](detail::PairTests& tests) {
+        for (std::size_t n = first; n < last; ++n) tests.take_wide(wide[n]);
+      });
+    });
     std::sort(result_.crossings.begin(), result_.crossings.end(), [](const auto& a, const auto& b) {
       return std::tuple(a.p, a.q, a.time) < std::tuple(b.p, b.q, b.time);
     });
@@ -165,8 +174,7 @@ class CrossingFinder::Impl {
   std::vector<Vec3> before_;
   Box box_;
   std::vector<bool> is_new_;  ///< by bond; empty if none is
-  std::vector<Vec3> centers_;
-  std::vector<float> radii_;
+  std::vector<detail::SweepBounds> bounds_;
   StepCrossings result_;
 };
 

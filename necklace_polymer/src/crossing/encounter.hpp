@@ -21,6 +21,14 @@ struct BondSweep {
     return std::sqrt(norm2(along)) + std::sqrt(norm2(motion)) + std::sqrt(norm2(twist));
   }
 
+  /// Of an axis-parallel box around the center that holds it at all times.
+  Vec3 half_widths() const {
+    const auto along_axis = [&](int axis) {
+      return std::abs(along[axis]) + std::abs(motion[axis]) + std::abs(twist[axis]);
+    };
+    return {along_axis(0), along_axis(1), along_axis(2)};
+  }
+
   Vec3 center;
   Vec3 along;   ///< b/2 + w/4
   Vec3 motion;  ///< m/2

@@ -2,8 +2,7 @@
 #include "crossing/near_midpoints.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <utility>
 
 namespace dch::necklace::detail {
 namespace {
@@ -18,42 +17,44 @@ constexpr double kReserve = 1.1;
 
 }  // namespace
 
-void NearMidpoints::choose_reach(Span<const float> radii, const Box& box) {
-  const auto few = kFewestWide + static_cast<std::size_t>(kWideShare * static_cast<double>(radii.size()));
-  std::vector<float> top(std::min(few + 1, radii.size()));
-  std::partial_sort_copy(radii.begin(), radii.end(), top.begin(), top.end(), std::greater<>());
-  largest_ = top.empty() ? 0 : std::max(top.front(), 0.0F);
-  if (!top.empty() && top.back() > 0 && top.back() < kWorthwhile * largest_) largest_ = top.back();
+void NearMidpoints::choose_reach(Span<const SweepBounds> bounds, const Box& box) {
+  const auto few = kFewestWide + static_cast<std::size_t>(kWideShare * static_cast<double>(bounds.size()));
+  std::vector<SweepBounds> top(std::min(few + 1, bounds.size()));
+  std::partial_sort_copy(bounds.begin(), bounds.end(), top.begin(), top.end(),
+                         [](const SweepBounds& a, const SweepBounds& b) { return a.radius > b.radius; });
+  largest_ = top.empty() ? 0 : std::max(top.front().radius, 0.0F);
+  if (!top.empty() && top.back().radius > 0 && top.back().radius < kWorthwhile * largest_)
+    largest_ = top.back().radius;
   // Beyond half the smallest height a list would have to hold several images.
   const double limit = 0.5 * box.max_cutoff();
   if (largest_ > limit) largest_ = static_cast<float>(limit * (1 - 1e-6));
   wide_.clear();
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    if (is_wide(radii[k])) wide_.push_back(static_cast<std::int32_t>(k));
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    if (bounds[k].radius > largest_) wide_.push_back(static_cast<std::int32_t>(k));
   }
 }
 
-void NearMidpoints::update(Span<const Vec3> centers, Span<const float> radii, const Box& box) {
-  choose_reach(radii, box);
-  const double reach = std::clamp(2.0 * static_cast<double>(largest_) * (1 + 1e-6), kMinListRadius,
-                                  std::min(kMaxListRadius, box.max_cutoff()));
-  if (!search_ || reach > search_radius_ || search_radius_ > box.max_cutoff() ||
-      reach < search_radius_ / (kReserve * kReserve)) {
-    const double radius = std::min({kReserve * reach, kMaxListRadius, box.max_cutoff()});
-    search_ = make_grid_search(radius, executor_);
-    search_radius_ = radius;
+void NearMidpoints::update(std::vector<Vec3> centers, Span<const SweepBounds> bounds, const Box& box) {
+  choose_reach(bounds, box);
+  reach_ = std::clamp(2.0 * static_cast<double>(largest_) * (1 + 1e-6), kMinListRadius,
+                      std::min(kMaxListRadius, box.max_cutoff()));
+  if (!search_ || reach_ > search_radius_ || search_radius_ > box.max_cutoff() ||
+      reach_ < search_radius_ / (kReserve * kReserve)) {
+    search_radius_ = std::min({kReserve * reach_, kMaxListRadius, box.max_cutoff()});
+    search_.emplace(search_radius_, executor_);
   }
-  search_->update(centers, box);
+  search_->take_over(std::move(centers), box);
+}
+
+void NearMidpoints::for_each_piece(const std::function<void(const NeighborList&)>& use) {
   ListParams request;
-  request.cutoffs = TypeCutoffs(reach);
-  request.order = RowOrder::by_structure;
+  request.cutoffs = TypeCutoffs(reach_);
   request.superset = true;
-  search_->list(request, list_);
+  search_->list_in_pieces(request, use);
 }
 
 std::size_t NearMidpoints::memory_bytes() const {
-  return list_.j.capacity() * sizeof(std::int32_t) + list_.particle.capacity() * sizeof(std::int32_t) +
-         list_.first.capacity() * sizeof(std::int64_t) + wide_.capacity() * sizeof(std::int32_t);
+  return (search_ ? search_->stats().memory_bytes : 0) + wide_.capacity() * sizeof(std::int32_t);
 }
 
 }  // namespace dch::necklace::detail

@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include <dch/base/executor.hpp>
 #include <dch/base/span.hpp>
-#include <dch/engines/pair_search.hpp>
 #include <dch/geometry/box.hpp>
+
+#include "crossing/sweep_bounds.hpp"
+#include "grid/grid_search.hpp"
 
 namespace dch::necklace::detail {
 
@@ -21,32 +23,32 @@ class NearMidpoints {
  public:
   explicit NearMidpoints(Executor* executor) : executor_(executor) {}
 
+  /// An array for centers, that of the last update() if there was one.
+  std::vector<Vec3> give_back() { return search_ ? search_->give_back() : std::vector<Vec3>(); }
   /// Balls of a negative radius are left out.
+  /// @param centers are taken over: there is no other array of them
   /// @throws InvalidPosition
-  void update(Span<const Vec3> centers, Span<const float> radii, const Box& box);
+  void update(std::vector<Vec3> centers, Span<const SweepBounds> bounds, const Box& box);
 
-  /// How many rows there are; row k has its owner and its near partners. Those of pairs with a wide ball mean
-  /// nothing.
-  std::size_t rows() const { return list_.size(); }
-  std::int32_t owner(std::size_t row) const {
-    return list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
-  }
-  Span<const std::int32_t> partners(std::size_t row) const { return list_.row(row); }
+  Span<const Vec3> centers() const { return search_->positions(); }
+  /// Calls use() with pieces of the near pairs, on the executor's threads. Those of pairs with a wide ball
+  /// mean nothing.
+  void for_each_piece(const std::function<void(const NeighborList&)>& use);
 
-  bool is_wide(float radius) const { return radius > largest_; }
+  /// No ball that is searched for is larger.
+  float largest() const { return largest_; }
   const std::vector<std::int32_t>& wide() const { return wide_; }
 
   std::size_t memory_bytes() const;
 
  private:
-  void choose_reach(Span<const float> radii, const Box& box);
+  void choose_reach(Span<const SweepBounds> bounds, const Box& box);
 
   Executor* executor_;
-  std::unique_ptr<PairSearch> search_;
-  double search_radius_ = 0;
-  float largest_ = 0;  ///< no ball that is searched for is larger
+  std::optional<dch::detail::GridSearch> search_;
+  double search_radius_ = 0, reach_ = 0;
+  float largest_ = 0;
   std::vector<std::int32_t> wide_;
-  NeighborList list_;
 };
 
 }  // namespace dch::necklace::detail

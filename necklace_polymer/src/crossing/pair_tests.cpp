@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace dch::necklace::detail {
+namespace {
+
+constexpr std::int64_t kAhead = 16;    ///< pairs whose bonds, in no cache, are asked for before their turn
+constexpr std::size_t kTogether = 64;  ///< pairs, about, whose beads are asked for together
+
+}  // namespace
 
 bool PairTests::share_bead(std::int32_t a, std::int32_t b) const {
   const IndexPair p = scene_.bonds[static_cast<std::size_t>(a)],
@@ -12,45 +18,66 @@ bool PairTests::share_bead(std::int32_t a, std::int32_t b) const {
   return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
 }
 
-void PairTests::take_rows(const NearMidpoints& near, std::size_t first, std::size_t last) {
-  const Box& box = scene_.motion.middle_box();
-  for (std::size_t row = first; row < last; ++row) {
-    const std::int32_t owner = near.owner(row);
-    if (radius(owner) < 0 || near.is_wide(radius(owner))) continue;
-    std::optional<Bond> own;  // made when a partner passes the balls
-    for (const std::int32_t partner : near.partners(row)) {
-      if (radius(partner) < 0 || near.is_wide(radius(partner))) continue;
-      const std::int32_t p = std::min(owner, partner), q = std::max(owner, partner);
-      const Vec3 between = box.nearest_image(center(q) - center(p));
-      const double reach = static_cast<double>(radius(p)) + static_cast<double>(radius(q));
-      if (norm2(between) > reach * reach) {  // never of bonds that share a bead
-        ++found.stats.near_pairs;
-        ++found.stats.by_ball;
-        continue;
-      }
-      if (share_bead(owner, partner)) continue;
-      ++found.stats.near_pairs;
-      if (!own) own = bond_at(owner);
-      const Bond other = bond_at(partner);
-      if (owner == p) {
-        take(*own, other, between);
-      } else {
-        take(other, *own, between);
-      }
+void PairTests::take_piece(const NeighborList& piece) {
+  const std::int64_t last = piece.first.back() - 1;
+  for (std::size_t row = 0; row < piece.size(); ++row) {
+    const std::int32_t owner = piece.particle.empty() ? static_cast<std::int32_t>(row) : piece.particle[row];
+    for (std::int64_t k = piece.first[row]; k < piece.first[row + 1]; ++k) {
+      ask_for(piece.j[static_cast<std::size_t>(std::min(k + kAhead, last))]);
+      meet(owner, piece.j[static_cast<std::size_t>(k)]);
     }
+    if (met_.size() >= kTogether) take_met();
   }
+  take_met();
 }
 
-void PairTests::take_wide(const NearMidpoints& near, std::int32_t bond) {
+void PairTests::ask_for(std::int32_t bond) const {
+  __builtin_prefetch(&bounds(bond));
+  __builtin_prefetch(&scene_.centers[static_cast<std::size_t>(bond)]);
+}
+
+/// Keeps a near pair for take_met() unless it is rejected at once.
+void PairTests::meet(std::int32_t owner, std::int32_t partner) {
+  if (is_left_out(owner) || is_left_out(partner)) return;
+  const Vec3 between = scene_.motion.middle_box().nearest_image(center(partner) - center(owner));
+  if (rejects(owner, partner, between)) return;  // none that share a bead
+  met_.push_back({owner, partner, between});
+  __builtin_prefetch(&scene_.bonds[static_cast<std::size_t>(partner)]);
+}
+
+/// Beads of many bonds stand in no cache. So all are asked for before the first is looked at.
+void PairTests::take_met() {
+  const auto bonded = [&](const Met& pair) { return share_bead(pair.owner, pair.partner); };
+  met_.erase(std::remove_if(met_.begin(), met_.end(), bonded), met_.end());
+  for (const Met& pair : met_) {
+    scene_.motion.ask_for(scene_.bonds[static_cast<std::size_t>(pair.owner)]);
+    scene_.motion.ask_for(scene_.bonds[static_cast<std::size_t>(pair.partner)]);
+  }
+  std::optional<Bond> own;
+  for (const Met& pair : met_) {
+    ++found.stats.near_pairs;
+    if (!own || own->index != pair.owner) own = bond_at(pair.owner);
+    take_either(*own, bond_at(pair.partner), pair.between);
+  }
+  met_.clear();
+}
+
+bool PairTests::rejects(std::int32_t p, std::int32_t q, Vec3 between) {
+  const bool by_ball = is_apart_by_ball(bounds(p), bounds(q), between);
+  if (!by_ball && !is_apart_by_bounds(bounds(p), bounds(q), between)) return false;
+  ++found.stats.near_pairs;
+  ++(by_ball ? found.stats.by_ball : found.stats.by_box);
+  return true;
+}
+
+void PairTests::take_wide(std::int32_t bond) {
   const Box& box = scene_.motion.middle_box();
   const Bond own = bond_at(bond);
   for (std::int32_t other = 0; static_cast<std::size_t>(other) < scene_.bonds.size(); ++other) {
     // Of two wide bonds that of the lower number takes the pair.
-    if (radius(other) < 0 || (near.is_wide(radius(other)) && other <= bond) || share_bead(bond, other))
-      continue;
-    const std::int32_t p = std::min(bond, other), q = std::max(bond, other);
-    const Vec3 nearest = box.nearest_image(center(q) - center(p));
-    const double reach = static_cast<double>(radius(p)) + static_cast<double>(radius(q));
+    if (bounds(other).is_left_out() || (is_wide(other) && other <= bond) || share_bead(bond, other)) continue;
+    const Vec3 nearest = box.nearest_image(center(other) - center(bond));
+    const double reach = static_cast<double>(bounds(bond).radius) + static_cast<double>(bounds(other).radius);
     std::array<int, 3> images{};
     if (reach > box.max_cutoff()) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(box.rank()); ++k)
@@ -61,17 +88,10 @@ void PairTests::take_wide(const NearMidpoints& near, std::int32_t bond) {
       for (int b = -images[1]; b <= images[1]; ++b) {
         for (int c = -images[2]; c <= images[2]; ++c) {
           const Vec3 between = nearest + (a * box.reduced()[0] + b * box.reduced()[1] + c * box.reduced()[2]);
+          if (rejects(bond, other, between)) continue;
           ++found.stats.near_pairs;
-          if (norm2(between) > reach * reach) {
-            ++found.stats.by_ball;
-            continue;
-          }
           if (!partner) partner = bond_at(other);
-          if (bond == p) {
-            take(own, *partner, between);
-          } else {
-            take(*partner, own, between);
-          }
+          take_either(own, *partner, between);
         }
       }
     }

@@ -32,6 +32,13 @@ class StepMotion {
   StepMotion(Span<const Vec3> from, const Box& from_box, Span<const Vec3> to, const Box& to_box);
 
   BondStep bond(IndexPair beads) const;
+  /// Has what bond() reads fetched.
+  void ask_for(IndexPair beads) const {
+    for (const std::int32_t bead : beads) {
+      __builtin_prefetch(&from_[static_cast<std::size_t>(bead)]);
+      __builtin_prefetch(&to_[static_cast<std::size_t>(bead)]);
+    }
+  }
   /// The lattice vector at the beginning and the end that `image` means, which is of the old cell.
   Vec3 shift_from(const Image& image) const { return sum(image, cell_from_); }
   Vec3 shift_to(const Image& image) const { return sum(carried(image), cell_to_); }

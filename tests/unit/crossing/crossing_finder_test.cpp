@@ -259,4 +259,20 @@ TEST(CrossingFinder, FiltersRejectNearlyAllPairsOfAMelt) {
   EXPECT_EQ(stats.exact, 0);
 }
 
+/// With the search; the last positions, the bonds, and what a step needs.
+TEST(CrossingFinder, HoldsAtMostAHundredBytesABond) {
+  dch::necklace::MeltParams params;
+  params.chains = 200;
+  const dch::necklace::Melt melt = dch::necklace::make_melt(params);
+  Random random(32);
+  std::vector<Vec3> to = melt.positions;
+  for (Vec3& p : to) p = p + random.in_ball(0.1);
+  CrossingFinder finder(Chains::from_bonds(melt.positions.size(), melt.bonds));
+  finder.start(melt.positions, melt.box);
+  finder.step(to, melt.box);
+  finder.step(melt.positions, melt.box);
+  EXPECT_LE(finder.memory_bytes(), 100 * finder.bonds().size());
+  EXPECT_GE(finder.memory_bytes(), (sizeof(Vec3) + sizeof(dch::IndexPair)) * finder.bonds().size());
+}
+
 }  // namespace
