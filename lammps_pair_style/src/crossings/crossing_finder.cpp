@@ -35,7 +35,6 @@ void CrossingFinder::find(const MovingBonds& bonds, const dch::Box& box, const d
   if (bonds.size() < 2) return;
   const double reach = std::max(2 * bonds.radius() + thickness * bonds.stretch(), dch::kMinListRadius);
   slack_ = static_cast<float>(kSlack * reach);
-  more_ = static_cast<float>(thickness * bonds.stretch()) + 2 * slack_ + 1e-6f * bonds.largest_place();
   if (!search_ || reach > radius_ || reach < 0.5 * radius_) {
     radius_ = std::min(kSpare * reach, std::max(reach, box.max_cutoff() * (1 - 1e-9)));
     search_ = dch::make_auto_search(dch::HierarchyParams{radius_});
@@ -43,58 +42,46 @@ void CrossingFinder::find(const MovingBonds& bonds, const dch::Box& box, const d
   search_->update(bonds.middles(), box);
   dch::ListParams params;
   params.cutoffs = dch::TypeCutoffs(reach);
-  params.order = dch::RowOrder::by_structure;
   params.superset = true;
   params.first_ghost = static_cast<std::int32_t>(bonds.owned());
-  search_->list(params, list_);
-  // Two points that are nearer to each other than this are so as they stand: no image is within the list's
-  // reach.
-  const double as_they_stand = std::max(0.0, 2 * box.max_cutoff() - 1.001 * (reach + list_.margin) - more_);
-  through_faces2_ = static_cast<float>(as_they_stand * as_they_stand);
-  for (std::size_t row = 0; row < list_.size(); ++row) {
-    const auto i = static_cast<std::size_t>(list_.particle.empty() ? static_cast<std::int32_t>(row)
-                                                                   : list_.particle[row]);
-    const MovingBonds::Ball ball = bonds.ball(i);
-    for (const std::int32_t j : list_.row(row)) {
-      const auto other = static_cast<std::size_t>(j);
-      if (!balls_are_apart(ball, bonds.ball(other)) && !bonds.share_an_end(i, other)) look(i, other);
+  search_->list_in_pieces(params, [&](const dch::NeighborList& piece) { take(piece); });
+}
+
+void CrossingFinder::take(const dch::NeighborList& piece) {
+  const auto middles = bonds_->middles();
+  for (std::size_t row = 0; row < piece.size(); ++row) {
+    const auto i = static_cast<std::size_t>(piece.particle.empty() ? static_cast<std::int32_t>(row)
+                                                                   : piece.particle[row]);
+    for (const std::int32_t other : piece.row(row)) {
+      const auto j = static_cast<std::size_t>(other);
+      const dch::Vec3 between = box_->nearest_image(middles[j] - middles[i]);
+      if (!balls_meet(i, j, between) || bonds_->share_an_end(i, j) || !is_mine(i, j)) continue;
+      ++counts_.near;
+      if (kept_apart(i, j, between)) {
+        ++counts_.rejected;
+      } else {
+        test(i, j, between);
+      }
     }
   }
 }
 
-void CrossingFinder::look(std::size_t i, std::size_t j) {
-  if (std::max(i, j) >= bonds_->owned()) {
-    // The process that holds the first bond, by IDs, tests the pair.
-    const bool i_is_first = bonds_->tags(i) < bonds_->tags(j);
-    if ((i_is_first ? i : j) >= bonds_->owned()) return;
-  }
-  const dch::Vec3 between = box_->nearest_image(bonds_->middles()[j] - bonds_->middles()[i]);
-  if (!balls_meet(i, j, between)) return;
-  ++counts_.near;
-  if (kept_apart(i, j, between)) {
-    ++counts_.rejected;
-  } else {
-    test(i, j, between);
-  }
-}
-
-/// By their rounded places, unless an image of one of them through a face may be nearer.
-bool CrossingFinder::balls_are_apart(const MovingBonds::Ball& a, const MovingBonds::Ball& b) const {
-  const float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
-  const float reach = a.radius + b.radius + more_;
-  const float distance2 = x * x + y * y + z * z;
-  return distance2 > reach * reach && distance2 < through_faces2_;
+/// The process that holds the first bond, by IDs, tests the pair.
+bool CrossingFinder::is_mine(std::size_t i, std::size_t j) const {
+  if (std::max(i, j) < bonds_->owned()) return true;
+  const bool i_is_first = bonds_->tags(i) < bonds_->tags(j);
+  return (i_is_first ? i : j) < bonds_->owned();
 }
 
 bool CrossingFinder::balls_meet(std::size_t i, std::size_t j, dch::Vec3 between) const {
-  const double radii = static_cast<double>(bonds_->ball(i).radius) + bonds_->ball(j).radius;
-  const double reach = radii + thickness_ * bonds_->stretch() + slack_;
+  const double reach =
+      bonds_->radius(i) + bonds_->radius(j) + thickness_ * bonds_->stretch() + static_cast<double>(slack_);
   return norm2(between) <= reach * reach;
 }
 
 /// By the line between the middles, or the normal of the bonds.
 bool CrossingFinder::kept_apart(std::size_t i, std::size_t j, dch::Vec3 between) const {
-  const auto &a = bonds_->shape(i), &b = bonds_->shape(j);
+  const MovingBonds::Shape a = bonds_->shape(i), b = bonds_->shape(j);
   const std::array<float, 3> c{static_cast<float>(between.x), static_cast<float>(between.y),
                                static_cast<float>(between.z)};
   std::array<float, 3> move{b.half_move[0] - a.half_move[0], b.half_move[1] - a.half_move[1],
@@ -145,9 +132,7 @@ void CrossingFinder::test(std::size_t i, std::size_t j, dch::Vec3 between) {
 }
 
 double CrossingFinder::memory_bytes() const {
-  return static_cast<double>(list_.j.capacity() * sizeof(std::int32_t) +
-                             list_.first.capacity() * sizeof(std::int64_t) +
-                             list_.particle.capacity() * sizeof(std::int32_t));
+  return search_ ? static_cast<double>(search_->stats().memory_bytes) : 0;
 }
 
 }  // namespace LAMMPS_NS

@@ -45,8 +45,8 @@ class CrossingFinder {
   double memory_bytes() const;
 
  private:
-  void look(std::size_t i, std::size_t j);
-  bool balls_are_apart(const MovingBonds::Ball& a, const MovingBonds::Ball& b) const;
+  void take(const dch::NeighborList& piece);
+  bool is_mine(std::size_t i, std::size_t j) const;
   bool balls_meet(std::size_t i, std::size_t j, dch::Vec3 between) const;
   bool kept_apart(std::size_t i, std::size_t j, dch::Vec3 between) const;
   void test(std::size_t i, std::size_t j, dch::Vec3 between);
@@ -55,12 +55,9 @@ class CrossingFinder {
   const dch::Box* box_ = nullptr;
   const dch::lammps::Cell* cell_ = nullptr;
   double thickness_ = 0;
-  float slack_ = 0;           ///< for rounding in products of single precision [length]
-  float more_ = 0;            ///< thickness and rounding of balls [length]
-  float through_faces2_ = 0;  ///< pairs nearer than that are not nearer through a face [length^2]
+  float slack_ = 0;  ///< for rounding in products of single precision [length]
   std::unique_ptr<dch::PairSearch> search_;
   double radius_ = 0;  ///< that search_ was made for
-  dch::NeighborList list_;
   std::vector<BondCrossing> crossings_;
   PairCounts counts_;
 };

@@ -31,11 +31,9 @@ void MovingBonds::gather(const MovingAtoms& atoms, const dch::lammps::BoxStep& s
   stretch_ = strain < kMostStrain ? 1 / (1 - strain) : HUGE_VAL;
   ends_.clear();
   middles_.clear();
-  shapes_.clear();
+  radii_.clear();
   undetermined_ = 0;
-  balls_.clear();
   radius_ = largest_extent_ = 0;
-  largest_place_ = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     atoms.for_bonds_of_owned(i, [&](tagint partner, bool was_there) {
       int j = atom->map(partner);
@@ -60,13 +58,24 @@ void MovingBonds::gather(const MovingAtoms& atoms, const dch::lammps::BoxStep& s
   }
 }
 
+std::array<dch::Vec3, 2> MovingBonds::moves(const dch::necklace::MovingBond& path, dch::Vec3 middle) const {
+  const dch::Vec3 drift = step_.is_still() ? dch::Vec3{} : step_.drift_of_point(middle);
+  return {path.to_a - path.from_a - drift, path.to_b - path.from_b - drift};
+}
+
+MovingBonds::Shape MovingBonds::shape(std::size_t bond) const {
+  const dch::necklace::MovingBond path = path_of(ends_[bond][0], ends_[bond][1]);
+  const dch::Vec3 before = path.from_b - path.from_a, now = path.to_b - path.to_a;
+  const auto [first, second] = moves(path, middles_[bond]);
+  return {rounded(0.25 * (before + now)), rounded(0.25 * (first + second)), rounded(0.25 * (now - before))};
+}
+
 void MovingBonds::add(int i, int j, bool is_owned) {
   if (atom->tag[i] > atom->tag[j]) std::swap(i, j);
   const dch::necklace::MovingBond path = path_of(i, j);
   const dch::Vec3 before = path.from_b - path.from_a, now = path.to_b - path.to_a;
   const dch::Vec3 middle = 0.25 * ((path.from_a + path.from_b) + (path.to_a + path.to_b));
-  const dch::Vec3 drift = step_.is_still() ? dch::Vec3{} : step_.drift_of_point(middle);
-  const dch::Vec3 first = path.to_a - path.from_a - drift, second = path.to_b - path.from_b - drift;
+  const auto [first, second] = moves(path, middle);
   const double length = std::sqrt(std::max(norm2(before), norm2(now)));
   const double extent = stretch_ * (length + std::sqrt(std::max(norm2(first), norm2(second))));
   const double more = is_owned ? 1.0 : kMoreForGhosts;
@@ -77,14 +86,10 @@ void MovingBonds::add(int i, int j, bool is_owned) {
     return;
   }
   if (is_owned) largest_extent_ = std::max(largest_extent_, extent);
-  const dch::Vec3 half_move = 0.25 * (first + second);
   ends_.push_back({i, j});
   middles_.push_back(middle);
-  const double radius = stretch_ * (0.5 * length + std::sqrt(norm2(half_move)));
-  shapes_.push_back({rounded(0.25 * (before + now)), rounded(half_move), rounded(0.25 * (now - before))});
-  const auto place = rounded(middle);
-  balls_.push_back({place[0], place[1], place[2], static_cast<float>(radius)});
-  largest_place_ = std::max({largest_place_, std::fabs(place[0]), std::fabs(place[1]), std::fabs(place[2])});
+  const double radius = stretch_ * (0.5 * length + 0.25 * std::sqrt(norm2(first + second)));
+  radii_.push_back(static_cast<float>(radius));
   radius_ = std::max(radius_, radius);
 }
 
@@ -114,7 +119,7 @@ std::array<tagint, 2> MovingBonds::tags(std::size_t bond) const {
 
 double MovingBonds::memory_bytes() const {
   return static_cast<double>(ends_.capacity() * sizeof(ends_[0]) + middles_.capacity() * sizeof(dch::Vec3) +
-                             balls_.capacity() * sizeof(Ball) + shapes_.capacity() * sizeof(Shape));
+                             radii_.capacity() * sizeof(float));
 }
 
 }  // namespace LAMMPS_NS

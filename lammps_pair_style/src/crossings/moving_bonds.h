@@ -33,10 +33,6 @@ class MovingBonds : protected Pointers {
   struct Shape {
     std::array<float, 3> half_bond, half_move, quarter_turn;
   };
-  /// About the middle, which is rounded; holds the bond at all times.
-  struct Ball {
-    float x, y, z, radius;
-  };
 
   void gather(const MovingAtoms& atoms, const dch::lammps::BoxStep& step, const Limits& limits);
 
@@ -50,10 +46,10 @@ class MovingBonds : protected Pointers {
   /// Of balls about the middles that hold the bonds at all times [length].
   double radius() const { return radius_; }
   dch::Span<const dch::Vec3> middles() const { return middles_; }
-  const Ball& ball(std::size_t bond) const { return balls_[bond]; }
-  /// Of the coordinates of balls, whose rounding is relative to it [length].
-  float largest_place() const { return largest_place_; }
-  const Shape& shape(std::size_t bond) const { return shapes_[bond]; }
+  /// Of the ball of one bond.
+  double radius(std::size_t bond) const { return static_cast<double>(radii_[bond]); }
+  /// Made anew from where the atoms were and are: few bonds are asked for it.
+  Shape shape(std::size_t bond) const;
   /// Whether they have a common atom, as the same image.
   bool share_an_end(std::size_t a, std::size_t b) const {
     const auto &p = ends_[a], &q = ends_[b];
@@ -67,6 +63,8 @@ class MovingBonds : protected Pointers {
   double memory_bytes() const;
 
  private:
+  /// The displacements of both ends, against the lattice at the middle.
+  std::array<dch::Vec3, 2> moves(const dch::necklace::MovingBond& path, dch::Vec3 middle) const;
   void add(int i, int j, bool is_owned);
   dch::necklace::MovingBond path_of(int i, int j) const;
 
@@ -75,9 +73,7 @@ class MovingBonds : protected Pointers {
   Limits limits_;
   std::vector<std::array<std::int32_t, 2> > ends_;  ///< LAMMPS's indices, the atom of smaller ID first
   std::vector<dch::Vec3> middles_;
-  std::vector<Shape> shapes_;
-  std::vector<Ball> balls_;
-  float largest_place_ = 0;
+  std::vector<float> radii_;
   std::size_t owned_ = 0;
   bigint undetermined_ = 0;
   double stretch_ = 1, radius_ = 0, largest_extent_ = 0;
