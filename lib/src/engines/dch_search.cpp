@@ -9,6 +9,9 @@
 
 #include "base/seconds_since.hpp"
 #include "engines/sized_search.hpp"
+#include "geometry/metric.hpp"
+#include "lists/leaf_crescents.hpp"
+#include "lists/reach.hpp"
 
 namespace dch {
 namespace detail {
@@ -50,6 +53,21 @@ void DchSearch::cluster_pairs(const ListParams& params, ClusterPairs& out) {
   const auto start = Clock::now();
   pair_maker_.make(hierarchy_.view(), params, out);
   list_seconds_ += seconds_since(start);
+}
+
+UnlistedPair DchSearch::unlisted_pair(const UnlistedQuestion& question) {
+  const Structure& structure = hierarchy_.view().structure();
+  if (!UnlistedPairs::can_tell(question) || structure.raw.size() != question.positions.size())
+    return UnlistedPair::unknown;
+  const UnlistedPairs pairs(question, structure.raw, structure.box, distance_error(structure));
+  return with_metric(structure.box, [&](const auto& metric) {
+    const LeafCrescents crescents(metric, structure);
+    return pairs.find([&](const Crescent& crescent) {
+      const std::int32_t i = crescent.particle;
+      return crescents.any(crescent, crescents.leaf_of(i),
+                           [&](std::int32_t j) { return pairs.contains(i, j); });
+    });
+  });
 }
 
 std::vector<LevelInfo> DchSearch::levels() {

@@ -30,6 +30,8 @@ class DchSearch final : public PairSearch {
   void cluster_pairs(const ListParams& params, ClusterPairs& out) override;
   bool has_cluster_pairs() const override { return true; }
 
+  UnlistedPair unlisted_pair(const UnlistedQuestion& question) override;
+
   std::string validate() override { return dch::validate(hierarchy_.view()); }
   std::vector<LevelInfo> levels() override;
   const SearchStats& stats() const override;

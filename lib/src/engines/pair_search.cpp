@@ -22,4 +22,6 @@ void PairSearch::cluster_pairs(const ListParams&, ClusterPairs&) {
                          "' makes no cluster pairs; take a neighbor list, or another engine");
 }
 
+UnlistedPair PairSearch::unlisted_pair(const UnlistedQuestion&) { return UnlistedPair::unknown; }
+
 }  // namespace dch

@@ -10,8 +10,10 @@
 
 #include "base/key_table.hpp"
 #include "base/seconds_since.hpp"
+#include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/tolerance.hpp"
+#include "lists/leaf_crescents.hpp"
 #include "lists/list_check.hpp"
 #include "lists/reach.hpp"
 
@@ -28,6 +30,11 @@ double own_reach(const SizeClasses& classes, std::size_t g) {
   for (std::size_t b = 0; b < classes.count && classes.reach_of(g, g) == 0; ++b)
     reach = std::max(reach, classes.reach_of(g, b));
   return reach;
+}
+
+/// Of a particle among those of its class, which are in order.
+std::int32_t id_of(std::int32_t i, const std::vector<std::int32_t>& particle) {
+  return static_cast<std::int32_t>(std::lower_bound(particle.begin(), particle.end(), i) - particle.begin());
 }
 
 }  // namespace
@@ -185,6 +192,38 @@ void SizedSearch::bring_up_to_date() {
     group.is_new = false;
   }
   stale_ = false;
+}
+
+UnlistedPair SizedSearch::unlisted_pair(const UnlistedQuestion& question) {
+  const bool is_up_to_date = !stale_ && classes_.of.size() == positions_.size() &&
+                             std::all_of(groups_.begin(), groups_.end(),
+                                         [](const Group& group) { return group.search && !group.is_new; });
+  if (!UnlistedPairs::can_tell(question) || !is_up_to_date || question.positions.size() != positions_.size())
+    return UnlistedPair::unknown;
+  std::vector<const Structure*> structures;
+  double error = rounding_of_leaves(params_.radius);
+  for (Group& group : groups_) {
+    structures.push_back(&group.search->hierarchy().view().structure());
+    error = std::max(error, rounding_of_leaves(params_.radius) + distance_error(*structures.back()));
+  }
+  const UnlistedPairs pairs(question, positions_, box_, error);
+  return with_metric(box_, [&](const auto& metric) {
+    std::vector<LeafCrescents<std::decay_t<decltype(metric)>>> crescents;
+    for (const Structure* structure : structures) crescents.emplace_back(metric, *structure);
+    return pairs.find([&](const Crescent& crescent) {
+      const std::int32_t i = crescent.particle;
+      const auto own = static_cast<std::size_t>(classes_.of[i]);
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const std::vector<std::int32_t>& particle = groups_[g].particle;
+        if (particle.empty() || classes_.reach_of(own, g) == 0) continue;
+        const std::int32_t leaf = g != own ? kNone : crescents[g].leaf_of(id_of(i, particle));
+        if (crescents[g].any(crescent, leaf,
+                             [&](std::int32_t id) { return pairs.contains(i, particle[id]); }))
+          return true;
+      }
+      return false;
+    });
+  });
 }
 
 std::string SizedSearch::validate() {

@@ -32,6 +32,7 @@ class SizedSearch final : public PairSearch {
   void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
   using PairSearch::list;
   using PairSearch::lists;
+  UnlistedPair unlisted_pair(const UnlistedQuestion& question) override;
   std::string validate() override;
 
   const SearchStats& stats() const override;

@@ -36,6 +36,9 @@ class AutoSearch final : public PairSearch {
   void cluster_pairs(const ListParams& params, ClusterPairs& out) override;
   bool has_cluster_pairs() const override { return hierarchy_->has_cluster_pairs(); }
 
+  UnlistedPair unlisted_pair(const UnlistedQuestion& question) override {
+    return engine().unlisted_pair(question);
+  }
   std::string validate() override;
   std::vector<LevelInfo> levels() override;
   const SearchStats& stats() const override;

@@ -45,17 +45,6 @@ BlockSpan span_around(const BlockPoints& points) {
   return span;
 }
 
-/// Brings a cell coordinate into the period, and says by how many periods it was off.
-std::int32_t wrap(std::int32_t& c, std::int32_t cells) {
-  const std::int32_t away = c >= 0 ? c - cells : -1 - c;  // most are in the next period, or in this one
-  const std::int32_t periods = away < 0       ? 0
-                               : away < cells ? (c >= 0 ? 1 : -1)
-                               : c >= 0       ? c / cells
-                                              : -((cells - 1 - c) / cells);
-  c -= periods * cells;
-  return periods;
-}
-
 }  // namespace
 
 OwnBlocks CellCandidates::take_blocks(const CellScene& scene, std::int32_t cell, CellLayer::Run part) {

@@ -61,6 +61,9 @@ class CellLayer {
   void find_ghosts(std::int32_t first_ghost);
 
   const CellLayout& layout() const { return layout_; }
+  const CellRounding& rounding() const {
+    return rounding_;
+  }  ///< of the coordinates; unit 0 before quantize()
   std::int32_t size() const { return size_; }
   /// Cells, in a dense block with the empty ones.
   std::int32_t cells() const { return static_cast<std::int32_t>((first_.size() - 1) >> curve_.bits()); }

@@ -11,6 +11,7 @@
 #include "base/seconds_since.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/tolerance.hpp"
+#include "grid/cell_crescents.hpp"
 #include "lists/list_assembly.hpp"
 #include "lists/list_check.hpp"
 #include "lists/reach.hpp"
@@ -223,6 +224,24 @@ void GridSearch::find_plainly(double error, const std::vector<const PairFilter*>
       if (filters[r]->params().shell > 0) list.near_end.push_back(list.first.back());
     });
   }
+}
+
+UnlistedPair GridSearch::unlisted_pair(const UnlistedQuestion& question) {
+  const bool is_in_cells =
+      !groups_.empty() && std::all_of(groups_.begin(), groups_.end(), [](const Group& group) {
+        return group.reach > 0 && (group.layer.size() == 0 || group.layer.rounding().unit > 0);
+      });
+  if (!UnlistedPairs::can_tell(question) || !is_in_cells || question.positions.size() != positions_.size())
+    return UnlistedPair::unknown;
+  const UnlistedPairs pairs(question, positions_, box_, wrap_error_ + rounding_of_leaves(radius_));
+  std::vector<CellCrescents> crescents;
+  for (Group& group : groups_)
+    if (group.layer.size() > 0) crescents.emplace_back(group.layer, positions_, box_);
+  return pairs.find([&](const Crescent& crescent) {
+    const auto is_unlisted = [&](std::int32_t j) { return pairs.contains(crescent.particle, j); };
+    return std::any_of(crescents.begin(), crescents.end(),
+                       [&](const CellCrescents& layer) { return layer.any(crescent, is_unlisted); });
+  });
 }
 
 const SearchStats& GridSearch::stats() const {

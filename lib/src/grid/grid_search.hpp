@@ -35,6 +35,7 @@ class GridSearch final : public PairSearch {
   void list_in_pieces(const ListParams& params, const std::function<void(const NeighborList&)>& use) override;
   using PairSearch::list;
   using PairSearch::lists;
+  UnlistedPair unlisted_pair(const UnlistedQuestion& question) override;
   const SearchStats& stats() const override;
   std::string name() const override { return "grid"; }
 

@@ -23,4 +23,11 @@ double ListParams::list_radius() const {
   return 2 * *std::max_element(radii.begin(), radii.end()) + skin;
 }
 
+RadiusRange::RadiusRange(Span<const double> radii) {
+  if (radii.empty()) return;
+  const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
+  least = *low;
+  largest = *high;
+}
+
 }  // namespace dch

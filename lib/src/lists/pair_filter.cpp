@@ -15,7 +15,8 @@ double image_distance2(Vec3 d, Vec3 n, const std::array<Vec3, 3>& cell) {
 
 }  // namespace
 
-PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error)
+PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error,
+                       const RadiusRange& radii)
     : positions_(positions),
       box_(box),
       params_(params),
@@ -30,8 +31,8 @@ PairFilter::PairFilter(Span<const Vec3> positions, const Box& box, const ListPar
       cell_{box.vector(0), box.vector(1), box.vector(2)},
       images_(box) {
   if (by_ == CutoffBy::radii) {
-    largest_ = band_within(params.list_radius()).out_above;
-    least_radius_ = *std::min_element(params.radii.begin(), params.radii.end());
+    largest_ = band_within(2 * radii.largest + params.skin).out_above;
+    least_radius_ = radii.least;
   } else {
     for (int a = 0; a < params.cutoffs.types(); ++a) {
       for (int b = 0; b < params.cutoffs.types(); ++b) {

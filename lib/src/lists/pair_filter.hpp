@@ -24,7 +24,11 @@ class PairFilter {
   /// @param positions as given to the engine, not wrapped; they and what params points to must outlive this.
   /// @param error how far distances of wrapped images may be from what decides: WrapError::bound for these
   ///   positions, and what params.cutoff_error() adds [length].
-  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error);
+  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error)
+      : PairFilter(positions, box, params, error, RadiusRange(params.radii)) {}
+  /// The same in O(1), where the range of the radii is known.
+  PairFilter(Span<const Vec3> positions, const Box& box, const ListParams& params, double error,
+             const RadiusRange& radii);
 
   /// No pair at a larger squared distance of wrapped images is in the list, whatever its types [length^2].
   double largest_distance2() const { return largest_; }

@@ -32,6 +32,31 @@ bool StaleTest::is_stale(Span<const Vec3> positions, const Box& box) const {
   });
 }
 
+// The bounds are those of is_stale(), particle by particle: one that keeps within `left` there has, with its
+// share of all rounding, moved by half the skin at most.
+StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, std::size_t most,
+                                    std::vector<MovedParticle>& fast) const {
+  fast.clear();
+  if (!valid_ || positions.size() != reference_.size() || skin_ == 0 || box != reference_box_)
+    return is_stale(positions, box) ? Verdict::stale : Verdict::fresh;
+  const detail::WrapError error(box);
+  const double room = 0.5 * skin_ - 2 * reference_error_;
+  const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
+  if (!(allowed >= 0)) return Verdict::stale;
+  const double allowed2 = allowed * allowed;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 d = positions[i] - reference_[i];
+    if (norm2(d) <= allowed2) continue;
+    const double rounding = 2 * error.bound(error.reach(positions[i]) + error.reach(reference_[i]));
+    const double moved = std::sqrt(norm2(box.nearest_image(d)));
+    if (moved <= room - rounding) continue;
+    if (!std::isfinite(moved + rounding)) return Verdict::stale;
+    if (fast.size() == most) return Verdict::too_many;
+    fast.push_back({static_cast<std::int32_t>(i), moved + rounding + 2 * reference_error_});
+  }
+  return fast.empty() ? Verdict::fresh : Verdict::some_fast;
+}
+
 void StaleTest::remember(Span<const Vec3> positions, const Box& box) {
   valid_ = false;  // until all of it has changed
   reference_.assign(positions.begin(), positions.end());

@@ -15,6 +15,7 @@
 #include <dch/hierarchy/search_stats.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
+#include <dch/lists/unlisted_pair.hpp>
 
 namespace dch {
 
@@ -75,6 +76,13 @@ class PairSearch {
   ///   from engines that make none: has_cluster_pairs() says which.
   virtual void cluster_pairs(const ListParams& params, ClusterPairs& out);
   virtual bool has_cluster_pairs() const { return false; }
+
+  /// Whether a list made at the last update lacks a pair that is within its cutoff now: asks the structure as
+  /// it was then about the particles that have moved far, and changes nothing. By the definition of
+  /// ListParams, so all engines that can tell say the same. A query takes a fraction of a microsecond for
+  /// each of them. Engines that keep no structure, or whose lists were found without it, answer `unknown`,
+  /// and so do all where a TieBreaker decides about pairs.
+  virtual UnlistedPair unlisted_pair(const UnlistedQuestion& question);
 
   /// Checks the structure against all pairs, in O(n^2). Returns an empty string if all is in order (or no
   /// structure is kept), else a description of the first fault.

@@ -103,4 +103,13 @@ struct ListParams {
   double list_radius() const;
 };
 
+/// The smallest and the largest radius of particles, for who asks about lists again and again [length].
+struct RadiusRange {
+  RadiusRange() = default;
+  /// O(n); zeros if there are no radii.
+  explicit RadiusRange(Span<const double> radii);
+
+  double least = 0, largest = 0;
+};
+
 }  // namespace dch

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <dch/base/span.hpp>
@@ -9,6 +11,14 @@
 #include <dch/geometry/box.hpp>
 
 namespace dch {
+
+/// A particle that has moved farther than half the skin allows.
+struct MovedParticle {
+  std::int32_t particle;
+  /// At least its displacement and its share of all rounding: the sum of two bounds how much closer to each
+  /// other the two may have come [length].
+  double moved;
+};
 
 /// Says when pairs within a cutoff might be missing from what was found with a skin beyond it: a list, or
 /// cluster pairs.
@@ -34,6 +44,19 @@ class StaleTest {
   /// True if a pair might be missing at these positions, if there is a NaN among them, and if none are
   /// remembered. O(n).
   bool is_stale(Span<const Vec3> positions, const Box& box) const;
+
+  /// What the half-skin rule says of positions, and which particles break it.
+  enum class Verdict {
+    fresh,      ///< no pair can be missing
+    some_fast,  ///< a pair can be missing only if a particle of it is one of the fast ones
+    too_many,   ///< the same, but there are more of those than asked for
+    stale       ///< a pair might be missing, whoever has moved: see is_stale()
+  };
+  /// is_stale() in detail: O(n), and `fast` gets the particles that have moved too far, ascending. A box that
+  /// has changed in any way is left to is_stale(), and so are lists without a skin.
+  /// @param most fast particles wanted; what `fast` holds if there are more has no meaning
+  Verdict judge(Span<const Vec3> positions, const Box& box, std::size_t most,
+                std::vector<MovedParticle>& fast) const;
 
   /// Takes positions and the box that pairs are being found for. After a throw none are remembered.
   void remember(Span<const Vec3> positions, const Box& box);
