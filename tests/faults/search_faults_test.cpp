@@ -263,6 +263,28 @@ TEST_P(SearchFaults, AVerletListIsStale) {
                4);
 }
 
+TEST_P(SearchFaults, AnUnlistedPairIsToldTheNextTime) {
+  std::vector<MovedParticle> fast;
+  std::vector<Vec3> points = first_.scene.points;
+  for (const std::int32_t i : {3, 40, 77}) {
+    points[static_cast<std::size_t>(i)].x += 0.3;
+    fast.push_back({i, 0.31});
+  }
+  const UnlistedQuestion question{first_.asked.request, RadiusRange(first_.asked.radii), points, fast};
+  const UnlistedPair expected = used(false)->unlisted_pair(question);
+  const SweepResult result =
+      sweep([&] { return used(false); }, [&](const auto& search) { search->unlisted_pair(question); },
+            [&](const auto& search, Ending ending) -> std::string {
+              if (search->unlisted_pair(question) != expected) return "another answer";
+              return after(ending, difference(*search, first_));
+            });
+  if (expected == UnlistedPair::unknown) {
+    expect_no_memory(result);
+  } else {
+    expect_sound(result, 2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, SearchFaults, ::testing::ValuesIn(engines()),
                          [](const auto& p) { return p.param.name; });
 

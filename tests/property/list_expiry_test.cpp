@@ -2,171 +2,20 @@
 //
 // Kept lists against all pairs: a list that is kept lacks no pair within its cutoff, and one that is given up
 // because of a pair lacks a pair. Engines that can tell all say the same.
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <dch/engines/verlet_list.hpp>
-#include <dch/lists/all_pairs.hpp>
 
 #include "effort.hpp"
-#include "list_compare.hpp"
+#include "kept_lists.hpp"
 #include "scenes.hpp"
 
-namespace dch {
+namespace dch::expiry {
 namespace {
-
-constexpr double kCutoff = 1.0, kSkin = 0.3, kRadius = kCutoff + kSkin;
-
-struct NamedRequest {
-  std::string name;
-  ListParams params;
-};
-
-/// What lists may hold; owns what the requests view.
-class Requests {
- public:
-  explicit Requests(std::size_t n) {
-    scenes::Random random(3);
-    std::vector<IndexPair> excluded;
-    for (std::size_t i = 0; i < n; ++i) {
-      types_.push_back(static_cast<std::int32_t>(i % 5 == 0 ? 0 : 1 + i % 2));
-      radii_.push_back(0.5 * kCutoff * (i % 7 == 0 ? 1.0 : std::pow(8, -random.uniform())));
-      if (i % 3 == 0 && i + 1 < n)
-        excluded.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1)});
-    }
-    exclusions_ = Exclusions::from_bonds(n, excluded, 1);
-    const auto add = [&](const std::string& name) -> ListParams& {
-      all_.push_back({name, {}});
-      all_.back().params.cutoffs = TypeCutoffs(kCutoff);
-      all_.back().params.skin = kSkin;
-      return all_.back().params;
-    };
-    add("half");
-    ListParams& full = add("full, unsorted, exclusions, ghosts");
-    full.kind = ListKind::full;
-    full.order = RowOrder::unsorted;
-    full.exclusions = &exclusions_;
-    full.first_ghost = static_cast<std::int32_t>(n - n / 4);
-    ListParams& by_types = add("types, some without pairs");
-    by_types.types = types_;
-    by_types.cutoffs = TypeCutoffs(3, {kCutoff, 0.7, 0.0, 0.7, 0.3, 0.2, 0.0, 0.2, 0.0});
-    ListParams& by_radii = add("radii");
-    by_radii.radii = radii_;
-    by_radii.order = RowOrder::unsorted;
-  }
-  Requests(const Requests&) = delete;
-  Requests& operator=(const Requests&) = delete;
-  const std::vector<NamedRequest>& all() const { return all_; }
-
- private:
-  std::vector<std::int32_t> types_;
-  std::vector<double> radii_;
-  Exclusions exclusions_;
-  std::vector<NamedRequest> all_;
-};
-
-struct NamedList {
-  std::string name;
-  VerletList list;
-};
-
-/// A list by each engine that can tell.
-std::vector<NamedList> lists_of_all_engines(const ListParams& params) {
-  HierarchyParams hierarchy, by_class, coarse;
-  hierarchy.radius = by_class.radius = coarse.radius = kRadius;
-  by_class.size_classes = true;
-  coarse.policy = MaintenancePolicy::always_repair;
-  std::vector<NamedList> all;
-  all.push_back({"hierarchy", {make_dch_search(hierarchy), params}});
-  all.push_back({"hierarchy, always repaired", {make_dch_search(coarse), params}});
-  all.push_back({"hierarchies by size", {make_dch_search(by_class), params}});
-  all.push_back({"grid", {make_grid_search(kRadius), params}});
-  all.push_back({"auto", {make_auto_search(hierarchy), params}});
-  return all;
-}
-
-/// Pairs within their cutoffs now that a list lacks.
-std::size_t missing_from(const NeighborList& list, const NeighborList& near) {
-  const NeighborList rows = list.particle.empty() ? list : sorted_by_index(list, near.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    const auto row = rows.row(i);
-    for (const std::int32_t j : near.row(i)) count += !std::binary_search(row.begin(), row.end(), j);
-  }
-  return count;
-}
-
-/// Follows particles in one box, and checks at each step what every list says of itself.
-class Follower {
- public:
-  Follower(Box box, const NamedRequest& request, std::vector<Vec3> points)
-      : box_(std::move(box)), request_(request), points_(std::move(points)) {
-    lists_ = lists_of_all_engines(request.params);
-    bare_ = request.params;
-    bare_.skin = 0;
-    renew();
-  }
-
-  /// Moves on, then asks; lists that are stale are made anew.
-  void step_to(const std::vector<Vec3>& points, const std::string& what) {
-    points_ = points;
-    const NeighborList near = all_pairs(points_, box_, bare_);
-    const std::size_t fast = count_fast();
-    bool is_stale = false;
-    for (NamedList& each : lists_) {
-      const std::string where = each.name + ", " + request_.name + ", " + what;
-      const std::size_t missing = missing_from(each.list.list(), near);
-      const ExpiryStats before = each.list.expiry();
-      is_stale = each.list.is_stale(points_, box_);
-      const ExpiryStats& after = each.list.expiry();
-      const bool by_count = after.too_many > before.too_many;
-      ASSERT_EQ(after.unknown, 0) << where;
-      ASSERT_EQ(by_count, fast > most()) << where << ", " << fast << " fast";
-      if (!by_count) {
-        ASSERT_EQ(is_stale, missing > 0) << where << ", " << missing << " pairs missing";
-        ASSERT_EQ(after.missing > before.missing, is_stale) << where;
-      }
-      kept_beyond_half_ += !is_stale && fast > 0;
-      given_up_for_a_pair_ += is_stale && !by_count;
-    }
-    if (is_stale) renew();
-  }
-
-  const std::vector<Vec3>& points() const { return points_; }
-  const Box& box() const { return box_; }
-  int kept_beyond_half() const { return kept_beyond_half_; }
-  int given_up_for_a_pair() const { return given_up_for_a_pair_; }
-  std::size_t most() const {
-    return std::max<std::size_t>(16,
-                                 static_cast<std::size_t>(kMostFast * static_cast<double>(points_.size())));
-  }
-
- private:
-  void renew() {
-    for (NamedList& each : lists_) each.list.update(points_, box_);
-    at_list_ = points_;
-  }
-  /// Particles that have moved by more than half the skin; none of a test is within rounding of that.
-  std::size_t count_fast() const {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      count += std::sqrt(box_.distance2(points_[i], at_list_[i])) > 0.5 * kSkin;
-    return count;
-  }
-
-  Box box_;
-  const NamedRequest& request_;
-  ListParams bare_;
-  std::vector<Vec3> points_, at_list_;
-  std::vector<NamedList> lists_;
-  int kept_beyond_half_ = 0, given_up_for_a_pair_ = 0;
-};
 
 /// A vector of the lattice, some periods long.
 Vec3 periods(const Box& box, scenes::Random& random) {
@@ -248,6 +97,62 @@ TEST_P(ListExpiry, SeesPairsThatMeetAtTheLastMoment) {
   }
 }
 
+// Squares of such lengths are beyond the range of single precision.
+TEST_P(ListExpiry, HoldsInAnyUnitOfLength) {
+  constexpr std::size_t kPoints = 100;
+  const Requests requests(kPoints);
+  for (const double unit : {1e-25, 1e-13, 1e13, 1e25}) {
+    NamedRequest request = requests.all()[0];
+    request.name = "a length of " + std::to_string(std::log10(unit)) + " decades";
+    request.params.cutoffs = TypeCutoffs(kCutoff * unit);
+    request.params.skin = kSkin * unit;
+    const Box& small = GetParam().box;
+    const Box box =
+        small.kind() == Box::Kind::none
+            ? small
+            : Box::triclinic(unit * small.vector(0), unit * small.vector(1), unit * small.vector(2),
+                             {small.periodic(0), small.periodic(1), small.periodic(2)});
+    scenes::Random random(16);
+    std::vector<Vec3> points = scenes::uniform_in(box, kPoints, 17);
+    if (box.kind() == Box::Kind::none)
+      for (Vec3& p : points) p = unit * p;
+    Follower follower(box, request, points);
+    for (int step = 0; step < effort(24); ++step) {
+      for (std::size_t i = 0; i < kPoints; ++i)
+        points[i] = points[i] + random.in_ball((i % 10 == 0 ? 0.1 : 0.01) * unit);
+      follower.step_to(points, "step " + std::to_string(step));
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(follower.given_up_for_a_pair() + follower.kept_beyond_half(), 0);
+  }
+}
+
+// Coordinates are so large that they round: without a box, where distances are exact all the same, by a
+// thousandth of the skin.
+TEST_P(ListExpiry, HoldsFarFromTheOrigin) {
+  constexpr std::size_t kPoints = 120;
+  const Requests requests(kPoints);
+  const Box& near = GetParam().box;
+  const double far = near.kind() == Box::Kind::none ? 2e12 : 1e9;
+  const Vec3 shift{far, -far, far};
+  const Box box = near.kind() == Box::Kind::none
+                      ? near
+                      : Box::triclinic(near.vector(0), near.vector(1), near.vector(2),
+                                       {near.periodic(0), near.periodic(1), near.periodic(2)}, shift);
+  scenes::Random random(18);
+  std::vector<Vec3> points = scenes::uniform_in(box, kPoints, 19);
+  if (box.kind() == Box::Kind::none)
+    for (Vec3& p : points) p = p + shift;
+  Follower follower(box, requests.all()[0], points);
+  for (int step = 0; step < effort(60); ++step) {
+    for (std::size_t i = 0; i < kPoints; ++i)
+      points[i] = points[i] + random.in_ball(i % 10 == 0 ? 0.1 : 0.01);
+    follower.step_to(points, "step " + std::to_string(step));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(follower.given_up_for_a_pair() + follower.kept_beyond_half(), 0);
+}
+
 // Points on their own, blocks of nothing, deep trees: wide boxes, in which repairs are put off for long.
 TEST_P(ListExpiry, SeesParticlesOfThinScenes) {
   constexpr std::size_t kPoints = 250;
@@ -302,4 +207,4 @@ TEST(ListExpiryRules, HalfTheSkinDecidesWhereNobodyCanTell) {
 }
 
 }  // namespace
-}  // namespace dch
+}  // namespace dch::expiry

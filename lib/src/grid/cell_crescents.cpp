@@ -39,16 +39,15 @@ bool CellCrescents::any(const Crescent& crescent, const Test& test) const {
   const CellRounding& rounding = layer_.rounding();
   const double per_unit = 1 / rounding.unit;
   const CellRounder round(rounding);
-  const Vec3 then = crescent.now - box_.nearest_image(crescent.now - crescent.then);
   const double outer = crescent.outer * per_unit + kRounding, inner = crescent.inner * per_unit - kRounding;
-  const Rounded rounded{round(then), round(crescent.now),
-                        inner > 0 ? static_cast<float>(inner * inner) : -1.0f,
+  const Vec3 now = crescent.middle - crescent.from_now, then = crescent.middle - crescent.from_then;
+  const Rounded rounded{round(then), round(now), inner > 0 ? static_cast<float>(inner * inner) : -1.0f,
                         static_cast<float>(outer * outer)};
-  Vec3 at = layer_.layout().real_coordinates(crescent.now);
+  Vec3 at = layer_.layout().real_coordinates(crescent.middle);
   for (int k = 0; k < 3; ++k) at[k] = std::clamp(at[k], -kFarthestCell, kFarthestCell);
   bool found = false;
   layer_.layout().for_each_row_near(
-      at, at, crescent.outer, [&](std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t last) {
+      at, at, crescent.radius, [&](std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t last) {
         found = found || any_in_row(rounded, y, z, first, last, test);
       });
   return found;

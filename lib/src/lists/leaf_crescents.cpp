@@ -10,23 +10,70 @@
 namespace dch::detail {
 namespace {
 
-/// Of offsets in float and what is computed from them, relative to the extent of a leaf; with room to spare.
+/// Of coordinates in float and the distances computed from them, relative to the largest; with room to spare.
 constexpr double kRoundings = 16 * 0x1p-24;
+
+/// Crescents smaller than this, or larger than its inverse, are looked at in double.
+constexpr double kLeastFloat = 1e-12;
 
 double square(double v) { return v * v; }
 
+/// A crescent as seen from the center of a leaf, in float and wider by what that rounds.
+struct NearCrescent {
+  NearCrescent(const Crescent& crescent, Vec3 to_middle, double rounding)
+      : radius2(static_cast<float>(square(crescent.radius + rounding))),
+        outer2(static_cast<float>(square(crescent.outer + rounding))),
+        inner2(crescent.inner > rounding ? static_cast<float>(square(crescent.inner - rounding)) : -1) {
+    for (int axis = 0; axis < 3; ++axis) {
+      middle[axis] = static_cast<float>(to_middle[axis]);
+      now[axis] = static_cast<float>(to_middle[axis] - crescent.from_now[axis]);
+      then[axis] = static_cast<float>(to_middle[axis] - crescent.from_then[axis]);
+    }
+  }
+  float middle[3], now[3], then[3];
+  float radius2, outer2, inner2;
+};
+
+float larger(float a, float b) { return a > b ? a : b; }
+
 /// Squared distances of a place from the nearest and from the farthest point of a box.
-double nearest2(const MeasuredLeaves::Corners& box, Vec3 p) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += square(std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0}));
+float nearest2(const MeasuredLeaves::Corners& box, const float* p) {
+  float sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float gap = larger(larger(box.low[axis] - p[axis], p[axis] - box.high[axis]), 0);
+    sum += gap * gap;
+  }
   return sum;
 }
-double farthest2(const MeasuredLeaves::Corners& box, Vec3 p) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += square(std::max(box.high[axis] - p[axis], p[axis] - box.low[axis]));
+float farthest2(const MeasuredLeaves::Corners& box, const float* p) {
+  float sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float away = larger(box.high[axis] - p[axis], p[axis] - box.low[axis]);
+    sum += away * away;
+  }
   return sum;
+}
+
+bool may_meet(const MeasuredLeaves::Corners& box, const NearCrescent& crescent) {
+  return nearest2(box, crescent.middle) <= crescent.radius2 &&
+         farthest2(box, crescent.then) > crescent.inner2 && nearest2(box, crescent.now) <= crescent.outer2;
+}
+
+/// The lanes of a block with points in the crescent: a bit for each, and any bits for lanes without a point.
+unsigned lanes_in(const MeasuredLeaves::Offsets& at, const NearCrescent& crescent) {
+  const auto [x, y, z] = at.axis;
+  unsigned in[kBlock];
+  for (int lane = 0; lane < kBlock; ++lane) {
+    const float nx = x[lane] - crescent.now[0], ny = y[lane] - crescent.now[1],
+                nz = z[lane] - crescent.now[2], tx = x[lane] - crescent.then[0],
+                ty = y[lane] - crescent.then[1], tz = z[lane] - crescent.then[2];
+    const unsigned is_near = nx * nx + ny * ny + nz * nz <= crescent.outer2 ? 1 : 0;
+    const unsigned is_far = tx * tx + ty * ty + tz * tz > crescent.inner2 ? 1 : 0;
+    in[lane] = (is_near & is_far) << lane;
+  }
+  unsigned lanes = 0;
+  for (const unsigned bit : in) lanes |= bit;
+  return lanes;
 }
 
 }  // namespace
@@ -58,7 +105,7 @@ bool LeafCrescents<Metric>::any(const Crescent& crescent, std::int32_t own, cons
                        [&](std::int32_t leaf) { return any_in_leaf(crescent, leaf, test); });
   }
   const std::vector<Level>& levels = structure_.levels;
-  double reach = (crescent.outer + structure_.leaves.largest_extent + singletons_) * kInflate;
+  double reach = (crescent.radius + structure_.leaves.largest_extent + singletons_) * kInflate;
   for (int level = 1; level < structure_.top(); ++level)
     reach += (levels[level].radius + 2 * motion_) * kInflate;
   const Level& roots = levels.back();
@@ -73,7 +120,7 @@ template <class Metric>
 bool LeafCrescents<Metric>::edges_reach(const Crescent& crescent, std::int32_t own) const {
   const Level& centers = structure_.levels[1];
   double needed =
-      std::sqrt(metric_.distance2(centers.position[own], crescent.now)) + crescent.outer + others_;
+      std::sqrt(metric_.distance2(centers.position[own], crescent.middle)) + crescent.radius + others_;
   if (structure_.pending)
     needed += std::sqrt(metric_.distance2(structure_.anchors[own], centers.position[own]));
   return needed * kInflate <= centers.threshold - structure_.wrap_slack;
@@ -85,12 +132,11 @@ template <class Metric>
 bool LeafCrescents<Metric>::any_below(const Crescent& crescent, int level, std::int32_t node, double reach,
                                       const Test& test) const {
   const Level& own = structure_.levels[level];
-  if (metric_.distance2(crescent.now, own.position[node]) > reach * reach) return false;
+  if (metric_.distance2(crescent.middle, own.position[node]) > reach * reach) return false;
   if (level == 1) return any_in_leaf(crescent, node, test);
   if (structure_.is_singleton(level, node)) {
     const std::int32_t id = own.id[node];
-    return metric_.distance2(crescent.now, metric_.wrap(structure_.raw[id])) <= square(crescent.outer) &&
-           test(id);
+    return is_near(crescent, metric_.wrap(structure_.raw[id])) && test(id);
   }
   const Level& below = structure_.levels[level - 1];
   const double left = reach - (below.radius + 2 * motion_) * kInflate;
@@ -103,36 +149,28 @@ template <class Metric>
 bool LeafCrescents<Metric>::any_in_leaf(const Crescent& crescent, std::int32_t leaf, const Test& test) const {
   const MeasuredLeaves& measured = structure_.leaves;
   const MeasuredLeaves::Leaf& own = measured.leaves[leaf];
-  const Vec3 center = structure_.levels[1].position[leaf];
-  const double rounding = kRoundings * own.extent;
-  const Vec3 now = metric_.displacement(center, crescent.now);
-  const double farthest = crescent.outer + own.extent + rounding;
-  if (norm2(now) > farthest * farthest * kInflate) return false;
-  const Vec3 then = metric_.displacement(center, crescent.then);
-  const double inside = crescent.inner - own.extent - rounding;
-  if (inside > 0 && norm2(then) <= inside * inside) return false;
-  const bool one_image = 2 * farthest * kInflate < shortest_;
-  for (std::int32_t b = own.first_block; b < own.first_block + own.blocks; ++b)
-    if (one_image ? any_in_block(crescent, b, then, now, rounding, test) : any_image(crescent, b, test))
-      return true;
-  return false;
-}
-
-/// Where no other image of the leaf is as near.
-template <class Metric>
-bool LeafCrescents<Metric>::any_in_block(const Crescent& crescent, std::int32_t block, Vec3 then, Vec3 now,
-                                         double rounding, const Test& test) const {
-  const MeasuredLeaves& measured = structure_.leaves;
-  const double outer2 = square(crescent.outer + rounding), inner = crescent.inner - rounding,
-               inner2 = inner > 0 ? inner * inner : -1;
-  const MeasuredLeaves::Corners& box = measured.corners[block];
-  if (nearest2(box, now) > outer2 || farthest2(box, then) <= inner2) return false;
-  const MeasuredLeaves::Offsets& at = measured.offsets[block];
-  const std::int32_t* const ids =
-      structure_.points.id.data() + std::size_t{kBlock} * static_cast<std::size_t>(measured.source[block]);
-  for (int lane = 0; lane < measured.count[block]; ++lane) {
-    const Vec3 p{at.axis[0][lane], at.axis[1][lane], at.axis[2][lane]};
-    if (norm2(p - now) <= outer2 && norm2(p - then) > inner2 && test(ids[lane])) return true;
+  const Vec3 middle = metric_.displacement(structure_.levels[1].position[leaf], crescent.middle);
+  const double farthest = (crescent.radius + own.extent) * kInflate;
+  if (norm2(middle) > farthest * farthest) return false;
+  const double inside = crescent.inner - own.extent;
+  if (inside > 0 && norm2(middle - crescent.from_then) * kInflate <= inside * inside) return false;
+  const std::int32_t end = own.first_block + own.blocks;
+  // Floats hold squares of such lengths, and a leaf has one image as near if the box is not small.
+  const bool is_ordinary = crescent.outer > kLeastFloat && crescent.outer < 1 / kLeastFloat;
+  if (!is_ordinary || !(2 * farthest < shortest_)) {
+    for (std::int32_t b = own.first_block; b < end; ++b)
+      if (any_image(crescent, b, test)) return true;
+    return false;
+  }
+  const NearCrescent near(crescent, middle,
+                          kRoundings * (own.extent + crescent.outer + crescent.inner + farthest));
+  for (std::int32_t b = own.first_block; b < end; ++b) {
+    if (!may_meet(measured.corners[b], near)) continue;
+    unsigned lanes = lanes_in(measured.offsets[b], near) & measured.lanes[b];
+    const std::int32_t* const ids =
+        structure_.points.id.data() + std::size_t{kBlock} * static_cast<std::size_t>(measured.source[b]);
+    for (; lanes != 0; lanes &= lanes - 1)
+      if (test(ids[__builtin_ctz(lanes)])) return true;
   }
   return false;
 }
@@ -142,10 +180,13 @@ bool LeafCrescents<Metric>::any_image(const Crescent& crescent, std::int32_t blo
   const LeafBlocks& points = structure_.points;
   const std::int32_t first = structure_.leaves.source[block] * kBlock;
   for (std::int32_t slot = first; slot < first + structure_.leaves.count[block]; ++slot)
-    if (metric_.distance2(crescent.now, points.position[slot]) <= square(crescent.outer) * kInflate &&
-        test(points.id[slot]))
-      return true;
+    if (is_near(crescent, points.position[slot]) && test(points.id[slot])) return true;
   return false;
+}
+
+template <class Metric>
+bool LeafCrescents<Metric>::is_near(const Crescent& crescent, Vec3 wrapped) const {
+  return metric_.distance2(crescent.middle, wrapped) <= square(crescent.radius * kInflate);
 }
 
 template class LeafCrescents<OpenMetric>;

@@ -34,8 +34,7 @@ class LeafCrescents {
   bool any_below(const Crescent& crescent, int level, std::int32_t node, double reach,
                  const Test& test) const;
   bool any_in_leaf(const Crescent& crescent, std::int32_t leaf, const Test& test) const;
-  bool any_in_block(const Crescent& crescent, std::int32_t block, Vec3 then, Vec3 now, double rounding,
-                    const Test& test) const;
+  bool is_near(const Crescent& crescent, Vec3 wrapped) const;
   bool any_image(const Crescent& crescent, std::int32_t block, const Test& test) const;
 
   const Metric& metric_;

@@ -12,49 +12,73 @@ namespace dch {
 
 StaleTest::StaleTest(double skin) : skin_(skin) { detail::check_skin(skin); }
 
+namespace {
+
+constexpr std::size_t kAtATime = 16;  ///< particles that are looked at together: few hold a fast one
+
+/// Whether one of some particles is displaced by more than that, or a NaN. Without a branch for each.
+bool any_beyond(const Vec3* now, const Vec3* then, std::size_t count, double allowed2) {
+  std::size_t beyond = 0;
+  for (std::size_t k = 0; k < count; ++k) beyond += norm2(now[k] - then[k]) <= allowed2 ? 0 : 1;
+  return beyond > 0;
+}
+
+}  // namespace
+
+bool StaleTest::is_comparable(Span<const Vec3> positions, const Box& box) const {
+  return valid_ && positions.size() == reference_.size() && same_periodicity(box, reference_box_);
+}
+
 bool StaleTest::is_stale(Span<const Vec3> positions, const Box& box) const {
-  if (!valid_ || positions.size() != reference_.size() || !same_periodicity(box, reference_box_)) return true;
+  if (!is_comparable(positions, box)) return true;
   if (skin_ == 0)
     return box != reference_box_ || !std::equal(positions.begin(), positions.end(), reference_.begin());
+  return !for_each_fast(positions, box, [](std::size_t, double) { return false; });
+}
 
+StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, std::size_t most,
+                                    std::vector<MovedParticle>& fast) const {
+  fast.clear();
+  if (!is_comparable(positions, box) || skin_ == 0 || box != reference_box_)
+    return is_stale(positions, box) ? Verdict::stale : Verdict::fresh;
+  Verdict verdict = Verdict::some_fast;
+  const bool all_bounded = for_each_fast(positions, box, [&](std::size_t i, double moved) {
+    if (!std::isfinite(moved)) return false;
+    if (fast.size() == most) verdict = Verdict::too_many;
+    if (fast.size() < most) fast.push_back({static_cast<std::int32_t>(i), moved});
+    return verdict == Verdict::some_fast;
+  });
+  if (verdict == Verdict::too_many) return verdict;
+  if (!all_bounded) return Verdict::stale;
+  return fast.empty() ? Verdict::fresh : verdict;
+}
+
+/// Calls fast(i, moved) for the particles that have moved by more than half of what the skin leaves, rounding
+/// included, until it returns false; infinity and NaN count as such. Returns whether all have been looked at.
+template <class Fast>
+bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const Fast& fast) const {
   // Of each particle there may be off by rounding: its remembered place, from which it is displaced and from
   // which pairs were found; the displacement; and its distance from others now.
   const detail::WrapError error(box);
   const double room = 0.5 * (skin_ - strain(box)) - 2 * reference_error_;
   // A particle that is near its wrapped place is hardly farther out than that.
   const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
-  if (!(allowed >= 0)) return true;
-  return !std::equal(positions.begin(), positions.end(), reference_.begin(), [&](Vec3 now, Vec3 then) {
-    const Vec3 d = now - then;
-    if (norm2(d) <= allowed * allowed) return true;
-    const double left = room - 2 * error.bound(error.reach(now) + error.reach(then));
-    return left >= 0 && norm2(box.nearest_image(d)) <= left * left;
-  });
-}
-
-// The bounds are those of is_stale(), particle by particle: one that keeps within `left` there has, with its
-// share of all rounding, moved by half the skin at most.
-StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, std::size_t most,
-                                    std::vector<MovedParticle>& fast) const {
-  fast.clear();
-  if (!valid_ || positions.size() != reference_.size() || skin_ == 0 || box != reference_box_)
-    return is_stale(positions, box) ? Verdict::stale : Verdict::fresh;
-  const detail::WrapError error(box);
-  const double room = 0.5 * skin_ - 2 * reference_error_;
-  const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
-  if (!(allowed >= 0)) return Verdict::stale;
-  const double allowed2 = allowed * allowed;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec3 d = positions[i] - reference_[i];
-    if (norm2(d) <= allowed2) continue;
-    const double rounding = 2 * error.bound(error.reach(positions[i]) + error.reach(reference_[i]));
-    const double moved = std::sqrt(norm2(box.nearest_image(d)));
-    if (moved <= room - rounding) continue;
-    if (!std::isfinite(moved + rounding)) return Verdict::stale;
-    if (fast.size() == most) return Verdict::too_many;
-    fast.push_back({static_cast<std::int32_t>(i), moved + rounding + 2 * reference_error_});
+  if (!(allowed >= 0)) return false;
+  const std::size_t n = positions.size();
+  for (std::size_t first = 0; first < n; first += kAtATime) {
+    const std::size_t end = std::min(n, first + kAtATime);
+    if (!any_beyond(positions.data() + first, reference_.data() + first, end - first, allowed * allowed))
+      continue;
+    for (std::size_t i = first; i < end; ++i) {
+      const Vec3 now = positions[i], then = reference_[i], d = now - then;
+      if (norm2(d) <= allowed * allowed) continue;
+      const double rounding = 2 * error.bound(error.reach(now) + error.reach(then));
+      const double left = room - rounding, moved2 = norm2(box.nearest_image(d));
+      if (left >= 0 && moved2 <= left * left) continue;
+      if (!fast(i, std::sqrt(moved2) + rounding + 2 * reference_error_)) return false;
+    }
   }
-  return fast.empty() ? Verdict::fresh : Verdict::some_fast;
+  return true;
 }
 
 void StaleTest::remember(Span<const Vec3> positions, const Box& box) {

@@ -2,9 +2,15 @@
 #include "lists/unlisted_pairs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/tolerance.hpp"
 
 namespace dch::detail {
 namespace {
+
+double sum_of(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 ListParams without_skin(const ListParams& params) {
   ListParams bare = params;
@@ -43,14 +49,39 @@ UnlistedPairs::Cutoffs UnlistedPairs::cutoffs_of(std::int32_t i) const {
   return by_type_[params.types.empty() ? 0 : static_cast<std::size_t>(params.types[i])];
 }
 
+// With the way u from then to now, a point p of the crescent, as seen from then, has |p| > inner and
+// |p - u| <= outer, hence p.u >= (inner^2 + u^2 - outer^2) / 2: it is in a cap of the outer sphere, whose
+// plane is `ahead` of its center. The ball around the plane's part of the sphere holds the cap.
 Crescent UnlistedPairs::crescent_of(const MovedParticle& fast) const {
   const auto i = static_cast<std::size_t>(fast.particle);
   const Vec3 now = question_.positions[i];
   const Cutoffs cutoffs = cutoffs_of(fast.particle);
   // Of the place then, the place now, and the way between them.
   const double off = error_ + 4 * wrap_error_.bound(wrap_error_.reach(now) + wrap_error_.reach(before_[i]));
-  return {fast.particle, box_.wrap(before_[i]), box_.wrap(now), cutoffs.least + skin_ - off,
-          cutoffs.largest < 0 ? -1 : cutoffs.largest + fast.moved + off};
+  Crescent crescent{};
+  crescent.particle = fast.particle;
+  crescent.now = crescent.middle = box_.wrap(now);
+  crescent.from_then = box_.nearest_image(crescent.now - box_.wrap(before_[i]));
+  crescent.inner = cutoffs.least + skin_ - off;
+  crescent.outer = crescent.radius = cutoffs.largest < 0 ? -1 : cutoffs.largest + fast.moved + off;
+  const double way = std::sqrt(norm2(crescent.from_then)), inner = crescent.inner, outer = crescent.outer;
+  if (outer < 0 || inner < 0 || way == 0) return crescent;
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  const double ahead =
+      ((inner * inner - outer * outer) - kRounding * (inner * inner + outer * outer)) / (2 * way) - 0.5 * way;
+  if (ahead <= 0) return crescent;
+  const double radius2 = outer * outer * kInflate - ahead * ahead;
+  crescent.radius = radius2 < 0 ? -1 : std::sqrt(radius2) * kInflate + off;
+  crescent.from_now = (ahead / way) * crescent.from_then;
+  crescent.from_then = crescent.from_then + crescent.from_now;
+  crescent.middle = box_.wrap(crescent.now + crescent.from_now);
+  // The middle is no place that was given: far from the origin its coordinates round by more than the places
+  // of two particles near each other differ.
+  const double rounding = kRounding * (sum_of(crescent.now) + sum_of(crescent.from_now));
+  crescent.inner -= rounding;
+  crescent.outer += rounding;
+  if (crescent.radius >= 0) crescent.radius += rounding;
+  return crescent;
 }
 
 }  // namespace dch::detail

@@ -17,11 +17,16 @@ namespace dch::detail {
 ///
 /// Let i be the one of the two that has moved farther, or as far. The other one has moved by `moved` of i at
 /// most, so it was within cutoff + moved of where i is now; and it was beyond cutoff + skin of where i was.
-/// What is left between the two spheres is thin: if i has moved by half the skin and no more, they touch.
+/// What is left between the two spheres is thin and lies ahead of i: if i has moved by half the skin and no
+/// more, they touch in a point.
 struct Crescent {
   std::int32_t particle;
-  Vec3 then, now;  ///< where the particle was and is, wrapped
-  double inner;    ///< the list has all that were within this of `then`; negative if none [length]
+  Vec3 now;        ///< where the particle is, wrapped
+  Vec3 middle;     ///< of a ball that holds the crescent, wrapped
+  double radius;   ///< of the ball; negative if the crescent is empty [length]
+  Vec3 from_now;   ///< from `now` to the middle
+  Vec3 from_then;  ///< from where the particle was to the middle
+  double inner;    ///< the list has all that were within this of where it was; negative if none [length]
   double outer;    ///< the others were within this of `now` [length]
 };
 
@@ -45,7 +50,7 @@ class UnlistedPairs {
   UnlistedPair find(const Any& any) const {
     for (const MovedParticle& fast : question_.fast) {
       const Crescent crescent = crescent_of(fast);
-      if (crescent.outer >= 0 && any(crescent)) return UnlistedPair::found;
+      if (crescent.radius >= 0 && any(crescent)) return UnlistedPair::found;
     }
     return UnlistedPair::none;
   }
@@ -55,7 +60,7 @@ class UnlistedPairs {
     double least, largest;  ///< that a particle has with any other; none if the largest is negative [length]
   };
   Cutoffs cutoffs_of(std::int32_t i) const;
-  /// That of a fast particle and all others; `outer` is negative if it has no pairs with any.
+  /// That of a fast particle and all others.
   Crescent crescent_of(const MovedParticle& fast) const;
 
   const UnlistedQuestion& question_;

@@ -141,7 +141,8 @@ void Replay::start_engine() {
 void Replay::start_list() {
   std::vector<std::uint64_t> keys;
   if (atoms_change_) keys.assign(ids_.begin(), ids_.end());
-  list_.emplace(borrow(*engine_.search, std::move(keys)), params_);
+  // By half the skin, which all engines tell alike: their lists of a frame can be compared.
+  list_.emplace(borrow(*engine_.search, std::move(keys)), params_, Expiry::half_skin);
 }
 
 void Replay::read_exclusions(const trajectory::Frame& frame) {

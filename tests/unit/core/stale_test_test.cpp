@@ -112,5 +112,92 @@ TEST_F(StaleTestOfACube, ComparesPlacesAsGivenWhereThereIsNoSkin) {
   EXPECT_FALSE(is_kept(0, box_, outside, std::vector<Vec3>{{7, 1, 1}, {4, 4, 4}})) << "images of them";
 }
 
+using Verdict = StaleTest::Verdict;
+
+/// Forty particles in a row, of which some have moved since they were remembered.
+class JudgeOfARow : public ::testing::Test {
+ protected:
+  JudgeOfARow() {
+    for (int k = 0; k < 40; ++k) before_.push_back({0.2 * k, 1, 1});
+    now_ = before_;
+    test_.remember(before_, box_);
+  }
+  Verdict judge(std::size_t most = 40) { return test_.judge(now_, box_, most, fast_); }
+
+  const Box box_ = Box::orthorhombic({8, 8, 8});
+  StaleTest test_{0.5};
+  std::vector<Vec3> before_, now_;
+  std::vector<MovedParticle> fast_;
+};
+
+TEST_F(JudgeOfARow, NamesThoseThatHaveMovedMoreThanHalfTheSkinAndHowFar) {
+  now_[3].y += 0.2499;
+  EXPECT_EQ(judge(), Verdict::fresh);
+  EXPECT_TRUE(fast_.empty());
+  now_[3].y += 0.0002;
+  now_[16].z -= 0.3 + 8 * 5;  // in another image
+  now_[39].x += 0.26;
+  EXPECT_EQ(judge(), Verdict::some_fast);
+  ASSERT_EQ(fast_.size(), 3u);
+  const double expected[] = {0.2501, 0.3, 0.26};
+  const std::int32_t particles[] = {3, 16, 39};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(fast_[k].particle, particles[k]);
+    EXPECT_GE(fast_[k].moved, expected[k]);
+    EXPECT_NEAR(fast_[k].moved, expected[k], 1e-11);
+  }
+  EXPECT_TRUE(test_.is_stale(now_, box_));
+}
+
+// The sum of two is by how much pairs may have come closer: each has its share of rounding, which a list of
+// particles that stand still has too, with a skin that leaves no more.
+TEST_F(StaleTestOfACube, BoundsWhatParticlesMoveWithTheirShareOfRounding) {
+  std::vector<Vec3> moved = points_;
+  moved[0].x += 1;
+  StaleTest test(0.5);
+  test.remember(points_, box_);
+  std::vector<MovedParticle> fast;
+  ASSERT_EQ(test.judge(moved, box_, 2, fast), Verdict::some_fast);
+  EXPECT_EQ(fast[0].moved, 1 + 2 * error_.bound(error_.reach(moved[0]) + error_.reach(points_[0])) +
+                               2 * error_.bound(error_.reach(points_[1])));
+}
+
+TEST_F(JudgeOfARow, SaysWhenThereAreMoreThanAskedFor) {
+  for (const int k : {1, 2, 20}) now_[static_cast<std::size_t>(k)].y += 0.3;
+  EXPECT_EQ(judge(3), Verdict::some_fast);
+  EXPECT_EQ(fast_.size(), 3u);
+  EXPECT_EQ(judge(2), Verdict::too_many);
+  EXPECT_EQ(judge(0), Verdict::too_many);
+  now_ = before_;
+  EXPECT_EQ(judge(0), Verdict::fresh);
+}
+
+TEST_F(JudgeOfARow, LeavesWhatIsNoMotionToTheWholeRule) {
+  now_[5].x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(judge(), Verdict::stale);
+  now_[5].x = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(judge(), Verdict::stale);
+  now_ = before_;
+  now_[5].x += 0.24;
+  const Box longer = Box::orthorhombic({8.01, 8, 8}),
+            moved = Box::orthorhombic({8, 8, 8}, {true, true, true}, {1, 0, 0});
+  EXPECT_EQ(test_.judge(now_, longer, 40, fast_), Verdict::fresh);
+  now_[5].x += 0.02;
+  EXPECT_EQ(test_.judge(now_, longer, 40, fast_), Verdict::stale);
+  EXPECT_EQ(test_.judge(now_, moved, 40, fast_), Verdict::stale);
+  EXPECT_EQ(judge(), Verdict::some_fast);
+  now_.pop_back();
+  EXPECT_EQ(judge(), Verdict::stale);
+  test_.forget();
+  EXPECT_EQ(test_.judge(before_, box_, 40, fast_), Verdict::stale);
+  StaleTest without(0);
+  without.remember(before_, box_);
+  EXPECT_EQ(without.judge(before_, box_, 40, fast_), Verdict::fresh);
+  now_ = before_;
+  now_[0].x += 1e-9;
+  EXPECT_EQ(without.judge(now_, box_, 40, fast_), Verdict::stale);
+  EXPECT_TRUE(fast_.empty());
+}
+
 }  // namespace
 }  // namespace dch

@@ -22,7 +22,7 @@ enum class Expiry {
 
 /// The share of particles that an engine is asked about at most; beyond it questions cost more than the steps
 /// that they save.
-inline constexpr double kMostFast = 0.02;
+inline constexpr double kMostFast = 0.01;
 
 /// What VerletList has been asked, by half_skin none of it.
 struct ExpiryStats {

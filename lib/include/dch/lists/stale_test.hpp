@@ -63,6 +63,9 @@ class StaleTest {
   void forget() { valid_ = false; }
 
  private:
+  bool is_comparable(Span<const Vec3> positions, const Box& box) const;
+  template <class Fast>
+  bool for_each_fast(Span<const Vec3> positions, const Box& box, const Fast& fast) const;
   void wrap_reference();
   std::array<Vec3, 3> periods(const Box& box) const;
   double strain(const Box& box) const;
