@@ -188,6 +188,12 @@ void Box::reduce() {
     axis_parallel_ = axis_parallel_ && (v.x != 0) + (v.y != 0) + (v.z != 0) == 1;
     axis_periods_[axis] = length;
   }
+  // Wrapping goes upwards along axes, and cells are counted along reduced vectors.
+  if (axis_parallel_) {
+    for (std::size_t k = 0; k < periods.size(); ++k)
+      for (int axis = 0; axis < 3; ++axis) reduced_[k][axis] = std::abs(reduced_[k][axis]);
+    dual_ = dual_basis(reduced_, rank_);
+  }
   min_height_ = kInfinity;
   for (std::size_t k = 0; k < periods.size(); ++k) {
     const double height = axis_parallel_ ? norm(reduced_[k]) : 1 / norm(dual_[k]);
