@@ -204,13 +204,22 @@ TEST(NeighborPairs, RefuseWhatCannotBe) {
               testing::HasSubstr("wrap the coordinates"));
 }
 
-/// Before memory is taken: 10,000 particles on one spot have 1e8 pairs.
+/// As far apart as the cutoff, on both sides.
+TEST(NeighborPairs, OfBothImagesAtHalfAPeriod) {
+  const Scene scene{Box::orthorhombic({2, 3, 4}), {{0.25, 0, 0}, {1.25, 0, 0}}, {}};
+  EXPECT_THAT(pairs_of(neighbor_pairs(scene.points, scene.box, 1), scene),
+              testing::ElementsAre(Pair{0, 1, {-1, 0, 0}}, Pair{0, 1, {0, 0, 0}}, Pair{1, 0, {0, 0, 0}},
+                                   Pair{1, 0, {1, 0, 0}}));
+}
+
+/// Before memory is taken: 200,000 particles on one spot have 4e10 pairs.
 TEST(NeighborPairs, RefuseMorePairsThanAsked) {
-  const std::vector<Vec3> points(10000, Vec3{1, 2, 3});
+  const std::vector<Vec3> points(200000, Vec3{1, 2, 3});
   NeighborPairsParams params;
   params.max_pairs = 1000;
-  EXPECT_THAT(test::message_of<TooManyPairs>([&] { neighbor_pairs(points, Box::none(), params); }),
-              testing::AllOf(testing::HasSubstr("99990000 pairs"), testing::HasSubstr("1000 are possible")));
+  EXPECT_THAT(
+      test::message_of<TooManyPairs>([&] { neighbor_pairs(points, Box::none(), params); }),
+      testing::AllOf(testing::HasSubstr("39999800000 pairs"), testing::HasSubstr("1000 are possible")));
 }
 
 TEST(NeighborPairs, FollowOnlyTheSameParticles) {

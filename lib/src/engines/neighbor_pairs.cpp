@@ -26,7 +26,7 @@ using detail::pair_reach;
 /// Where the cutoff is nearer to half a height than this, two images may be in reach by rounding.
 constexpr double kOneImage = 1 - 1e-9;
 /// Rows by which the number of pairs is estimated.
-constexpr std::size_t kSampledRows = 16;
+constexpr std::size_t kSampledRows = 8;
 
 /// Decides near the cutoff from positions as given.
 class ByDefinition : public TieBreaker {
@@ -78,6 +78,7 @@ class NeighborPairsMaker {
   NeighborPairs make() {
     NeighborPairs out;
     out.has_skin_ = params_.skin > 0;
+    out.may_change_box_ = !ghosts_;
     out.cutoffs_ = params_.cutoffs;
     out.types_.assign(params_.types.begin(), params_.types.end());
     out.radii_.assign(params_.radii.begin(), params_.radii.end());

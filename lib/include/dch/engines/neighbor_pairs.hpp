@@ -60,22 +60,31 @@ class NeighborPairs {
   ///   Nothing changes then.
   void follow(Span<const Vec3> positions, const Box& box);
 
-  /// Calls f(j, S, D) for the pairs of particle i that are within their cutoff (without the skin) at these
-  /// positions: those found, or those of the last follow(). Rows may be asked for by several threads at once.
+  /// Whether a change of the box may be followed as StaleTest allows: where no particle has two images within
+  /// cutoff + skin of another one. Elsewhere any change of the box needs pairs found anew.
+  bool may_change_box() const { return may_change_box_; }
+
+  /// Which pairs are meant.
+  enum class Within { cutoff, cutoff_and_skin };
+
+  /// Calls f(j, S, D) for the pairs of particle i that are within their cutoff at these positions, or for all
+  /// that are listed: the positions are those found, or those of the last follow(). Rows may be asked for by
+  /// several threads at once.
   template <class F>
-  void for_each_in_row(std::int32_t i, Span<const Vec3> positions, const F& f) const {
+  void for_each_in_row(std::int32_t i, Span<const Vec3> positions, const F& f,
+                       Within within = Within::cutoff) const {
+    const bool is_tested = has_skin_ && within == Within::cutoff;
     const auto row = static_cast<std::size_t>(i);
     const Vec3 from = positions[row];
     const Shift home = home_[row];
     const auto last = static_cast<std::size_t>(first_[row + 1]);
     for (auto k = static_cast<std::size_t>(first_[row]); k < last; ++k) {
       const auto j = static_cast<std::size_t>(j_[k]);
-      const Shift& image = images_[image_[k]];
-      const Shift& other = home_[j];
+      const Shift &image = images_[image_[k]], &other = home_[j];
       const Shift s{image[0] + other[0] - home[0], image[1] + other[1] - home[1],
                     image[2] + other[2] - home[2]};
       const Vec3 d = displacement(positions[j] - from, s);
-      if (!has_skin_ || norm2(d) <= cutoff2(row, j)) f(j_[k], s, d);
+      if (!is_tested || norm2(d) <= cutoff2(row, j)) f(j_[k], s, d);
     }
   }
 
@@ -100,7 +109,7 @@ class NeighborPairs {
   std::vector<Shift> images_;
   std::vector<Shift> home_;     ///< what brings each particle next to its place in home_positions_
   std::array<Vec3, 3> cell_{};  ///< as given, 0 along open axes
-  bool has_skin_ = false;
+  bool has_skin_ = false, may_change_box_ = false;
   TypeCutoffs cutoffs_{1.0};
   std::vector<std::int32_t> types_;
   std::vector<double> radii_;
