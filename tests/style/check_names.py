@@ -9,7 +9,7 @@ import re
 import sys
 
 PAGES = ["CONTRIBUTING.md", "README.md", "docs/architecture.md", "docs/engine.md", "docs/kinetic.md", "docs/necklaces.md",
-         "docs/proximity.md", "docs/crossings.md", "docs/zonotopes.md", "docs/reliability.md", "docs/thesis-map.md", "docs/lammps/design.md", "benchmarks/README.md"]
+         "docs/proximity.md", "docs/python.md", "docs/crossings.md", "docs/zonotopes.md", "docs/reliability.md", "docs/thesis-map.md", "docs/lammps/design.md", "benchmarks/README.md"]
 SKIPPED_FOLDERS = re.compile(r"^(\.git|build.*|out)$")  # of the root
 # A path in backticks or in brackets behind a name, as in `Nearest` (proximity/src/nearest.cpp, nearest_descent.cpp).
 ENDING = r"(?:cpp|hpp|h|py|i|md|toml|cmake|cmake\.in|txt|lmp)"

@@ -52,6 +52,11 @@ class NeighborPairs {
   std::size_t particles() const { return home_.size(); }
   /// Number of listed pairs: those within cutoff + skin.
   std::int64_t listed() const { return first_.back(); }
+  std::int64_t listed_in_row(std::int32_t i) const {
+    return first_[static_cast<std::size_t>(i) + 1] - first_[static_cast<std::size_t>(i)];
+  }
+  /// Whether pairs farther apart than their cutoff are listed.
+  bool has_skin() const { return has_skin_; }
 
   /// Takes later positions, for shifts as they are now: particles may have been wrapped into the cell, or out
   /// of it, since. Without this displacements of positions at other times have no meaning. O(n).

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""Reads arguments: arrays of the right type and shape, or an error that names the value, the limit and the remedy."""
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import InvalidParameter
+from ._elements import NUMBERS
+
+Floats = npt.NDArray[np.float64]
+REAL_KINDS = "fiub"
+
+
+def numbers(values: Any, name: str) -> Floats:
+    """As a contiguous array of float64: the same one if it is one, else a copy."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InvalidParameter(f"{name} cannot be read as an array ({error}); give rows of equal length") from error
+    if array.dtype.kind not in REAL_KINDS:
+        raise InvalidParameter(f"{name} is an array of {array.dtype}; give real numbers, such as float64")
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def points(values: Any, name: str = "positions") -> Floats:
+    array = numbers(values, name)
+    if array.size == 0 and array.ndim <= 2:
+        return array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidParameter(f"{name} has the shape {array.shape}; give one of (n, 3), three coordinates for each atom")
+    return array
+
+
+def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
+    """The vectors of a cell as rows, and along which of them it is periodic.
+
+    Without a cell nothing is periodic; a cell is periodic unless pbc says otherwise.
+    """
+    if cell is None:
+        if pbc is not None and np.any(pbc):
+            raise InvalidParameter(f"pbc is {pbc!r}, but there is no cell; give its three vectors as rows")
+        return np.zeros((3, 3)), (False, False, False)
+    vectors = numbers(cell, "cell")
+    if vectors.shape == (3,):
+        vectors = np.diag(vectors)
+    if vectors.shape != (3, 3):
+        raise InvalidParameter(f"cell has the shape {vectors.shape}; give three vectors as rows, (3, 3), or three lengths")
+    if not np.isfinite(vectors).all():
+        raise InvalidParameter(f"cell is {vectors.tolist()}; all components must be finite")
+    flags = np.asarray(True if pbc is None else pbc)
+    if flags.shape not in [(), (3,)] or flags.dtype.kind not in "biu":
+        raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
+    x, y, z = np.broadcast_to(flags, 3).tolist()
+    return vectors, (bool(x), bool(y), bool(z))
+
+
+def length(value: Any, name: str) -> float:
+    array = numbers(value, name)
+    number = float(array) if array.ndim == 0 else math.nan
+    if not (math.isfinite(number) and number >= 0):
+        raise InvalidParameter(f"{name} is {value!r}; give a finite number that is not negative")
+    return number
+
+
+def count(value: Any, name: str, least: int, most: int) -> int:
+    array = np.asarray(value)
+    if array.ndim != 0 or array.dtype.kind not in "iu" or not least <= int(array) <= most:
+        raise InvalidParameter(f"{name} is {value!r}; give a whole number from {least} to {most}")
+    return int(array)
+
+
+def threads(value: int | None) -> int:
+    """As given, else by the environment variable DCH_NUM_THREADS, else 1."""
+    if value is None:
+        text = os.environ.get("DCH_NUM_THREADS", "1")
+        if not text.isdecimal() or not 1 <= int(text) <= 4096:
+            raise InvalidParameter(f"DCH_NUM_THREADS is {text!r}; set it to a whole number from 1 to 4096, or unset it")
+        return int(text)
+    return count(value, "threads", 1, 4096)
+
+
+def quantities(letters: Any) -> str:
+    if not isinstance(letters, str) or not letters:
+        raise InvalidParameter(f"quantities is {letters!r}; give a text of the letters i, j, d, D and S")
+    for letter in letters:
+        if letter not in "ijdDS":
+            raise InvalidParameter(f"quantities is {letters!r}, and {letter!r} is none of i, j, d, D and S; leave it out")
+    return letters
+
+
+def in_order(letters: str, find: Callable[[str], tuple[Any, ...]]) -> Any:
+    """The array of each letter, found once, in a tuple; the array itself for one letter."""
+    distinct = "".join(dict.fromkeys(letters))
+    found = dict(zip(distinct, find(distinct)))
+    if len(letters) == 1:
+        return found[letters]
+    if len(letters) == len(distinct):
+        return tuple(found.values())
+    return tuple(found[letter].copy() for letter in letters)
+
+
+def element(key: Any) -> int:
+    """The atomic number of a symbol, or a number as it is."""
+    if isinstance(key, str):
+        if key not in NUMBERS:
+            raise InvalidParameter(f"cutoff has the key {key!r}, which is no element; give symbols or atomic numbers")
+        return NUMBERS[key]
+    return count(key, "an element of a key of cutoff", 0, 2**31 - 1)
+
+
+def matrix(cutoff: dict[Any, Any], kinds: Any, atoms: int) -> tuple[Floats, npt.NDArray[np.int32]]:
+    """Cutoffs by pair of those elements that there are, 0 for those that no key names; the row of each atom.
+
+    kinds are atomic numbers, or any whole numbers.
+    """
+    if kinds is None:
+        raise InvalidParameter("cutoff is a dict, but there are no atomic numbers; give one for each atom")
+    array = np.asarray(kinds)
+    if array.shape != (atoms,) or (atoms and array.dtype.kind not in "iu"):
+        raise InvalidParameter(f"atomic numbers have the shape {array.shape} and the type {array.dtype}; give a whole "
+                               f"number for each of the {atoms} atoms")
+    present, types = np.unique(array, return_inverse=True)
+    row = {int(number): k for k, number in enumerate(present)}
+    cutoffs = np.zeros((max(len(row), 1), max(len(row), 1)))
+    for key, value in cutoff.items():
+        if not isinstance(key, tuple) or len(key) != 2:
+            raise InvalidParameter(f"cutoff has the key {key!r}; give pairs of elements, such as ('H', 'O')")
+        a, b = element(key[0]), element(key[1])
+        reach = length(value, f"cutoff[{key!r}]")
+        if a in row and b in row:
+            cutoffs[row[a], row[b]] = cutoffs[row[b], row[a]] = reach
+    return cutoffs, types.astype(np.int32)

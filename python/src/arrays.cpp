@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <dch/base/error.hpp>
+
+namespace dch::python {
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+double norm(Vec3 v) { return std::sqrt(norm2(v)); }
+
+Vec3 axis_vector(int axis) {
+  Vec3 v;
+  v[axis] = 1;
+  return v;
+}
+
+/// A vector along v as long as others are; v if it has no direction, for Box to say so.
+Vec3 scaled(Vec3 v, double length) { return norm(v) > 0 ? (length / norm(v)) * v : v; }
+
+/// In the place of vectors along open axes: normal to those along periodic ones, and right-handed.
+void complete(std::array<Vec3, 3>& cell, const std::array<bool, 3>& periodic) {
+  const auto is_periodic = [&](std::size_t k) { return periodic[k % 3]; };
+  for (std::size_t k = 0; k < 3; ++k) {
+    Vec3 &a = cell[k], &b = cell[(k + 1) % 3], &c = cell[(k + 2) % 3];
+    if (!is_periodic(k) && is_periodic(k + 1) && is_periodic(k + 2)) {
+      const Vec3 normal = cross(scaled(b, 1), scaled(c, 1));
+      a = norm(normal) > 0 ? scaled(normal, std::max(norm(b), norm(c))) : b;  // Box says that b and c depend
+    } else if (is_periodic(k) && !is_periodic(k + 1) && !is_periodic(k + 2)) {
+      const Vec3 along = scaled(a, 1);
+      const auto off = [&](std::size_t axis) {
+        const Vec3 e = axis_vector(static_cast<int>(axis % 3));
+        return e - dot(e, along) * along;
+      };
+      constexpr double kParallel = 0.1;
+      b = scaled(norm(off(k + 1)) > kParallel ? off(k + 1) : off(k), norm(a));
+      c = scaled(cross(along, scaled(b, 1)), norm(a));
+    }
+  }
+}
+
+/// The number in a file; infinity if there is none.
+double number_in(const char* path) {
+  std::ifstream file(path);
+  double number = 0;
+  return file >> number ? number : std::numeric_limits<double>::infinity();
+}
+
+/// An array of numbers of type T, and where the elements are.
+template <class T, class Element>
+py::array column(Element*& elements, std::vector<py::ssize_t> shape) {
+  py::array_t<T> array(std::move(shape));
+  elements = reinterpret_cast<Element*>(array.mutable_data());
+  return array;
+}
+
+double free_of_machine() {
+  std::ifstream file("/proc/meminfo");
+  std::string word;
+  while (file >> word)
+    if (word == "MemAvailable:" && file >> word) return 1024 * std::stod(word);
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Span<const Vec3> points_of(const Doubles& array) {
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw InvalidParameter(
+        "positions are an array of another shape than (n, 3); give three coordinates each");
+  // Three doubles one after the other, as the array has them.
+  return {reinterpret_cast<const Vec3*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+Span<const double> numbers_of(const std::optional<Doubles>& array) {
+  if (!array) return {};
+  return {array->data(), static_cast<std::size_t>(array->size())};
+}
+
+Span<const std::int32_t> numbers_of(const std::optional<Ints>& array) {
+  if (!array) return {};
+  return {array->data(), static_cast<std::size_t>(array->size())};
+}
+
+Box box_of(const Doubles& cell, std::array<bool, 3> periodic) {
+  if (!periodic[0] && !periodic[1] && !periodic[2]) return Box::none();
+  const Span<const Vec3> rows = points_of(cell);
+  if (rows.size() != 3) throw InvalidParameter("a cell has three vectors, of three components each");
+  std::array<Vec3, 3> vectors{rows[0], rows[1], rows[2]};
+  complete(vectors, periodic);
+  return Box::triclinic(vectors[0], vectors[1], vectors[2], periodic);
+}
+
+TypeCutoffs cutoffs_of(const Doubles& matrix) {
+  const auto types = static_cast<int>(matrix.ndim() == 2 ? matrix.shape(0) : 0);
+  return TypeCutoffs(types, std::vector<double>(matrix.data(), matrix.data() + matrix.size()));
+}
+
+double available_memory() {
+  double free = free_of_machine();
+  for (const auto& [limit, used] : {std::pair("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+                                    std::pair("/sys/fs/cgroup/memory/memory.limit_in_bytes",
+                                              "/sys/fs/cgroup/memory/memory.usage_in_bytes")}) {
+    const double left = number_in(limit) - number_in(used);
+    if (left >= 0) free = std::min(free, left);  // not for NaN
+  }
+  return std::min(free, 1e18);
+}
+
+double PairArrays::bytes_per_pair(const std::string& quantities) {
+  double numbers = 0;
+  for (const char letter : quantities) numbers += letter == 'D' || letter == 'S' ? 3 : 1;
+  return numbers * sizeof(double);
+}
+
+PairArrays::PairArrays(const std::string& quantities, std::int64_t pairs) : arrays_(quantities.size()) {
+  constexpr double kAnyMachineHas = 1e8;
+  const double bytes = bytes_per_pair(quantities) * static_cast<double>(pairs);
+  if (bytes > kAnyMachineHas) {
+    if (const double free = available_memory(); bytes > free) {
+      const std::string text = std::to_string(pairs) + " pairs take " + std::to_string(std::llround(bytes)) +
+                               " bytes, and " + std::to_string(std::llround(free)) +
+                               " are free; take a smaller cutoff, or fewer quantities";
+      PyErr_SetString(PyExc_MemoryError, text.c_str());
+      throw py::error_already_set();
+    }
+  }
+  const auto n = static_cast<py::ssize_t>(pairs);
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    switch (quantities[k]) {
+      case 'i':
+        arrays_[k] = column<std::int64_t>(i_, {n});
+        break;
+      case 'j':
+        arrays_[k] = column<std::int64_t>(j_, {n});
+        break;
+      case 'd':
+        arrays_[k] = column<double>(distance_, {n});
+        break;
+      case 'D':
+        arrays_[k] = column<double>(displacement_, {n, 3});
+        break;
+      case 'S':
+        arrays_[k] = column<std::int64_t>(shift_, {n, 3});
+        break;
+      default:
+        throw InvalidParameter(std::string("'") + quantities[k] + "' is none of i, j, d, D and S");
+    }
+  }
+}
+
+py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const std::string& quantities,
+                     NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor) {
+  const auto n = static_cast<std::int32_t>(positions.size());
+  const bool are_all = within == NeighborPairs::Within::cutoff_and_skin || !pairs.has_skin();
+  const auto is_with_itself = [&](std::int32_t i) {
+    return !has_self.empty() && has_self[static_cast<std::size_t>(i)] != 0;
+  };
+  const auto count_row = [&](std::int32_t i) {
+    if (are_all) return pairs.listed_in_row(i);
+    std::int64_t count = 0;
+    pairs.for_each_in_row(
+        i, positions, [&](std::int32_t, const NeighborPairs::Shift&, Vec3) { ++count; }, within);
+    return count;
+  };
+  std::vector<std::int64_t> first(positions.size() + 1, 0);
+  {
+    const py::gil_scoped_release release;
+    for_ranges(executor, n, [&](std::int32_t from, std::int32_t to) {
+      for (std::int32_t i = from; i < to; ++i)
+        first[static_cast<std::size_t>(i) + 1] = count_row(i) + static_cast<int>(is_with_itself(i));
+    });
+    for (std::size_t i = 0; i < positions.size(); ++i) first[i + 1] += first[i];
+  }
+  const PairArrays arrays(quantities, first.back());
+  {
+    const py::gil_scoped_release release;
+    for_ranges(executor, n, [&](std::int32_t from, std::int32_t to) {
+      for (std::int32_t i = from; i < to; ++i) {
+        std::int64_t at = first[static_cast<std::size_t>(i)];
+        if (is_with_itself(i)) arrays.put(at++, i, i, {}, {});
+        pairs.for_each_in_row(
+            i, positions,
+            [&](std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) { arrays.put(at++, i, j, s, d); },
+            within);
+      }
+    });
+  }
+  return arrays.tuple();
+}
+
+}  // namespace dch::python

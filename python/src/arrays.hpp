@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <dch/base/span.hpp>
+#include <dch/base/vec3.hpp>
+#include <dch/engines/neighbor_pairs.hpp>
+#include <dch/geometry/box.hpp>
+
+namespace dch::python {
+
+namespace py = pybind11;
+
+/// Contiguous arrays; the Python sources convert what callers hand in. None is converted here.
+using Doubles = py::array_t<double, py::array::c_style>;
+using Ints = py::array_t<std::int32_t, py::array::c_style>;
+
+/// A view of an array of n x 3. @throws InvalidParameter for another shape.
+Span<const Vec3> points_of(const Doubles& array);
+Span<const double> numbers_of(const std::optional<Doubles>& array);
+Span<const std::int32_t> numbers_of(const std::optional<Ints>& array);
+
+/// The box of a cell (rows are its vectors) that is periodic along some of them. Vectors along open axes have
+/// no meaning, so they may be zero, or depend on others.
+/// @throws InvalidBox as Box::triclinic
+Box box_of(const Doubles& cell, std::array<bool, 3> periodic);
+
+/// A symmetric matrix of cutoffs. @throws InvalidParameter as TypeCutoffs
+TypeCutoffs cutoffs_of(const Doubles& matrix);
+
+/// An array over the elements of a vector, which lives as long as the array does.
+template <class T>
+py::array array_of(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(values.size())};
+  auto owned = std::make_unique<std::vector<T>>(std::move(values));
+  const T* const data = owned->data();
+  const py::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  owned.release();
+  return py::array_t<T>(std::move(shape), data, owner);
+}
+
+/// Bytes that may be taken before the machine swaps, or the container is full; a large number where nobody
+/// says.
+double available_memory();
+
+/// Arrays of some of i, j, d, D and S, filled pair by pair.
+class PairArrays {
+ public:
+  /// @param quantities letters of ijdDS, each at most once
+  /// @throws py::error_already_set, a MemoryError, if the machine has not that much memory.
+  PairArrays(const std::string& quantities, std::int64_t pairs);
+
+  static double bytes_per_pair(const std::string& quantities);
+
+  void put(std::int64_t at, std::int32_t i, std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) const {
+    if (i_ != nullptr) i_[at] = i;
+    if (j_ != nullptr) j_[at] = j;
+    if (distance_ != nullptr) distance_[at] = std::sqrt(norm2(d));
+    if (displacement_ != nullptr) displacement_[at] = d;
+    if (shift_ != nullptr) shift_[at] = {s[0], s[1], s[2]};
+  }
+  /// One for each letter.
+  py::tuple tuple() const { return arrays_; }
+
+ private:
+  py::tuple arrays_;
+  std::int64_t *i_ = nullptr, *j_ = nullptr;
+  double* distance_ = nullptr;
+  Vec3* displacement_ = nullptr;
+  std::array<std::int64_t, 3>* shift_ = nullptr;
+};
+
+/// The pairs of a NeighborPairs that are within their cutoff, or all that are listed, row after row.
+/// @param has_self by particle, whether it is paired with itself, with S = 0; empty if none is
+py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const std::string& quantities,
+                     NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor);
+
+}  // namespace dch::python

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Pairs over all images: at once, and followed from step to step.
+#include <cmath>
+#include <pybind11/stl.h>
+
+#include <dch/base/error.hpp>
+#include <dch/engines/neighbor_pairs.hpp>
+#include <dch/lists/stale_test.hpp>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "threads.hpp"
+
+namespace dch::python {
+namespace {
+
+/// Which pairs are asked for; the arrays are kept.
+struct Request {
+  Doubles cutoffs;
+  std::optional<Ints> types;
+  std::optional<Doubles> radii;
+  bool half = false;
+
+  NeighborPairsParams params(double skin) const {
+    NeighborPairsParams out;
+    if (!radii) out.cutoffs = cutoffs_of(cutoffs);
+    out.types = numbers_of(types);
+    out.radii = numbers_of(radii);
+    out.kind = half ? ListKind::half : ListKind::full;
+    out.skin = skin;
+    return out;
+  }
+
+  /// Which of n particles are within a cutoff of themselves: all whose cutoff is not 0.
+  std::vector<char> with_themselves(std::size_t n) const {
+    const NeighborPairsParams by = params(0);
+    std::vector<char> out(n, 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!by.radii.empty()) out[i] = static_cast<char>(by.radii[i] > 0);
+      if (!by.types.empty()) out[i] = static_cast<char>(by.cutoffs(by.types[i], by.types[i]) > 0);
+    }
+    return out;
+  }
+};
+
+/// Bytes that a pair takes in the list and beside it while they are found.
+constexpr double kListBytes = 24;
+/// So many pairs no machine minds, so that its memory is not asked for.
+constexpr std::int64_t kFewPairs = 1000000;
+
+NeighborPairs find(Span<const Vec3> positions, const Box& box, NeighborPairsParams params,
+                   double bytes_per_pair) {
+  constexpr std::size_t kFewParticles = 1000;
+  if (positions.size() <= kFewParticles) {
+    params.max_pairs = kFewPairs;
+    try {
+      return neighbor_pairs(positions, box, params);
+    } catch (const TooManyPairs&) {  // for the memory that every machine has
+    }
+  }
+  params.max_pairs = static_cast<std::int64_t>(available_memory() / (kListBytes + bytes_per_pair));
+  return neighbor_pairs(positions, box, params);
+}
+
+py::tuple find_pairs(const std::string& quantities, const Doubles& positions, const Doubles& cell,
+                     std::array<bool, 3> periodic, const Request& request, bool self_interaction,
+                     int threads) {
+  const Span<const Vec3> points = points_of(positions);
+  const Box box = box_of(cell, periodic);
+  Threads pool(threads);
+  NeighborPairsParams params = request.params(0);
+  params.executor = pool.executor();
+  NeighborPairs pairs;
+  {
+    const py::gil_scoped_release release;
+    pairs = find(points, box, params, PairArrays::bytes_per_pair(quantities));
+  }
+  return fill_pairs(pairs, points, quantities, NeighborPairs::Within::cutoff_and_skin,
+                    self_interaction ? request.with_themselves(points.size()) : std::vector<char>(),
+                    params.executor);
+}
+
+/// Pairs found with a skin, which are followed until some might be missing.
+class VerletPairs {
+ public:
+  VerletPairs(Request request, double skin, int threads)
+      : request_(std::move(request)), skin_(skin), stale_test_(skin), threads_(threads) {
+    request_.params(skin);  // cutoffs are checked here
+  }
+
+  bool update(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
+    const InUse in_use(used_, "VerletList");
+    const Span<const Vec3> points = points_of(positions);
+    const Box box = box_of(cell, periodic);
+    NeighborPairsParams params = request_.params(skin_);
+    params.executor = threads_.executor();
+    const py::gil_scoped_release release;
+    const bool is_new = is_stale(points, box);
+    positions_.clear();  // until all has succeeded
+    if (is_new) {
+      stale_test_.forget();
+      pairs_ = find(points, box, params, 0);
+      stale_test_.remember(points, box);
+      ++rebuilds_;
+    } else {
+      pairs_.follow(points, box);
+    }
+    box_ = box;
+    positions_.assign(points.begin(), points.end());
+    return is_new;
+  }
+
+  py::tuple pairs(const std::string& quantities, bool with_skin, bool self_interaction) {
+    const InUse in_use(used_, "VerletList");
+    if (positions_.size() != pairs_.particles() || rebuilds_ == 0)
+      throw InvalidParameter(
+          "this VerletList has no positions yet, or the last update failed; call update()");
+    return fill_pairs(pairs_, positions_, quantities,
+                      with_skin ? NeighborPairs::Within::cutoff_and_skin : NeighborPairs::Within::cutoff,
+                      self_interaction ? request_.with_themselves(positions_.size()) : std::vector<char>(),
+                      threads_.executor());
+  }
+
+  std::string text() const {
+    return std::to_string(positions_.size()) + " particles, " + std::to_string(pairs_.listed()) +
+           " pairs listed, " + std::to_string(rebuilds_) + " rebuilds";
+  }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  std::size_t particles() const { return positions_.size(); }
+
+ private:
+  bool is_stale(Span<const Vec3> points, const Box& box) const {
+    if (positions_.empty() || (box != box_ && !pairs_.may_change_box())) return true;
+    return stale_test_.is_stale(points, box);
+  }
+
+  Request request_;
+  double skin_;
+  StaleTest stale_test_;
+  Threads threads_;
+  NeighborPairs pairs_;
+  std::vector<Vec3> positions_;
+  Box box_;
+  std::int64_t rebuilds_ = 0;
+  std::atomic<bool> used_{false};
+};
+
+}  // namespace
+
+void bind_pairs(py::module_& m) {
+  py::class_<Request>(m, "Request")
+      .def(py::init([](Doubles cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half) {
+             return Request{std::move(cutoffs), std::move(types), std::move(radii), half};
+           }),
+           py::arg("cutoffs").noconvert(), py::arg("types").noconvert(), py::arg("radii").noconvert(),
+           py::arg("half"));
+  m.def("find_pairs", &find_pairs, py::arg("quantities"), py::arg("positions").noconvert(),
+        py::arg("cell").noconvert(), py::arg("pbc"), py::arg("request"), py::arg("self_interaction"),
+        py::arg("threads"));
+  py::class_<VerletPairs>(m, "VerletPairs")
+      .def(py::init<Request, double, int>(), py::arg("request"), py::arg("skin"), py::arg("threads"))
+      .def("update", &VerletPairs::update, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
+           py::arg("pbc"))
+      .def("pairs", &VerletPairs::pairs, py::arg("quantities"), py::arg("with_skin"),
+           py::arg("self_interaction"))
+      .def("text", &VerletPairs::text)
+      .def_property_readonly("rebuilds", &VerletPairs::rebuilds)
+      .def_property_readonly("particles", &VerletPairs::particles);
+}
+
+}  // namespace dch::python

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Lists in the form that the library has them, the oracle, and nearest neighbors.
+#include <algorithm>
+#include <cmath>
+#include <pybind11/stl.h>
+
+#include <dch/base/error.hpp>
+#include <dch/engines/pair_search.hpp>
+#include <dch/hierarchy/hierarchy.hpp>
+#include <dch/lists/all_pairs.hpp>
+#include <dch/proximity/nearest.hpp>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "threads.hpp"
+
+namespace dch::python {
+namespace {
+
+ListParams list_params(double cutoff, bool full) {
+  ListParams params;
+  params.cutoffs = TypeCutoffs(cutoff);
+  params.kind = full ? ListKind::full : ListKind::half;
+  return params;
+}
+
+py::tuple csr_of(NeighborList list) {
+  py::array first = array_of(std::move(list.first));
+  return py::make_tuple(std::move(first), array_of(std::move(list.j)));
+}
+
+/// An engine over positions that change.
+class Search {
+ public:
+  Search(double cutoff, int threads) : cutoff_(cutoff), threads_(threads) {
+    list_params(cutoff, false);  // the cutoff is checked here
+    params_.radius = cutoff;
+    params_.executor = threads_.executor();
+    search_ = make_auto_search(params_);
+  }
+
+  void update(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
+    const InUse in_use(used_, "NeighborSearch");
+    const Span<const Vec3> points = points_of(positions);
+    const Box box = box_of(cell, periodic);
+    if (Executor* const executor = threads_.executor();
+        executor != params_.executor) {  // in a forked process
+      params_.executor = executor;
+      search_ = make_auto_search(params_);
+    }
+    particles_ = -1;
+    const py::gil_scoped_release release;
+    search_->update(points, box);
+    particles_ = static_cast<std::int64_t>(points.size());
+  }
+
+  py::tuple csr(bool full) {
+    const InUse in_use(used_, "NeighborSearch");
+    if (particles_ < 0)
+      throw InvalidParameter(
+          "this NeighborSearch has no positions yet, or the last update failed; call update()");
+    NeighborList list;
+    {
+      const py::gil_scoped_release release;
+      search_->list(list_params(cutoff_, full), list);
+    }
+    return csr_of(std::move(list));
+  }
+
+  std::int64_t particles() const { return std::max<std::int64_t>(particles_, 0); }
+
+ private:
+  double cutoff_;
+  Threads threads_;
+  HierarchyParams params_;
+  std::unique_ptr<PairSearch> search_;
+  std::int64_t particles_ = -1;
+  std::atomic<bool> used_{false};
+};
+
+py::tuple all_pairs_of(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic,
+                       double cutoff, bool full) {
+  const Span<const Vec3> points = points_of(positions);
+  const Box box = box_of(cell, periodic);
+  NeighborList list;
+  {
+    const py::gil_scoped_release release;
+    list = all_pairs(points, box, list_params(cutoff, full));
+  }
+  return csr_of(std::move(list));
+}
+
+/// About the distance of the k-th neighbor if the points fill their surroundings evenly; any radius is right.
+double usual_distance(Span<const Vec3> points, const Box& box, std::int32_t k) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double widest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const double wanted =
+      0.62 * widest * std::cbrt(static_cast<double>(k) / static_cast<double>(points.size()));
+  return std::clamp(std::isfinite(wanted) && wanted > 0 ? std::min(wanted, box.max_cutoff()) : 1,
+                    kMinListRadius, std::min(kMaxListRadius, box.max_cutoff()));
+}
+
+NearestRows nearest_rows(Span<const Vec3> points, const Box& box,
+                         const std::optional<Span<const Vec3>>& queries, const NearestParams& params) {
+  HierarchyParams hierarchy_params;
+  hierarchy_params.radius = points.empty() ? kMinListRadius : usual_distance(points, box, params.k);
+  hierarchy_params.executor = params.executor;
+  Hierarchy hierarchy(hierarchy_params);
+  hierarchy.build(points, box);
+  const Nearest nearest(hierarchy.view());
+  NearestRows rows = queries ? nearest.of_positions(*queries, params) : nearest.of_points(params);
+  for (double& d : rows.distance2) d = std::sqrt(d);
+  return rows;
+}
+
+py::tuple find_nearest(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic,
+                       const std::optional<Doubles>& queries, std::int32_t k, double epsilon, int threads) {
+  const Span<const Vec3> points = points_of(positions);
+  std::optional<Span<const Vec3>> asked;
+  if (queries) asked = points_of(*queries);
+  const Box box = box_of(cell, periodic);
+  Threads pool(threads);
+  NearestRows rows;
+  {
+    const py::gil_scoped_release release;
+    rows = nearest_rows(points, box, asked, {k, epsilon, pool.executor()});
+  }
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size()), k};
+  py::array index = array_of(std::move(rows.id), shape);
+  return py::make_tuple(std::move(index), array_of(std::move(rows.distance2), shape));
+}
+
+}  // namespace
+
+void bind_queries(py::module_& m) {
+  py::class_<Search>(m, "Search")
+      .def(py::init<double, int>(), py::arg("cutoff"), py::arg("threads"))
+      .def("update", &Search::update, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
+           py::arg("pbc"))
+      .def("csr", &Search::csr, py::arg("full"))
+      .def_property_readonly("particles", &Search::particles);
+  m.def("all_pairs", &all_pairs_of, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
+        py::arg("pbc"), py::arg("cutoff"), py::arg("full"));
+  m.def("nearest", &find_nearest, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
+        py::arg("pbc"), py::arg("queries").noconvert(), py::arg("k"), py::arg("epsilon"), py::arg("threads"));
+}
+
+}  // namespace dch::python
