@@ -47,10 +47,13 @@ def find(quantities: str, positions: Any, cell: Any, pbc: Any, cutoff: Any, kind
     vectors, periodic = arguments.box(cell, pbc)
     wanted = request(cutoff, kinds, len(points), half, BELOW)
     number = arguments.threads(threads)
-    if wanted is None:
-        return arguments.in_order(letters, no_pairs)
-    return arguments.in_order(letters, lambda distinct: _core.find_pairs(distinct, points, vectors, periodic, wanted,
-                                                                         bool(self_interaction), number))
+
+    def arrays(distinct: str) -> tuple[Any, ...]:
+        if wanted is None:
+            return no_pairs(distinct)
+        return _core.find_pairs(distinct, points, vectors, periodic, wanted, bool(self_interaction), number)
+
+    return arguments.in_order(letters, arrays)
 
 
 def neighbor_list(quantities: str, a: Any, cutoff: Any, self_interaction: bool = False, *, half: bool = False,

@@ -49,14 +49,15 @@ class PrimitiveNeighborList:
 
     def __init__(self, cutoffs: Any, skin: float = 0.3, sorted: bool = False, self_interaction: bool = True,
                  bothways: bool = False, *, threads: int | None = None) -> None:
-        radii = np.array(cutoffs, float)
-        self.cutoffs = radii + skin  # as ASE's have it
+        self._radii = np.array(cutoffs, float)
+        self.cutoffs = self._radii + skin  # as ASE's have it
         self.skin = skin
         self.sorted = sorted
         self.self_interaction = self_interaction
         self.bothways = bothways
         self.nupdates = 0
-        self._list = VerletList(radii, 2 * skin, half=not bothways, threads=threads) if len(radii) else None
+        self._threads = threads
+        self._list = self._new_list()
         self._rows: tuple[Any, ...] | None = None
 
     def update(self, pbc: Any, cell: Any, coordinates: Any) -> bool:
@@ -73,8 +74,13 @@ class PrimitiveNeighborList:
 
     def build(self, pbc: Any, cell: Any, coordinates: Any) -> None:
         """Makes the list anew."""
-        self.__init__(self.cutoffs - self.skin, self.skin, self.sorted, self.self_interaction, self.bothways)
+        self._list = self._new_list()
         self.update(pbc, cell, coordinates)
+
+    def _new_list(self) -> VerletList | None:
+        if not len(self._radii):
+            return None
+        return VerletList(self._radii, 2 * self.skin, half=not self.bothways, threads=self._threads)
 
     def get_neighbors(self, a: int) -> Row:
         """Indices and offsets of the neighbors of atom a: they stand at positions[indices] + offsets @ cell."""

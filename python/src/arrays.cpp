@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include <dch/base/error.hpp>
 
@@ -113,6 +114,19 @@ double available_memory() {
   return std::min(free, 1e18);
 }
 
+void check_memory(double things, double bytes_each, const char* what, const char* remedy) {
+  constexpr double kAnyMachineHas = 1e8;
+  const double bytes = bytes_each * things;
+  if (bytes <= kAnyMachineHas) return;
+  const double free = available_memory();
+  if (bytes <= free) return;
+  std::ostringstream text;
+  text << "about " << things << ' ' << what << " take " << bytes << " bytes, and " << free << " are free; "
+       << remedy;
+  PyErr_SetString(PyExc_MemoryError, text.str().c_str());
+  throw py::error_already_set();
+}
+
 double PairArrays::bytes_per_pair(const std::string& quantities) {
   double numbers = 0;
   for (const char letter : quantities) numbers += letter == 'D' || letter == 'S' ? 3 : 1;
@@ -120,17 +134,8 @@ double PairArrays::bytes_per_pair(const std::string& quantities) {
 }
 
 PairArrays::PairArrays(const std::string& quantities, std::int64_t pairs) : arrays_(quantities.size()) {
-  constexpr double kAnyMachineHas = 1e8;
-  const double bytes = bytes_per_pair(quantities) * static_cast<double>(pairs);
-  if (bytes > kAnyMachineHas) {
-    if (const double free = available_memory(); bytes > free) {
-      const std::string text = std::to_string(pairs) + " pairs take " + std::to_string(std::llround(bytes)) +
-                               " bytes, and " + std::to_string(std::llround(free)) +
-                               " are free; take a smaller cutoff, or fewer quantities";
-      PyErr_SetString(PyExc_MemoryError, text.c_str());
-      throw py::error_already_set();
-    }
-  }
+  check_memory(static_cast<double>(pairs), bytes_per_pair(quantities), "pairs",
+               "take a smaller cutoff, or fewer quantities");
   const auto n = static_cast<py::ssize_t>(pairs);
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     switch (quantities[k]) {

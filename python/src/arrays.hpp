@@ -53,6 +53,9 @@ py::array array_of(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
 /// says.
 double available_memory();
 
+/// @throws py::error_already_set, a MemoryError, if things take more than that; needs the interpreter's lock.
+void check_memory(double things, double bytes_each, const char* what, const char* remedy);
+
 /// Arrays of some of i, j, d, D and S, filled pair by pair.
 class PairArrays {
  public:

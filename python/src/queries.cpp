@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <dch/base/error.hpp>
+#include <dch/engines/neighbor_pairs.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/lists/all_pairs.hpp>
@@ -51,6 +52,10 @@ class Search {
     particles_ = -1;
     const py::gil_scoped_release release;
     search_->update(points, box);
+    NeighborPairsParams pairs;
+    pairs.cutoffs = TypeCutoffs(cutoff_);
+    constexpr std::size_t kFewParticles = 1000;
+    expected_pairs_ = points.size() <= kFewParticles ? 0 : expected_pairs(points, box, pairs);
     particles_ = static_cast<std::int64_t>(points.size());
   }
 
@@ -59,6 +64,9 @@ class Search {
     if (particles_ < 0)
       throw InvalidParameter(
           "this NeighborSearch has no positions yet, or the last update failed; call update()");
+    constexpr double kRowBytes = 12;  // of indices, and what rows are made of
+    check_memory(full ? expected_pairs_ : 0.5 * expected_pairs_, kRowBytes, "pairs",
+                 "take a smaller cutoff");
     NeighborList list;
     {
       const py::gil_scoped_release release;
@@ -75,6 +83,7 @@ class Search {
   HierarchyParams params_;
   std::unique_ptr<PairSearch> search_;
   std::int64_t particles_ = -1;
+  double expected_pairs_ = 0;
   std::atomic<bool> used_{false};
 };
 
@@ -123,6 +132,9 @@ py::tuple find_nearest(const Doubles& positions, const Doubles& cell, std::array
   std::optional<Span<const Vec3>> asked;
   if (queries) asked = points_of(*queries);
   const Box box = box_of(cell, periodic);
+  check_memory(static_cast<double>(asked ? asked->size() : points.size()) * k,
+               sizeof(std::int32_t) + sizeof(double), "neighbors",
+               "take a smaller k, or fewer queries at once");
   Threads pool(threads);
   NearestRows rows;
   {

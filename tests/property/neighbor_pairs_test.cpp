@@ -222,6 +222,22 @@ TEST(NeighborPairs, RefuseMorePairsThanAsked) {
       testing::AllOf(testing::HasSubstr("39999800000 pairs"), testing::HasSubstr("1000 are possible")));
 }
 
+/// A crystal, where all have as many neighbors.
+TEST(NeighborPairs, AreAboutAsManyAsExpected) {
+  const Box box = Box::orthorhombic({4, 4, 4});
+  const auto points = scenes::fcc(box, std::sqrt(2.0));
+  NeighborPairsParams params;
+  for (const double cutoff : {1.5, 3.5}) {
+    params.cutoffs = TypeCutoffs(cutoff);
+    for (const ListKind kind : {ListKind::half, ListKind::full}) {
+      params.kind = kind;
+      EXPECT_EQ(expected_pairs(points, box, params),
+                static_cast<double>(neighbor_pairs(points, box, params).listed()));
+    }
+  }
+  EXPECT_EQ(expected_pairs({}, box, params), 0);
+}
+
 TEST(NeighborPairs, FollowOnlyTheSameParticles) {
   const Box box = Box::orthorhombic({5, 5, 5});
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}}, more{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};

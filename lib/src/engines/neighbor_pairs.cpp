@@ -28,8 +28,8 @@ using detail::pair_reach;
 constexpr double kOneImage = 1 - 1e-9;
 /// A grid alone makes lists of 64 points in half the time that the choice of an engine takes.
 constexpr std::size_t kFewPoints = 1000;
-/// Rows by which the number of pairs is estimated.
-constexpr std::size_t kSampledRows = 8;
+/// Rows by which the number of pairs is estimated, and about how many points are looked at for each.
+constexpr std::size_t kSampledRows = 8, kSampledPoints = 8192;
 
 /// Decides near the cutoff from positions as given.
 class ByDefinition : public TieBreaker {
@@ -62,6 +62,34 @@ CellImages next_images(const Box& box) {
   return {box, low, high};
 }
 
+bool is_direct(std::size_t particles, double radius, const Box& box) {
+  return particles == 0 || radius <= kOneImage * box.max_cutoff();
+}
+
+/// About how many pairs there are of n particles and points, of which the first n are those at home.
+template <class ParticleOf>
+double expected_number(const NeighborPairsParams& params, std::size_t n, Span<const Vec3> points,
+                       const Box& box, const ParticleOf& particle_of) {
+  if (n == 0) return 0;
+  const std::size_t rows = std::min(n, kSampledRows), stride = 1 + points.size() / kSampledPoints;
+  double found = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t i = n * row / rows;
+    std::int64_t asked = 0, near = 0;
+    for (std::size_t point = 0; point < points.size(); point += stride) {
+      if (point == i) continue;
+      const double reach = pair_reach(params, i, static_cast<std::size_t>(particle_of(point)));
+      near += static_cast<int>(box.distance2(points[i], points[point]) <= reach * reach);
+      ++asked;
+    }
+    if (asked > 0)
+      found +=
+          static_cast<double>(near) * static_cast<double>(points.size() - 1) / static_cast<double>(asked);
+  }
+  const double share = params.kind == ListKind::half ? 0.5 : 1;
+  return share * found * static_cast<double>(n) / static_cast<double>(rows);
+}
+
 }  // namespace
 
 /// Fills a NeighborPairs.
@@ -73,7 +101,7 @@ class NeighborPairsMaker {
     const double reach = detail::check_positions(positions, box);
     radius_ = request_.list_radius();
     home_.emplace(positions, box);
-    if (!positions.empty() && radius_ > kOneImage * box.max_cutoff())
+    if (!is_direct(positions.size(), radius_, box))
       ghosts_.emplace(positions, box, *home_, params, radius_, reach);
     check_expected();
   }
@@ -94,36 +122,26 @@ class NeighborPairsMaker {
     return out;
   }
 
+  double expected() const {
+    return expected_number(params_, given_.size(), points(), ghosts_ ? Box::none() : box_,
+                           [&](std::size_t k) { return particle_of(static_cast<std::int32_t>(k)); });
+  }
+
  private:
+  const std::vector<Vec3>& points() const { return ghosts_ ? ghosts_->positions() : home_->positions; }
   std::int32_t particle_of(std::int32_t point) const { return ghosts_ ? ghosts_->particle_of(point) : point; }
 
-  /// Estimates the number of pairs by a few rows, where there might be too many.
+  /// Where there might be too many.
   void check_expected() const {
-    const std::vector<Vec3>& points = ghosts_ ? ghosts_->positions() : home_->positions;
-    const std::size_t n = given_.size();
     const auto most = static_cast<double>(params_.max_pairs);
-    if (static_cast<double>(n) * static_cast<double>(points.size()) <= most) return;
-    const std::size_t rows = std::min(n, kSampledRows);
-    std::int64_t found = -static_cast<std::int64_t>(rows);  // each point finds itself
-    for (std::size_t row = 0; row < rows; ++row) {
-      const std::size_t i = n * row / rows;
-      for (std::size_t point = 0; point < points.size(); ++point) {
-        const auto j = static_cast<std::size_t>(particle_of(static_cast<std::int32_t>(point)));
-        const double reach = pair_reach(params_, i, j);
-        const double distance2 =
-            ghosts_ ? norm2(points[point] - points[i]) : box_.distance2(points[i], points[point]);
-        found += static_cast<int>(distance2 <= reach * reach);
-      }
-    }
-    const double share = (params_.kind == ListKind::half ? 0.5 : 1.0) / static_cast<double>(rows);
-    const double expected = static_cast<double>(found) * static_cast<double>(n) * share;
-    if (expected > most) detail::refuse_pairs(expected, "pairs", params_.max_pairs);
+    if (static_cast<double>(given_.size()) * static_cast<double>(points().size()) <= most) return;
+    if (const double pairs = expected(); pairs > most)
+      detail::refuse_pairs(pairs, "pairs", params_.max_pairs);
   }
 
   /// Few points are listed before the other engine has chosen.
   std::unique_ptr<PairSearch> engine(double radius) const {
-    const std::size_t points = ghosts_ ? ghosts_->positions().size() : given_.size();
-    if (points <= kFewPoints) return make_grid_search(radius, params_.executor);
+    if (points().size() <= kFewPoints) return make_grid_search(radius, params_.executor);
     HierarchyParams by;
     by.radius = radius;
     by.executor = params_.executor;
@@ -258,6 +276,15 @@ NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, const N
   NeighborPairs out;
   neighbor_pairs(positions, box, params, out);
   return out;
+}
+
+double expected_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params) {
+  const ListParams request = request_of(params);
+  detail::check_list_params(request, positions.size(), request.list_radius());
+  if (!is_direct(positions.size(), request.list_radius(), box))
+    return NeighborPairsMaker(positions, box, params).expected();
+  detail::check_positions(positions, box);
+  return expected_number(params, positions.size(), positions, box, [](std::size_t k) { return k; });
 }
 
 NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, double cutoff) {

@@ -135,6 +135,12 @@ class Refused(unittest.TestCase):
             dch.neighbour_list("ijS", positions=[[0, 0, 0]], cell=[1, 1, 1], cutoff=1e4)
         with self.assertRaisesRegex(MemoryError, "about 1e\\+12 pairs|pairs are expected"):
             dch.neighbour_list("ijS", positions=np.zeros((1000000, 3)), cutoff=1)
+        with self.assertRaisesRegex(MemoryError, "neighbors take .*smaller k"):
+            dch.nearest(np.zeros((10000000, 3)), 2**20)
+        search = dch.NeighborSearch(1)
+        search.update(np.zeros((1000000, 3)))
+        with self.assertRaisesRegex(MemoryError, "pairs take .* bytes.*smaller cutoff"):
+            search.csr()
 
 
 class Threads(unittest.TestCase):
