@@ -65,8 +65,7 @@ class Search {
       throw InvalidParameter(
           "this NeighborSearch has no positions yet, or the last update failed; call update()");
     constexpr double kRowBytes = 12;  // of indices, and what rows are made of
-    check_memory(full ? expected_pairs_ : 0.5 * expected_pairs_, kRowBytes, "pairs",
-                 "take a smaller cutoff");
+    check_memory(full ? expected_pairs_ : 0.5 * expected_pairs_, kRowBytes, "pairs", "take a smaller cutoff");
     NeighborList list;
     {
       const py::gil_scoped_release release;
