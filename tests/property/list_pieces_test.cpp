@@ -35,7 +35,8 @@ struct Pieces {
       least_margin = std::min(least_margin, piece.margin);
       for (std::size_t r = 0; r < piece.size(); ++r) {
         const auto row = piece.row(r);
-        together.particle.push_back(piece.particle.empty() ? static_cast<std::int32_t>(r) : piece.particle[r]);
+        together.particle.push_back(piece.particle.empty() ? static_cast<std::int32_t>(r)
+                                                           : piece.particle[r]);
         together.j.insert(together.j.end(), row.begin(), row.end());
         together.first.push_back(static_cast<std::int64_t>(together.j.size()));
       }
@@ -52,7 +53,8 @@ struct Asked {
 
   explicit Asked(const Box& box) : points(scenes::uniform_in(box, 1200, 5)) {
     std::vector<IndexPair> bonds;
-    for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(points.size()); i += 2) bonds.push_back({i, i + 1});
+    for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(points.size()); i += 2)
+      bonds.push_back({i, i + 1});
     exclusions = Exclusions::from_bonds(points.size(), bonds, 1);
     for (std::size_t i = 0; i < points.size(); ++i) radii.push_back(i % 10 == 0 ? 0.5 * kReach : 0.1);
     ListParams plain;
