@@ -13,12 +13,15 @@
 #include <dch/engines/verlet_list.hpp>
 #include <dch/lists/all_pairs.hpp>
 
+#include "engines/dch_search.hpp"
 #include "list_compare.hpp"
 #include "scenes.hpp"
 
 /// Lists that are kept by every engine that can tell when a pair is missing, and all pairs to compare them
 /// with.
 namespace dch::expiry {
+
+using detail::StructureParams;
 
 inline constexpr double kCutoff = 1.0, kSkin = 0.3, kRadius = kCutoff + kSkin;
 
@@ -85,6 +88,11 @@ inline std::vector<NamedList> lists_of_all_engines(const ListParams& params) {
   std::vector<NamedList> all;
   all.push_back({"hierarchy", {make_dch_search(hierarchy), params}});
   all.push_back({"hierarchy, always repaired", {make_dch_search(coarse), params}});
+  // Dozens of leaves among few particles, and edges that reach hardly farther than they have to.
+  StructureParams small_leaves;
+  small_leaves.radius = radius;
+  small_leaves.base_radius = radius / 4;
+  all.push_back({"hierarchy of small leaves", {make_dch_search(small_leaves), params}});
   all.push_back({"hierarchies by size", {make_dch_search(by_class), params}});
   all.push_back({"grid", {make_grid_search(radius), params}});
   all.push_back({"auto", {make_auto_search(hierarchy), params}});

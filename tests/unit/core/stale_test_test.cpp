@@ -115,9 +115,9 @@ TEST_F(StaleTestOfACube, ComparesPlacesAsGivenWhereThereIsNoSkin) {
 using Verdict = StaleTest::Verdict;
 
 /// Forty particles in a row, of which some have moved since they were remembered.
-class JudgeOfARow : public ::testing::Test {
+class StaleTestOfARow : public ::testing::Test {
  protected:
-  JudgeOfARow() {
+  StaleTestOfARow() {
     for (int k = 0; k < 40; ++k) before_.push_back({0.2 * k, 1, 1});
     now_ = before_;
     test_.remember(before_, box_);
@@ -130,7 +130,7 @@ class JudgeOfARow : public ::testing::Test {
   std::vector<MovedParticle> fast_;
 };
 
-TEST_F(JudgeOfARow, NamesThoseThatHaveMovedMoreThanHalfTheSkinAndHowFar) {
+TEST_F(StaleTestOfARow, NamesThoseThatHaveMovedMoreThanHalfTheSkinAndHowFar) {
   now_[3].y += 0.2499;
   EXPECT_EQ(judge(), Verdict::fresh);
   EXPECT_TRUE(fast_.empty());
@@ -162,7 +162,7 @@ TEST_F(StaleTestOfACube, BoundsWhatParticlesMoveWithTheirShareOfRounding) {
                                2 * error_.bound(error_.reach(points_[1])));
 }
 
-TEST_F(JudgeOfARow, SaysWhenThereAreMoreThanAskedFor) {
+TEST_F(StaleTestOfARow, SaysWhenThereAreMoreThanAskedFor) {
   for (const int k : {1, 2, 20}) now_[static_cast<std::size_t>(k)].y += 0.3;
   EXPECT_EQ(judge(3), Verdict::some_fast);
   EXPECT_EQ(fast_.size(), 3u);
@@ -172,7 +172,7 @@ TEST_F(JudgeOfARow, SaysWhenThereAreMoreThanAskedFor) {
   EXPECT_EQ(judge(0), Verdict::fresh);
 }
 
-TEST_F(JudgeOfARow, LeavesWhatIsNoMotionToTheWholeRule) {
+TEST_F(StaleTestOfARow, LeavesWhatIsNoMotionToTheWholeRule) {
   now_[5].x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judge(), Verdict::stale);
   now_[5].x = std::numeric_limits<double>::infinity();
