@@ -2,7 +2,7 @@
 """Random scenes in which nothing is chosen by hand, small enough for ASE."""
 import numpy as np
 
-MAX_PAIRS = 15000
+MAX_PAIRS = 10000
 
 
 class Scene:
