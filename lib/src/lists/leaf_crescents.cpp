@@ -11,7 +11,7 @@ namespace dch::detail {
 namespace {
 
 /// Of coordinates in float and the distances computed from them, relative to the largest; with room to spare.
-constexpr double kRoundings = 16 * 0x1p-24;
+constexpr double kFloatRounding = 16 * 0x1p-24;
 
 /// Crescents smaller than this, or larger than its inverse, are looked at in double.
 constexpr double kLeastFloat = 1e-12;
@@ -163,7 +163,7 @@ bool LeafCrescents<Metric>::any_in_leaf(const Crescent& crescent, std::int32_t l
     return false;
   }
   const NearCrescent near(crescent, middle,
-                          kRoundings * (own.extent + crescent.outer + crescent.inner + farthest));
+                          kFloatRounding * (own.extent + crescent.outer + crescent.inner + farthest));
   for (std::int32_t b = own.first_block; b < end; ++b) {
     if (!may_meet(measured.corners[b], near)) continue;
     unsigned lanes = lanes_in(measured.offsets[b], near) & measured.lanes[b];
