@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <dch/base/vec3.hpp>
 
@@ -25,9 +27,10 @@ inline bool is_apart_by_ball(const SweepBounds& p, const SweepBounds& q, Vec3 be
 
 inline bool is_apart_by_bounds(const SweepBounds& p, const SweepBounds& q, Vec3 between) {
   const auto beyond = [&](std::size_t k, double distance) {
-    return std::abs(distance) > static_cast<double>(p.half[k]) + static_cast<double>(q.half[k]);
+    return std::abs(distance) - (static_cast<double>(p.half[k]) + static_cast<double>(q.half[k]));
   };
-  return beyond(0, between.x) | beyond(1, between.y) | beyond(2, between.z);  // no branch: each is as likely
+  // One branch: each axis is as likely.
+  return std::max({beyond(0, between.x), beyond(1, between.y), beyond(2, between.z)}) > 0;
 }
 
 }  // namespace dch::necklace::detail
