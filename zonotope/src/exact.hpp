@@ -36,7 +36,7 @@ class Exact {
   /// Rounded, for what is shown or guessed.
   double value() const {
     if (sign() == 0) return 0;
-    const Integer magnitude = abs(mantissa_);
+    const Integer magnitude = sign() < 0 ? Integer(-mantissa_) : mantissa_;
     const int bits = static_cast<int>(msb(magnitude)) + 1, cut = std::max(0, bits - 64);
     const auto top = static_cast<double>(static_cast<std::uint64_t>(magnitude >> static_cast<unsigned>(cut)));
     return std::ldexp(sign() * top, exponent_ + cut);

@@ -102,6 +102,7 @@ Zonogon min_area_zonogon(Span<const Vec2> points, ZonogonStats* stats) {
   const Vec2 origin = hull[0], last = hull[hull.size() / 2];
   if (hull.size() <= 2) return enclosing(hull, origin + 0.5 * (last - origin), count.operations);
   std::vector<Vec2> moved;
+  moved.reserve(hull.size());
   for (const Vec2& point : hull) moved.push_back(point - origin);
   const KinkMinimum least = least_kinks(halfway_lines(moved, count.operations));
   count.rounds += least.rounds;

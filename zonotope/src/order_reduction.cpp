@@ -90,8 +90,8 @@ Approximation with_cells(const Zonotope& z, int cells, double rounding) {
 double diameter_bound(const std::vector<Vec3>& generators) {
   double widest = total_length(generators);
   for (int k = 0; k < 13; ++k) {
-    const Vec3 direction{static_cast<double>((k + 14) % 3 - 1), static_cast<double>((k + 14) / 3 % 3 - 1),
-                         static_cast<double>((k + 14) / 9 - 1)};
+    const int x = (k + 14) % 3 - 1, y = (k + 14) / 3 % 3 - 1, z = (k + 14) / 9 - 1;
+    const Vec3 direction{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
     double width = 0;
     for (const Vec3& v : generators) width += 2 * std::abs(dot(v, direction));
     widest = std::max(widest, width / length(direction));
@@ -167,7 +167,7 @@ Zonotope reduced(const Zonotope& z, std::size_t most) {
   if (most < 3)
     throw InvalidParameter("a zonotope in space is to be reduced to " + std::to_string(most) +
                            " generators; a box takes 3, give at least that");
-  const Zonotope given = canonical(z);
+  Zonotope given = canonical(z);
   if (given.generators.size() <= most) return given;
   const double rounding =
       16 * (static_cast<double>(given.generators.size()) + 16) * kRounding * total_length(given.generators);

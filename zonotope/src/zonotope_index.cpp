@@ -72,6 +72,7 @@ ZonotopeIndex::ZonotopeIndex(const Zonotope& z, std::int64_t memory) : impl_(std
   impl_->z = z;
   std::vector<Vec3> generators;
   const std::vector<Vec3> given = canonical(z).generators;
+  generators.reserve(given.size());
   for (const Vec3& v : given) generators.push_back(turned(v));
   const auto n = static_cast<std::int64_t>(generators.size());
   if (!span_space(given))

@@ -62,9 +62,9 @@ bool is_next_subset(std::vector<Index>& subset, Index count) {
   return true;
 }
 
-double subsets(double count, double size) {
+double subsets(Index count, Index size) {
   double result = 1;
-  for (double k = 0; k < size; ++k) result *= (count - k) / (k + 1);
+  for (Index k = 0; k < size; ++k) result *= static_cast<double>(count - k) / static_cast<double>(k + 1);
   return result;
 }
 
@@ -111,14 +111,14 @@ FitProblem::FitProblem(const std::vector<Coordinates>& given_points,
 FitRows::FitRows(const FitProblem& problem) {
   const Eigen::MatrixXd& v = problem.directions;
   const Index d = v.rows(), k = v.cols();
-  const double count = subsets(static_cast<double>(k), static_cast<double>(d - 1));
+  const double count = subsets(k, d - 1);
   if (count > kMaxNormals)
     throw InvalidParameter(std::to_string(k) + " directions in " + std::to_string(d) + " dimensions have " +
                            describe(count) + " normals, more than " + describe(kMaxNormals) +
                            "; give fewer directions");
   std::vector<Index> subset(static_cast<std::size_t>(d - 1));
   for (Index at = 0; at < d - 1; ++at) subset[static_cast<std::size_t>(at)] = at;
-  Eigen::MatrixXd found(d, static_cast<Index>(count + 0.5)), chosen(d, d - 1);
+  Eigen::MatrixXd found(d, static_cast<Index>(std::llround(count))), chosen(d, d - 1);
   Index size = 0;
   do {
     for (Index at = 0; at < d - 1; ++at) chosen.col(at) = v.col(subset[static_cast<std::size_t>(at)]);

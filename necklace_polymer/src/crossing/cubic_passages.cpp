@@ -117,9 +117,10 @@ class Cubic {
   /// The sign at t is uncertain: looks on both sides of it for the nearest places where it is not.
   void close_in(double t, int after, double& low, double& high) const {
     const auto look = [&](double direction, int expected, double& end) {
-      for (double width = 0x1p-50; width < std::abs(end - t); width *= 2) {
-        if (sign(value(t + direction * width)) != expected) continue;
-        end = t + direction * width;
+      for (int power = -50; std::ldexp(1.0, power) < std::abs(end - t); ++power) {
+        const double place = t + direction * std::ldexp(1.0, power);
+        if (sign(value(place)) != expected) continue;
+        end = place;
         return;
       }
     };

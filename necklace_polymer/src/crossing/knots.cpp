@@ -133,7 +133,7 @@ std::int64_t determinant(const Matrix& matrix) {
   std::int64_t value = of_first + first * (difference * power(first % second, second - 2, second) % second);
   if (value > first * second / 2) value -= first * second;
   std::int64_t prime = second;
-  for (double known = 60; known < bits; known += 30) {
+  for (int known = 60; known < bits; known += 30) {
     prime = next_prime_below(prime);
     if (((value - determinant(matrix, prime)) % prime + prime) % prime != 0) {
       throw InvalidParameter("the knot's determinant is larger than 2^60; use shorter rings");
