@@ -190,6 +190,20 @@ TEST_P(ListExpiry, SeesParticlesOfThinScenes) {
   EXPECT_GT(follower.given_up_for_a_pair(), 0);
 }
 
+// Where coordinates wrap modulo 2^16, a way of any length may look like none.
+TEST(ListExpiryOfFewParticles, SeesOneThatComesFromAfar) {
+  const Requests requests(3);
+  for (const Box& box : {Box::none(), Box::orthorhombic({120, 120, 120})}) {
+    for (int k = 0; k < effort(80); ++k) {
+      const Vec3 there{5 + 0.5 * k, 0, 0};
+      Follower follower(box, requests.all()[0], {{1, 1, 1}, Vec3{1, 1, 1} + there, {1, 1, 9}});
+      follower.step_to({Vec3{1, 1.9, 1} + there, Vec3{1, 1, 1} + there, {1, 1, 9}}, std::to_string(there.x));
+      if (HasFatalFailure()) return;
+      ASSERT_GT(follower.given_up_for_a_pair(), 0);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Boxes, ListExpiry, ::testing::ValuesIn(scenes::all_boxes(5)),
                          [](const auto& test) { return test.param.name; });
 
