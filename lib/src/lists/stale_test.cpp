@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <numeric>
 
 #include <dch/lists/stale_test.hpp>
 
@@ -16,11 +19,12 @@ namespace {
 
 constexpr std::size_t kAtATime = 16;  ///< particles that are looked at together: few hold a fast one
 
-/// Whether one of some particles is displaced by more than that, or a NaN. Without a branch for each.
-bool any_beyond(const Vec3* now, const Vec3* then, std::size_t count, double allowed2) {
-  std::size_t beyond = 0;
-  for (std::size_t k = 0; k < count; ++k) beyond += norm2(now[k] - then[k]) <= allowed2 ? 0 : 1;
-  return beyond > 0;
+/// Whether one of particles [first, end) is displaced by more than that, or a NaN. Without a branch for each.
+bool any_beyond(Span<const Vec3> now, Span<const Vec3> then, std::size_t first, std::size_t end,
+                double allowed2) {
+  const auto is_beyond = [&](Vec3 a, Vec3 b) { return norm2(a - b) <= allowed2 ? 0 : 1; };
+  return std::transform_reduce(std::next(now.begin(), first), std::next(now.begin(), end),
+                               std::next(then.begin(), first), 0, std::plus<>(), is_beyond) != 0;
 }
 
 }  // namespace
@@ -44,8 +48,11 @@ StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, 
   Verdict verdict = Verdict::some_fast;
   const bool all_bounded = for_each_fast(positions, box, [&](std::size_t i, double moved) {
     if (!std::isfinite(moved)) return false;
-    if (fast.size() == most) verdict = Verdict::too_many;
-    if (fast.size() < most) fast.push_back({static_cast<std::int32_t>(i), moved});
+    if (fast.size() == most) {
+      verdict = Verdict::too_many;
+    } else {
+      fast.push_back({static_cast<std::int32_t>(i), moved});
+    }
     return verdict == Verdict::some_fast;
   });
   if (verdict == Verdict::too_many) return verdict;
@@ -65,15 +72,13 @@ bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const 
   const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
   if (!(allowed >= 0)) return false;
   const std::size_t n = positions.size();
-  for (std::size_t first = 0; first < n; first += kAtATime) {
-    const std::size_t end = std::min(n, first + kAtATime);
-    if (!any_beyond(positions.data() + first, reference_.data() + first, end - first, allowed * allowed))
-      continue;
-    for (std::size_t i = first; i < end; ++i) {
-      const Vec3 now = positions[i], then = reference_[i], d = now - then;
-      if (norm2(d) <= allowed * allowed) continue;
+  for (std::size_t first = 0, end = 0; first != n; first = end) {
+    end = first + std::min(n - first, kAtATime);
+    if (!any_beyond(positions, reference_, first, end, allowed * allowed)) continue;
+    for (std::size_t i = first; i != end; ++i) {
+      const Vec3 now = positions[i], then = reference_[i];
       const double rounding = 2 * error.bound(error.reach(now) + error.reach(then));
-      const double left = room - rounding, moved2 = norm2(box.nearest_image(d));
+      const double left = room - rounding, moved2 = norm2(box.nearest_image(now - then));
       if (left >= 0 && moved2 <= left * left) continue;
       if (!fast(i, std::sqrt(moved2) + rounding + 2 * reference_error_)) return false;
     }

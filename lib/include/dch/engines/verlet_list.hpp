@@ -13,10 +13,10 @@ namespace dch {
 /// When a list is stale.
 enum class Expiry {
   half_skin,  ///< when a particle has moved more than half the skin: StaleTest
-  /// When a pair within its cutoff is not in the list, or more particles than kMostFast of all have moved
-  /// more than half the skin. The engine is asked about those as long as they are few; where it cannot tell,
-  /// or the box has changed, half_skin decides. An engine that can tell has to be the list's own: nobody else
-  /// updates it.
+  /// When a pair within its cutoff is not in the list, or more particles than kMostFast of all (and than
+  /// 16) have moved more than half the skin. The engine is asked about those as long as they are few; where
+  /// it cannot tell, or the box has changed, half_skin decides. An engine that can tell has to be the list's
+  /// own: nobody else updates it.
   exact
 };
 
@@ -41,6 +41,7 @@ class VerletList {
   VerletList(std::unique_ptr<PairSearch> search, ListParams params, Expiry expiry = Expiry::exact);
 
   /// True if a pair within the cutoff might be missing at these positions (and if there is a NaN among them).
+  /// Counts what it asked in expiry(), so one thread at a time. O(n).
   bool is_stale(Span<const Vec3> positions, const Box& box) const;
 
   /// Rebuilds the list if it is stale; says whether it did.
