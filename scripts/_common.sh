@@ -56,23 +56,38 @@ need_packages() {
   apt-get install -y -qq --no-install-recommends $missing </dev/null >/dev/null
 }
 
-# configure_and_build PRESET [arguments of cmake --build ...]: leaves the build in build/PRESET.
+# configure PRESET ...: writes the build systems of the presets side by side, each in build/PRESET.
 # Eight sources of a library are compiled as one, in less than half the time. scripts/check-tidy compiles them one by one,
 # and finds one that lacks an include.
-configure_and_build() {
-  local preset=$1 launcher=() quiet=() join=OFF
-  shift
-  heading "Build $preset"
+configure() {
+  local preset launcher=() join started=() failed=0
   if command -v ccache >/dev/null; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     export CCACHE_SLOPPINESS=pch_defines,time_macros  # without which it keeps nothing that uses precompiled headers
   fi
-  case $preset in release | dev | asan-ubsan | tsan) join=ON ;; esac
   mkdir -p build
-  if ! cmake --preset "$preset" -DDCH_JOIN_SOURCES=$join "${launcher[@]}" >"build/$preset.configure.log" 2>&1; then
-    cat "build/$preset.configure.log" >&2
-    return 1
-  fi
+  for preset; do
+    case $preset in release | dev | asan-ubsan | tsan) join=ON ;; *) join=OFF ;; esac
+    cmake --preset "$preset" -DDCH_JOIN_SOURCES=$join "${launcher[@]}" >"build/$preset.configure.log" 2>&1 &
+    started+=($!)
+  done
+  for preset; do
+    wait "${started[0]}" || { failed=1; cat "build/$preset.configure.log" >&2; }
+    started=("${started[@]:1}")
+  done
+  return $failed
+}
+
+# build PRESET [arguments of cmake --build ...]: what configure prepared.
+build() {
+  local preset=$1 quiet=()
+  shift
+  heading "Build $preset"
   if [ ! -t 1 ]; then quiet=(-- --quiet); fi  # Ninja rewrites one line on a terminal, but fills a log with hundreds
   cmake --build --preset "$preset" --parallel "$jobs" "$@" "${quiet[@]}" </dev/null
+}
+
+# configure_and_build PRESET [arguments of cmake --build ...]
+configure_and_build() {
+  configure "$1" && build "$@"
 }
