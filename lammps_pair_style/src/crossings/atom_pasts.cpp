@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "atom_pasts.h"
 
-#include <algorithm>
+#include <memory.h>
 
 namespace LAMMPS_NS {
 
@@ -10,61 +10,82 @@ dch::lammps::BoxCounts box_counts(imageint image) {
           static_cast<int>(image >> IMG2BITS) - IMGMAX};
 }
 
-void AtomPasts::resize(std::size_t atoms, int bonds_per_atom) {
-  if (bonds_per_atom != width_) {
-    std::vector<tagint> partners(atoms * static_cast<std::size_t>(bonds_per_atom));
-    for (std::size_t i = 0; i < std::min(atoms, past_.size()); ++i) {
-      Past& past = past_[i];
-      past.bonds = std::min(past.bonds, bonds_per_atom);
-      std::copy_n(partners_.begin() + static_cast<std::ptrdiff_t>(i * index(width_)), std::max(past.bonds, 0),
-                  partners.begin() + static_cast<std::ptrdiff_t>(i * index(bonds_per_atom)));
-    }
-    partners_ = std::move(partners);
-    width_ = bonds_per_atom;
+AtomPasts::~AtomPasts() {
+  memory->sfree(positions_);
+  memory->sfree(images_);
+  memory->sfree(partners_);
+}
+
+template <class T>
+void AtomPasts::make_room(T*& array, std::size_t count) {
+  array = static_cast<T*>(
+      memory->srealloc(array, static_cast<bigint>(count * sizeof(T)), "necklace/crossing:pasts"));
+}
+
+void AtomPasts::resize(int atoms, int bonds_per_atom) {
+  make_room(positions_, index(atoms));
+  make_room(images_, index(atoms));
+  const int width = std::max(bonds_per_atom, 1);
+  if (width == width_) {
+    make_room(partners_, index(atoms) * index(width));
+  } else {
+    change_width(atoms, width);
   }
-  past_.resize(atoms);
-  partners_.resize(atoms * index(width_));
+  room_ = atoms;
 }
 
-bool AtomPasts::had_bond(int i, tagint partner) const {
-  if (!has(i)) return false;
-  const auto all = partners(i);
-  return std::find(all.begin(), all.end(), partner) != all.end();
+void AtomPasts::change_width(int atoms, int width) {
+  tagint* partners = nullptr;
+  make_room(partners, index(atoms) * index(width));
+  for (int i = 0; i < std::min(atoms, room_); ++i) {
+    tagint* const row = partners + index(i) * index(width);
+    std::fill(std::copy_n(partners_of(i), std::min(width, width_), row), row + width, tagint{0});
+  }
+  memory->sfree(partners_);
+  partners_ = partners;
+  width_ = width;
 }
 
-void AtomPasts::note(int i, dch::Vec3 position, imageint image) { past_[index(i)] = {position, image, 0}; }
+void AtomPasts::forget(int i) {
+  std::fill_n(partners_of(i), width_, tagint{0});
+  *partners_of(i) = kNone;
+}
+
+void AtomPasts::note(int i, dch::Vec3 position, imageint image) {
+  move(i, position, image);
+  std::fill_n(partners_of(i), width_, tagint{0});
+}
 
 void AtomPasts::note_bond(int i, tagint partner) {
-  Past& past = past_[index(i)];
-  if (past.bonds < width_) partners_[index(i) * index(width_) + index(past.bonds++)] = partner;
+  tagint* const row = partners_of(i);
+  tagint* const free = std::find(row, row + width_, tagint{0});
+  if (free != row + width_) *free = partner;
 }
 
 void AtomPasts::move(int i, dch::Vec3 position, imageint image) {
-  past_[index(i)].position = position;
-  past_[index(i)].image = image;
+  positions_[index(i)] = position;
+  images_[index(i)] = image;
 }
 
 void AtomPasts::copy(int from, int to) {
-  past_[index(to)] = past_[index(from)];
-  std::copy_n(partners_.begin() + static_cast<std::ptrdiff_t>(index(from) * index(width_)), width_,
-              partners_.begin() + static_cast<std::ptrdiff_t>(index(to) * index(width_)));
+  move(to, position(from), image(from));
+  std::copy_n(partners_of(from), width_, partners_of(to));
 }
 
 int AtomPasts::write(int i, double* to) const {
-  const Past& past = past_[index(i)];
   double* at = to;
-  for (int k = 0; k < 3; ++k) *at++ = past.position[k];
-  *at++ = static_cast<double>(past.image);
-  *at++ = static_cast<double>(past.bonds);
-  if (has(i))
-    for (const tagint partner : partners(i)) *at++ = static_cast<double>(partner);
+  for (int k = 0; k < 3; ++k) *at++ = position(i)[k];
+  *at++ = static_cast<double>(image(i));
+  const auto held = has(i) ? partners(i) : dch::Span<const tagint>();
+  *at++ = has(i) ? static_cast<double>(held.size()) : static_cast<double>(kNone);
+  for (const tagint partner : held) *at++ = static_cast<double>(partner);
   return static_cast<int>(at - to);
 }
 
 int AtomPasts::read(int i, const double* from) {
   const auto bonds = static_cast<int>(from[4]);
-  if (bonds == kNone) {
-    past_[index(i)] = {};
+  if (bonds < 0) {
+    forget(i);
     return 5;
   }
   note(i, {from[0], from[1], from[2]}, static_cast<imageint>(from[3]));

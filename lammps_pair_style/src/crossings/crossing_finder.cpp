@@ -39,7 +39,7 @@ void CrossingFinder::find(const MovingBonds& bonds, const dch::Box& box, const d
     radius_ = std::min(kSpare * reach, std::max(reach, box.max_cutoff() * (1 - 1e-9)));
     search_ = dch::make_auto_search(dch::HierarchyParams{radius_});
   }
-  search_->update(bonds.middles(), box);
+  search_->update_by_reference(bonds.middles(), box);
   dch::ListParams params;
   params.cutoffs = dch::TypeCutoffs(reach);
   params.superset = true;

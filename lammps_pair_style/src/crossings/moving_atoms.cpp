@@ -30,12 +30,15 @@ void MovingAtoms::begin(const dch::lammps::BoxStep& step, int group_bit) {
   width_ = 0;
   const double limit = step.now().half_height();
   for (int i = 0; i < atom->nlocal; ++i) {
-    const auto& past = pasts_[i];
     const imageint image = atom->image[i];
-    dch::Vec3 start = past.position;
-    if (past.image != image || !step.same_basis())
-      start = step.start(start, box_counts(past.image), box_counts(image));
-    const bool is_known = pasts_.has(i) && step.comparable() && step.moved2(start, now(i)) < limit * limit;
+    if (!pasts_.has(i)) {
+      pasts_.move(i, {kNaN, kNaN, kNaN}, image);  // a bond to it that another atom holds is undetermined
+      continue;
+    }
+    const imageint then = pasts_.image(i);
+    dch::Vec3 start = pasts_.position(i);
+    if (then != image || !step.same_basis()) start = step.start(start, box_counts(then), box_counts(image));
+    const bool is_known = step.comparable() && step.moved2(start, now(i)) < limit * limit;
     pasts_.move(i, is_known ? start : dch::Vec3{kNaN, kNaN, kNaN}, image);
   }
 }
@@ -95,6 +98,15 @@ void MovingAtoms::unpack(int n, int first, const double* from) {
     tagint* const held = bonds_.data() + place(i) * static_cast<std::size_t>(width_);
     for (int m = 0; m < width_; ++m) held[m] = static_cast<tagint>(*from++);
   }
+}
+
+std::size_t MovingAtoms::bonds_held() const {
+  std::size_t held = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (in_group(i)) held += static_cast<std::size_t>(atom->num_bond[i]);
+  if (both_hold_) held /= 2;
+  if (!has_ghosts() || atom->nlocal == 0) return held;
+  return held + held * ghosts_.size() / static_cast<std::size_t>(atom->nlocal);  // as many bonds an atom
 }
 
 int MovingAtoms::most_bonds() const {

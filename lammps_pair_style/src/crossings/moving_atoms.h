@@ -38,7 +38,7 @@ class MovingAtoms : protected Pointers {
   void unpack(int n, int first, const double* from);
 
   bool in_group(int i) const { return (atom->mask[i] & group_bit_) != 0; }
-  dch::Vec3 before(int i) const { return i < atom->nlocal ? pasts_[i].position : ghost(i).before; }
+  dch::Vec3 before(int i) const { return i < atom->nlocal ? pasts_.position(i) : ghost(i).before; }
   dch::Vec3 now(int i) const {
     if (i >= atom->nlocal) return ghost(i).now;
     const double* const x = atom->x[i];
@@ -61,6 +61,8 @@ class MovingAtoms : protected Pointers {
     const tagint* const held = bonds_.data() + place(i) * static_cast<std::size_t>(width_);
     for (int m = 0; m < width_ && held[m] != 0; ++m) use(held[m] < 0 ? -held[m] : held[m], held[m] > 0);
   }
+  /// About how many bonds owned atoms and ghosts hold.
+  std::size_t bonds_held() const;
   /// Of the bonds that owned atoms hold, the largest number of one atom.
   int most_bonds() const;
 

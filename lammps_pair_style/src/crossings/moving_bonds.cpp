@@ -29,9 +29,7 @@ void MovingBonds::gather(const MovingAtoms& atoms, const dch::lammps::BoxStep& s
   // Middles that are c apart come nearer by a share of c that the box takes: the reach is that much larger.
   const double strain = step.strain();
   stretch_ = strain < kMostStrain ? 1 / (1 - strain) : HUGE_VAL;
-  ends_.clear();
-  middles_.clear();
-  radii_.clear();
+  clear(atoms.bonds_held());
   undetermined_ = 0;
   radius_ = largest_extent_ = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -56,6 +54,16 @@ void MovingBonds::gather(const MovingAtoms& atoms, const dch::lammps::BoxStep& s
       if (j >= 0 && was_there && atoms.in_group(j)) add(i, j, false);
     });
   }
+}
+
+/// With room for the bonds that are to come: arrays that grew would have half of theirs in vain.
+void MovingBonds::clear(std::size_t expected) {
+  ends_.clear();
+  middles_.clear();
+  radii_.clear();
+  ends_.reserve(expected);
+  middles_.reserve(expected);
+  radii_.reserve(expected);
 }
 
 std::array<dch::Vec3, 2> MovingBonds::moves(const dch::necklace::MovingBond& path, dch::Vec3 middle) const {

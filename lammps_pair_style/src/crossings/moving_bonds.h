@@ -63,6 +63,7 @@ class MovingBonds : protected Pointers {
   double memory_bytes() const;
 
  private:
+  void clear(std::size_t expected);
   /// The displacements of both ends, against the lattice at the middle.
   std::array<dch::Vec3, 2> moves(const dch::necklace::MovingBond& path, dch::Vec3 middle) const;
   void add(int i, int j, bool is_owned);

@@ -31,6 +31,7 @@ dch::Box box_of(const dch::lammps::Cell& cell) {
 FixNecklaceCrossing::FixNecklaceCrossing(LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
       name_(std::string("Fix necklace/crossing ") + arg[0] + ": "),
+      pasts_(lammps),
       atoms_(lammps, pasts_),
       bonds_(lammps),
       log_(lammps) {
@@ -235,8 +236,8 @@ double FixNecklaceCrossing::compute_vector(int n) {
 }
 
 double FixNecklaceCrossing::memory_usage() {
-  return static_cast<double>(pasts_.memory_bytes()) + atoms_.memory_bytes() + bonds_.memory_bytes() +
-         finder_.memory_bytes() + static_cast<double>(rows_.size() * sizeof(rows_[0]));
+  return pasts_.memory_bytes() + atoms_.memory_bytes() + bonds_.memory_bytes() + finder_.memory_bytes() +
+         static_cast<double>(rows_.size() * sizeof(rows_[0]));
 }
 
 }  // namespace LAMMPS_NS

@@ -19,9 +19,7 @@ constexpr int kGlobals = 2 + 5 + 9 + 3;
 
 }  // namespace
 
-void FixNecklaceCrossing::grow_arrays(int nmax) {
-  pasts_.resize(static_cast<std::size_t>(nmax), atom->bond_per_atom);
-}
+void FixNecklaceCrossing::grow_arrays(int nmax) { pasts_.resize(nmax, atom->bond_per_atom); }
 void FixNecklaceCrossing::copy_arrays(int i, int j, int) { pasts_.copy(i, j); }
 void FixNecklaceCrossing::set_arrays(int i) { pasts_.forget(i); }
 int FixNecklaceCrossing::pack_exchange(int i, double* buf) { return pasts_.write(i, buf); }

@@ -37,7 +37,8 @@ std::string with_one_digit(double v) {
 AutoSearch::AutoSearch(const HierarchyParams& params)
     : params_(params), hierarchy_(make_dch_search(params)), grid_(params.radius, params.executor) {}
 
-void AutoSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+void AutoSearch::update_by(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys,
+                           const std::function<void()>& update_grid) {
   const bool changed =
       differs(static_cast<double>(positions.size()), static_cast<double>(chosen_by_.particles)) ||
       differs(volume_of(box), chosen_by_.volume);
@@ -47,7 +48,7 @@ void AutoSearch::update(Span<const Vec3> positions, const Box& box, Span<const s
   try {
     keys_.assign(keys.begin(), keys.end());
     if (by_grid_ || looks_) {
-      grid_.update(positions, box, keys);
+      update_grid();
       grid_has_them_ = true;
     }
     if (!by_grid_) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,12 @@ class AutoSearch final : public PairSearch {
  public:
   explicit AutoSearch(const HierarchyParams& params);
 
-  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override {
+    update_by(positions, box, keys, [&] { grid_.update(positions, box, keys); });
+  }
+  void update_by_reference(Span<const Vec3> positions, const Box& box) override {
+    update_by(positions, box, {}, [&] { grid_.update_by_reference(positions, box); });
+  }
   void list(const ListParams& params, NeighborList& out) override {
     choose({&params, 1});
     engine().list(params, out);
@@ -57,6 +63,8 @@ class AutoSearch final : public PairSearch {
     double distances = 0;  ///< that the hierarchy computed at an update, for each particle
   };
   PairSearch& engine() { return by_grid_ ? static_cast<PairSearch&>(grid_) : *hierarchy_; }
+  void update_by(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys,
+                 const std::function<void()>& update_grid);
   void serve_pairs();
   void choose(Span<const ListParams> requests);
   void choose_by(const Scene& scene, bool has_cells);

@@ -57,29 +57,19 @@ double work_of_one(const SizeClasses& one, std::size_t n) {
 }  // namespace
 
 void GridSearch::clear() {
-  positions_.clear();
+  positions_ = {};
+  copy_.clear();
   groups_.clear();
   plain_.clear();
   has_plain_ = false;
 }
 
-std::vector<Vec3> GridSearch::give_back() {
-  std::vector<Vec3> positions = std::move(positions_);
-  positions_.clear();
-  has_plain_ = false;
-  for (Group& group : groups_) group.reach = group.started = 0;
-  return positions;
-}
-
 void GridSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
-  update_by([&] { take(positions, box, keys); });
+  update_by([&] { take(positions, box, keys, Keep::copy); });
 }
 
-void GridSearch::take_over(std::vector<Vec3> positions, const Box& box) {
-  update_by([&] {
-    positions_ = std::move(positions);
-    take(positions_, box, {});
-  });
+void GridSearch::update_by_reference(Span<const Vec3> positions, const Box& box) {
+  update_by([&] { take(positions, box, {}, Keep::reference); });
 }
 
 template <class Take>
@@ -207,7 +197,7 @@ void GridSearch::classify(Span<const ListParams> requests) {
 void GridSearch::find_plainly(double error, const std::vector<const PairFilter*>& filters,
                               const std::vector<NeighborList*>& out) {
   if (!has_plain_) {
-    std::vector<Vec3> wrapped = positions_;
+    std::vector<Vec3> wrapped(positions_.begin(), positions_.end());
     for (Vec3& p : wrapped) p = box_.wrap(p);
     plain_.build(wrapped, box_, radius_ + error);
     has_plain_ = true;
@@ -246,7 +236,7 @@ UnlistedPair GridSearch::unlisted_pair(const UnlistedQuestion& question) {
 
 const SearchStats& GridSearch::stats() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  stats_.memory_bytes = bytes_of(positions_) + bytes_of(classes_.of) + sizes_.memory_bytes() +
+  stats_.memory_bytes = bytes_of(copy_) + bytes_of(classes_.of) + sizes_.memory_bytes() +
                         plain_.memory_bytes() + rows_.memory_bytes() + list_finder_.memory_bytes();
   for (const Group& group : groups_)
     stats_.memory_bytes += group.layer.memory_bytes() + bytes_of(group.particle);

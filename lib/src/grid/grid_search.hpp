@@ -29,7 +29,11 @@ class GridSearch final : public PairSearch {
  public:
   GridSearch(double radius, Executor* executor) : radius_(radius), executor_(executor) {}
 
+  GridSearch(const GridSearch&) = delete;  // positions_ may be those of copy_
+  GridSearch& operator=(const GridSearch&) = delete;
+
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
+  void update_by_reference(Span<const Vec3> positions, const Box& box) override;
   void list(const ListParams& params, NeighborList& out) override { make_lists({&params, 1}, {&out}); }
   void lists(Span<const ListParams> requests, std::vector<NeighborList>& out) override;
   void list_in_pieces(const ListParams& params, const std::function<void(const NeighborList&)>& use) override;
@@ -41,10 +45,6 @@ class GridSearch final : public PairSearch {
 
   /// Forgets all particles, and keeps no memory of them.
   void clear();
-  /// As update(), but the positions are taken over instead of copied.
-  void take_over(std::vector<Vec3> positions, const Box& box);
-  /// Forgets all particles, and gives the array of their positions away.
-  std::vector<Vec3> give_back();
   /// Those of the last update.
   Span<const Vec3> positions() const { return positions_; }
   const Box& box() const { return box_; }
@@ -69,7 +69,8 @@ class GridSearch final : public PairSearch {
 
   template <class Take>
   void update_by(const Take& take);
-  void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);
+  enum class Keep { copy, reference };
+  void take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys, Keep keep);
   struct Reach {
     double error;   ///< how far distances may be from pair distances [length]
     bool in_cells;  ///< whether pairs can be found in cells
@@ -90,7 +91,8 @@ class GridSearch final : public PairSearch {
 
   double radius_;
   Executor* executor_;
-  std::vector<Vec3> positions_;
+  Span<const Vec3> positions_;
+  std::vector<Vec3> copy_;  ///< of the positions; empty if they are the caller's
   Box box_;
   double wrap_error_ = 0;
   KeyTable key_table_;  ///< finds keys that repeat

@@ -31,14 +31,15 @@ constexpr double kLike = 1e-6;
 
 }  // namespace
 
-void GridSearch::take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+void GridSearch::take(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys, Keep keep) {
   if (!keys.empty()) key_table_.fill(positions.size(), keys);  // throws if they repeat
   check_radius(radius_, box);
   index_count(static_cast<std::int64_t>(positions.size()), "particles", "divide the system");
   box_ = box;
   has_plain_ = false;
   for (Group& group : groups_) group.reach = group.started = 0;
-  positions_.resize(positions.size());
+  copy_.resize(keep == Keep::copy ? positions.size() : 0);
+  positions_ = keep == Keep::copy ? Span<const Vec3>(copy_) : positions;
   const PositionCheck check(box_);
   wrap_error_ = check.error().bound(take_and_check(positions, check));
 }
@@ -60,8 +61,7 @@ double GridSearch::take_and_check(Span<const Vec3> positions, const PositionChec
     for (std::size_t at = begin; at < end; at += kPiece) {
       const Span<const Vec3> piece(positions.data() + at, std::min(kPiece, end - at));
       const std::optional<double> of_piece = check.reach_by_box(piece);
-      if (piece.data() != positions_.data() + at)
-        std::copy(piece.begin(), piece.end(), positions_.data() + at);
+      if (!copy_.empty()) std::copy(piece.begin(), piece.end(), copy_.data() + at);
       checked = checked && of_piece;
       if (!checked) continue;  // positions that are refused are in no cell
       reach = std::max(reach, *of_piece);

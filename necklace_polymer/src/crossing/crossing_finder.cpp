@@ -68,10 +68,9 @@ class CrossingFinder::Impl {
     }
     result_ = StepCrossings();
     const detail::StepMotion motion(before_, box_, positions, box);
-    std::vector<Vec3> centers = measure(motion);
-    near_.update(std::move(centers), bounds_, motion.middle_box());
-    search({motion, bonds_.bonds, near_.centers(), bounds_, near_.largest(), bonds_.on_chains,
-            params_.thickness});
+    measure(motion);
+    near_.update(centers_, bounds_, motion.middle_box());
+    search({motion, bonds_.bonds, centers_, bounds_, near_.largest(), bonds_.on_chains, params_.thickness});
     std::copy(positions.begin(), positions.end(), before_.begin());
     box_ = box;
     is_new_.clear();
@@ -80,8 +79,9 @@ class CrossingFinder::Impl {
   }
 
   std::size_t memory_bytes() const {
-    return before_.capacity() * sizeof(Vec3) + bounds_.capacity() * sizeof(detail::SweepBounds) +
-           bonds_.bonds.capacity() * sizeof(IndexPair) + is_new_.capacity() / 8 + near_.memory_bytes();
+    return (before_.capacity() + centers_.capacity()) * sizeof(Vec3) +
+           bounds_.capacity() * sizeof(detail::SweepBounds) + bonds_.bonds.capacity() * sizeof(IndexPair) +
+           is_new_.capacity() / 8 + near_.memory_bytes();
   }
 
  private:
@@ -94,15 +94,14 @@ class CrossingFinder::Impl {
     dch::detail::check_positions(positions, box);
   }
 
-  /// Bounds of the sweeps, and which bonds are left out. Returns the sweeps' centers.
-  std::vector<Vec3> measure(const detail::StepMotion& motion) {
+  /// Centers and bounds of the sweeps, and which bonds are left out.
+  void measure(const detail::StepMotion& motion) {
     const std::size_t count = bonds_.bonds.size();
     result_.stats.bonds = static_cast<std::int64_t>(count);
-    std::vector<Vec3> centers = near_.give_back();
-    centers.resize(count);
+    centers_.resize(count);
     bounds_.resize(count);
     for_ranges(params_.executor, count, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) centers[k] = measure(motion, k);
+      for (std::size_t k = first; k < last; ++k) centers_[k] = measure(motion, k);
     });
     for (std::size_t k = 0; k < count; ++k) {
       if (!bounds_[k].is_left_out()) continue;
@@ -115,7 +114,6 @@ class CrossingFinder::Impl {
                                       step.beads_determined ? UndeterminedBond::Reason::bond_too_long
                                                             : UndeterminedBond::Reason::bead_moved_too_far});
     }
-    return centers;
   }
 
   Vec3 measure(const detail::StepMotion& motion, std::size_t k) {
@@ -173,7 +171,8 @@ class CrossingFinder::Impl {
   bool is_ready_ = false;
   std::vector<Vec3> before_;
   Box box_;
-  std::vector<bool> is_new_;  ///< by bond; empty if none is
+  std::vector<bool> is_new_;   ///< by bond; empty if none is
+  std::vector<Vec3> centers_;  ///< of the sweeps, by bond
   std::vector<detail::SweepBounds> bounds_;
   StepCrossings result_;
 };

@@ -2,7 +2,6 @@
 #include "crossing/near_midpoints.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace dch::necklace::detail {
 namespace {
@@ -34,7 +33,7 @@ void NearMidpoints::choose_reach(Span<const SweepBounds> bounds, const Box& box)
   }
 }
 
-void NearMidpoints::update(std::vector<Vec3> centers, Span<const SweepBounds> bounds, const Box& box) {
+void NearMidpoints::update(Span<const Vec3> centers, Span<const SweepBounds> bounds, const Box& box) {
   choose_reach(bounds, box);
   reach_ = std::clamp(2.0 * static_cast<double>(largest_) * (1 + 1e-6), kMinListRadius,
                       std::min(kMaxListRadius, box.max_cutoff()));
@@ -43,7 +42,7 @@ void NearMidpoints::update(std::vector<Vec3> centers, Span<const SweepBounds> bo
     search_radius_ = std::min({kReserve * reach_, kMaxListRadius, box.max_cutoff()});
     search_.emplace(search_radius_, executor_);
   }
-  search_->take_over(std::move(centers), box);
+  search_->update_by_reference(centers, box);
 }
 
 void NearMidpoints::for_each_piece(const std::function<void(const NeighborList&)>& use) {

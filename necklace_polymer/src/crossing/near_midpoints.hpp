@@ -23,14 +23,11 @@ class NearMidpoints {
  public:
   explicit NearMidpoints(Executor* executor) : executor_(executor) {}
 
-  /// An array for centers, that of the last update() if there was one.
-  std::vector<Vec3> give_back() { return search_ ? search_->give_back() : std::vector<Vec3>(); }
   /// Balls of a negative radius are left out.
-  /// @param centers are taken over: there is no other array of them
+  /// @param centers have to stay as they are until all near pairs have been found: there is no copy of them
   /// @throws InvalidPosition
-  void update(std::vector<Vec3> centers, Span<const SweepBounds> bounds, const Box& box);
+  void update(Span<const Vec3> centers, Span<const SweepBounds> bounds, const Box& box);
 
-  Span<const Vec3> centers() const { return search_->positions(); }
   /// Calls use() with pieces of the near pairs, on the executor's threads. Those of pairs with a wide ball
   /// mean nothing.
   void for_each_piece(const std::function<void(const NeighborList&)>& use);

@@ -40,6 +40,10 @@ class PairSearch {
   ///   nothing until the next successful update().
   virtual void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys = {}) = 0;
 
+  /// As update() without keys, for callers who keep `positions` as they are until the next update or the last
+  /// call about this one: the grid reads them there and has no copy.
+  virtual void update_by_reference(Span<const Vec3> positions, const Box& box) { update(positions, box); }
+
   /// All pairs that params asks for, at the positions of the last update.
   /// @throws InvalidParameter if params.list_radius() exceeds the radius the engine was made for, for a
   ///   negative or non-finite skin, and for types or exclusions that do not fit the particles. After any
