@@ -37,6 +37,20 @@ def points(values: Any, name: str = "positions") -> Floats:
     return array
 
 
+def bonds(values: Any) -> npt.NDArray[np.int32]:
+    """Pairs of particles; whether there are such particles is for the library to say."""
+    array = np.asarray(values)
+    if array.size == 0 and array.ndim <= 2:
+        return np.zeros((0, 2), np.int32)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise InvalidParameter(f"bonds has the shape {array.shape} and the type {array.dtype}; give whole numbers in the "
+                               "shape (m, 2), the indices of two particles for each bond")
+    least, most = int(array.min()), int(array.max())
+    if least < 0 or most >= 2**31:
+        raise InvalidParameter(f"bonds has the index {least if least < 0 else most}; give indices of particles, from 0 on")
+    return np.require(array, np.int32, ["C", "A"])
+
+
 def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
     """The vectors of a cell as rows, and along which of them it is periodic.
 

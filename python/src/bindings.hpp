@@ -6,6 +6,7 @@
 /// What each source adds to the module.
 namespace dch::python {
 
+void bind_crossings(pybind11::module_& m);
 void bind_pairs(pybind11::module_& m);
 void bind_queries(pybind11::module_& m);
 

@@ -45,6 +45,7 @@ void add_errors(py::module_& m) {
 PYBIND11_MODULE(_core, m) {
   m.attr("version") = DCH_VERSION;
   add_errors(m);
+  dch::python::bind_crossings(m);
   dch::python::bind_pairs(m);
   dch::python::bind_queries(m);
 }

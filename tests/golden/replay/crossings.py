@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""dchmd crossings against the roots of all pairs' cubics in all images with NumPy: events by frame, bonds, time and place, in
+"""dchmd crossings against the roots of all pairs' cubics in all images: events by frame, bonds, time and place, in
 boxes of every kind; undetermined bonds, contacts, exit statuses.
 
     crossings.py DCH FOLDER_OF_TRAJECTORIES DOCS
 """
 
-import itertools
 import json
 import os
 import sys
@@ -15,73 +14,18 @@ import xml.etree.ElementTree as ElementTree
 import h5py
 import numpy
 
+from crossing_roots import BOXES, CHAIN, all_crossings, bonds_of_chains, random_chains, wrapped
 from dch_command import Checks, check_keys, expect_failure, run
 from drawings import drawing_faults
 from query import write_dump
 
 OUTPUTS = ["--out", "crossings.h5", "--report", "report.json", "--plot", "page.html"]
-CHAIN = 12
-BOXES = {
-    "none": ("ff ff ff\n" + 3 * "0 1\n", numpy.empty((0, 3))),
-    "periodic": ("pp pp pp\n" + 3 * "0 9\n", numpy.diag([9.0, 9, 9])),
-    "skewed": ("xy xz yz pp pp pp\n0 16 4\n-4 9 3\n0 9 -4\n", numpy.array([[9.0, 0, 0], [4, 9, 0], [3, -4, 9]])),
-}
-
-
-def at(vectors, t):
-    return (1 - t) * vectors[0] + t * vectors[1]
-
-
-def crossings_of(p, q):
-    """Bonds as arrays (time 0 or 1, end, xyz). The roots of det[b_P, b_Q, q - p] where both meet inside."""
-    b_p, b_q, d = p[:, 1] - p[:, 0], q[:, 1] - q[:, 0], q[:, 0] - p[:, 0]
-    times = numpy.array([0.0, 1 / 3, 2 / 3, 1])
-    values = [numpy.linalg.det([at(b_p, t), at(b_q, t), at(d, t)]) for t in times]
-    for root in numpy.roots(numpy.linalg.solve(numpy.vander(times), values)):
-        if abs(root.imag) > 1e-9 or not 0 < root.real < 1:
-            continue
-        t = root.real
-        (u, v), *_ = numpy.linalg.lstsq(numpy.array([at(b_p, t), -at(b_q, t)]).T, at(d, t), rcond=None)
-        if 0 < u < 1 and 0 < v < 1:
-            yield t, u, v
-
-
-def all_crossings(frames, cell):
-    events = []
-    shifts = numpy.array([n @ cell if len(cell) else numpy.zeros(3) for n in
-                          map(numpy.array, itertools.product((-2, -1, 0, 1, 2), repeat=len(cell)))])
-    bonds = [(k, k + 1) for k in range(len(frames[0])) if (k + 1) % CHAIN != 0 and k + 1 < len(frames[0])]
-    for number in range(1, len(frames)):
-        moved = numpy.array(frames[number - 1 : number + 1])[:, bonds]  # time, bond, end, xyz
-        middles = moved.mean((0, 2))
-        radii = numpy.linalg.norm(moved - middles[None, :, None], axis=3).max((0, 2))
-        for p, q in itertools.combinations(range(len(bonds)), 2):
-            if set(bonds[p]) & set(bonds[q]):
-                continue
-            apart = numpy.linalg.norm(middles[q] + shifts - middles[p], axis=1)
-            for shift in shifts[apart < radii[p] + radii[q]]:
-                events += [(number, bonds[p], bonds[q], t, u, v)
-                           for t, u, v in sorted(crossings_of(moved[:, p], moved[:, q] + shift))]
-    return events
-
-
-def random_chains(seed, chains, frames, speed):
-    """Unwrapped positions of random walks that shake."""
-    random = numpy.random.default_rng(seed)
-    steps = random.normal(size=(chains, CHAIN, 3))
-    steps *= 0.9 / numpy.linalg.norm(steps, axis=2)[:, :, None]
-    steps[:, 0] = random.uniform(0, 5, (chains, 3))
-    first = steps.cumsum(axis=1).reshape(-1, 3)
-    moves = random.uniform(-speed, speed, (frames - 1, *first.shape)).cumsum(axis=0)
-    return [first, *(first + moves)]
-
 
 def written(frames, cell, folder, bounds):
     """Wrapped into the cell, as a host gives them; the positions read back from the text are those of the test."""
     path = os.path.join(folder, "run.lammpstrj")
     ids = list(range(1, len(frames[0]) + 1))
-    inside = [points - numpy.floor(points @ numpy.linalg.inv(cell)) @ cell if len(cell) else points for points in frames]
-    write_dump(path, [(ids, points) for points in inside], bounds)
+    write_dump(path, [(ids, wrapped(points, cell)) for points in frames], bounds)
     return path
 
 
@@ -96,13 +40,13 @@ def check_boxes(checks, command, docs, folder):
     for seed, (name, (bounds, cell)) in enumerate(BOXES.items()):
         frames = random_chains(seed, 6, 4, 0.3)
         path = written(frames, cell, folder, bounds)
-        expected = all_crossings(frames, cell)
+        expected = all_crossings(frames, cell, bonds_of_chains(len(frames[0])))
         report, table = ask(checks, command, folder, path, "--fail", "--threads", seed + 1, status=1)
         checks.that(len(expected) >= 1, f"{name}: only {len(expected)} crossings to find")
         found = [(e["frame"], tuple(k - 1 for k in e["bond_p"]), tuple(k - 1 for k in e["bond_q"]), e["time"], e["on_p"],
-                  e["on_q"]) for e in report["events"]]
+                  e["on_q"], e["sign"]) for e in report["events"]]
         checks.that([e[:3] for e in found] == [e[:3] for e in expected], f"{name}: {found} for {expected}")
-        checks.that(numpy.allclose([e[3:] for e in found], [e[3:] for e in expected], 0, 1e-4), f"{name}: times and places")
+        checks.that(numpy.allclose([e[3:] for e in found], [e[3:] for e in expected], 0, 1e-4), f"{name}: times, places, signs")
         checks.that(report["crossings"]["number"] == len(expected) == sum(report["per_frame"]["crossings"]), f"{name}: number")
         checks.that(report["undetermined"] == {"number": 0, "first": None}, f"{name}: {report['undetermined']}")
         checks.that(f"crossings         {len(expected)}" in table or str(len(expected)) in table, f"the table: {table}")

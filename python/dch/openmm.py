@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""A reporter for OpenMM's simulations: which bonds of chains go through each other.
+
+    simulation.reporters.append(dch.openmm.CrossingReporter("crossings.csv", 100))
+"""
+from __future__ import annotations
+
+import warnings
+from typing import Any, TextIO
+
+from openmm import unit
+
+from ._arguments import bonds as index_pairs
+from ._arguments import count, length
+from ._core import InvalidParameter
+from ._crossings import Crossings, CrossingStep
+
+__all__ = ["CrossingReporter"]
+
+COLUMNS = ("Step", "Time (ps)", "p1", "p2", "q1", "q2", "Sign", "X (nm)", "Y (nm)", "Z (nm)")
+
+
+def in_nanometers(value: Any) -> Any:
+    return value.value_in_unit(unit.nanometer) if unit.is_quantity(value) else value
+
+
+def bonds_of(topology: Any) -> list[list[int]]:
+    bonds = [[bond[0].index, bond[1].index] for bond in topology.bonds()]
+    if not bonds:
+        raise InvalidParameter("the topology of the simulation has no bonds; give CrossingReporter those of the chains")
+    return bonds
+
+
+class CrossingReporter:
+    """Writes down the bonds that go through each other between reports, a line each, and counts them.
+
+    Particles go along straight lines from one report to the next, so report as often as every few steps of a polymer model:
+    crossings there and back within an interval cancel. The first report is where it begins; so is one whose step is not
+    after the last one's, as when a state has been loaded.
+
+    Parameters
+    ----------
+    file
+        Name of the file to write to, a file, or None for none. Lines have the step and the time of the crossing, the
+        particles of both bonds, the sign (dch.BondCrossings) and the place.
+    reportInterval
+        Steps between reports, at least 1.
+    bonds
+        (m, 2) indices of particles; None for those of the simulation's topology.
+    thickness
+        Bonds whose axes come within it are contacts; a length in nm unless it has a unit.
+    threads
+        As for dch.neighbor_list().
+
+    If the System uses periodic boundary conditions, particles go to the nearest images of where they were. A warning tells
+    of the first bond that is undetermined: of which a particle moved half the smallest height of the box or more between
+    reports, or that is as long. InvalidParameter as for dch.Crossings; if bonds is None and the topology has none, at the
+    first report.
+    """
+
+    def __init__(self, file: str | TextIO | None, reportInterval: int, bonds: Any = None, thickness: Any = 0, *,
+                 threads: int | None = None) -> None:
+        self._interval = count(reportInterval, "reportInterval", 1, 2**31 - 1)
+        self._thickness, self._threads = length(in_nanometers(thickness), "thickness"), threads
+        self._bonds = None if bonds is None else index_pairs(bonds)
+        if self._bonds is not None:  # all that may be wrong with them but for particles that the System lacks
+            self._follow(int(self._bonds.max(initial=-1)) + 1, self._bonds)
+        self._following: Crossings | None = None
+        self._last: tuple[int, float] | None = None  # step, and time [ps]
+        #: Totals over all reports.
+        self.crossings = self.contacts = self.undetermined = 0
+        #: What the last report found, a dch.CrossingStep; None where it began.
+        self.found: CrossingStep | None = None
+        self._owns_file = isinstance(file, str)
+        self._file: TextIO | None = open(file, "w") if isinstance(file, str) else file
+        if self._file is not None:
+            print("#" + ",".join(f'"{name}"' for name in COLUMNS), file=self._file, flush=True)
+
+    def __del__(self) -> None:
+        if getattr(self, "_owns_file", False) and self._file is not None:
+            self._file.close()
+
+    def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
+        """Steps until the next report, and that it needs positions, not wrapped."""
+        return self._interval - simulation.currentStep % self._interval, True, False, False, False, False
+
+    def report(self, simulation: Any, state: Any) -> None:
+        """Called by the Simulation. Call it with a state of the positions that the first steps begin with, if these are to
+        count: reporter.report(simulation, simulation.context.getState(getPositions=True))."""
+        positions = state.getPositions(asNumpy=True).value_in_unit(unit.nanometer)
+        cell = None
+        if simulation.system.usesPeriodicBoundaryConditions():
+            cell = state.getPeriodicBoxVectors(asNumpy=True).value_in_unit(unit.nanometer)
+        now = simulation.currentStep, state.getTime().value_in_unit(unit.picosecond)
+        last, self._last, self.found = self._last, None, None  # after an error the next report begins anew
+        if self._following is None:
+            self._following = self._follow(len(positions), bonds_of(simulation.topology) if self._bonds is None else self._bonds)
+        if last is None or now[0] <= last[0]:
+            self._following.start(positions, cell)
+        else:
+            self._take(self._following.step(positions, cell), last, now)
+        self._last = now
+
+    def _follow(self, particles: int, bonds: Any) -> Crossings:
+        return Crossings(particles, bonds, self._thickness, threads=self._threads)
+
+    def _take(self, found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> None:
+        self.found = found
+        if self.undetermined == 0 and len(found.undetermined.bonds) > 0:
+            self._warn(found, now[0])
+        self.crossings += len(found.crossings.time)
+        self.contacts += len(found.contacts.time)
+        self.undetermined += len(found.undetermined.bonds)
+        if self._file is not None and len(found.crossings.time) > 0:
+            self._write(found, last, now)
+
+    @staticmethod
+    def _warn(found: CrossingStep, step: int) -> None:
+        (a, b), too_long = found.undetermined.bonds[0], found.undetermined.too_long[0]
+        why = "is as long as half the smallest height of the box" if too_long else "has moved half the box"
+        warnings.warn(f"CrossingReporter: whether bonds crossed is undetermined for {len(found.undetermined.bonds)} bonds at step "
+                      f"{step}: the bond of the particles {a} and {b} {why}, or more; report more often, or take a larger box",
+                      RuntimeWarning, stacklevel=3)
+
+    def _write(self, found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> None:
+        for p, q, time, _, place, sign in zip(*found.crossings):
+            step, picoseconds = (a + time * (b - a) for a, b in zip(last, now))
+            numbers = [f"{step:.3f}", f"{picoseconds:.9g}", *p, *q, sign, *(f"{x:.9g}" for x in place)]
+            print(*numbers, sep=",", file=self._file)
+        assert self._file is not None
+        self._file.flush()
