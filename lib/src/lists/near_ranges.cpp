@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lists/near_ranges.hpp"
 
+#include <algorithm>
+
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
 #include "geometry/tolerance.hpp"
@@ -20,9 +22,15 @@ void NearRanges<Metric>::add(const LeafSource& leaves, const Leaf& other, Vec3 b
   ranges_.push_back(range);
 }
 
+/// How far centers may be apart whose leaves are near.
+template <class Metric>
+double NearRanges<Metric>::limit_with(const NearSource& near, const Leaf& other) const {
+  return (near.reach + own_.extent + other.extent) * kInflate;
+}
+
 template <class Metric>
 void NearRanges<Metric>::add_if_near(const NearSource& near, const Leaf& other, Vec3 between) {
-  const double limit = (near.reach + own_.extent + other.extent) * kInflate;
+  const double limit = limit_with(near, other);
   if (norm2(between) <= limit * limit) add(*near.source, other, between);
 }
 
@@ -32,26 +40,48 @@ void NearRanges<Metric>::add_images(const NearSource& near, std::int32_t other) 
   const Leaf& other_leaf = near.source->measured().leaves[other];
   const bool is_itself = near.source == &rows_ && k_ == other;
   const Vec3 nearest = metric_.displacement(center_, near.source->centers().position[other]);
-  const double limit = (near.reach + own_.extent + other_leaf.extent) * kInflate;
+  const double limit = limit_with(near, other_leaf);
   for_each_near_image(box_, nearest, limit, is_itself,
                       [&](Vec3 between) { add(*near.source, other_leaf, between); });
 }
 
 template <class Metric>
 void NearRanges<Metric>::find_own(const NearSource& near) {
-  const std::vector<Leaf>& leaves = near.source->measured().leaves;
   const Level& centers = near.source->centers();
   ranges_.clear();
   add(*near.source, own_, Vec3{});
   if (!near.one_image) add_images(near, k_);
-  for (const std::int32_t other : centers.edges.row(k_)) {
-    if (other < k_ || !(own_owned_ || near.source->labelled.leaf_owned[other])) continue;
-    if (near.one_image) {
-      add_if_near(near, leaves[other], metric_.displacement(center_, centers.position[other]));
-    } else {
-      add_images(near, other);
-    }
+  const Span<const std::int32_t> joined = centers.edges.row(k_);
+  for (std::size_t first = 0; first < joined.size(); first += kAtATime)
+    add_joined(near, joined.data() + first, std::min(kAtATime, joined.size() - first));
+}
+
+/// Which leaves come later, and which of them are near, is hard to foretell: so both are found without
+/// branches.
+template <class Metric>
+void NearRanges<Metric>::add_joined(const NearSource& near, const std::int32_t* joined, std::size_t count) {
+  const std::vector<Leaf>& leaves = near.source->measured().leaves;
+  const std::vector<Vec3>& centers = near.source->centers().position;
+  const std::uint8_t* const owned = near.source->labelled.leaf_owned.data();
+  std::int32_t later[kAtATime];
+  std::size_t met = 0;
+  for (std::size_t e = 0; e < count; ++e) {
+    const std::int32_t other = later[met] = joined[e];
+    met += static_cast<std::size_t>(other > k_) & static_cast<std::size_t>(own_owned_ | (owned[other] != 0));
   }
+  if (!near.one_image) {
+    for (std::size_t e = 0; e < met; ++e) add_images(near, later[e]);
+    return;
+  }
+  Vec3 between[kAtATime];
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < met; ++e) {
+    const std::int32_t other = later[kept] = later[e];
+    between[kept] = metric_.displacement(center_, centers[other]);
+    const double limit = limit_with(near, leaves[other]);
+    kept += static_cast<std::size_t>(norm2(between[kept]) <= limit * limit);
+  }
+  for (std::size_t e = 0; e < kept; ++e) add(*near.source, leaves[later[e]], between[e]);
 }
 
 template <class Metric>

@@ -43,6 +43,9 @@ class NearRanges {
   std::int64_t find_others(const NearSource& near);
 
  private:
+  static constexpr std::size_t kAtATime = 64;  ///< edges
+  double limit_with(const NearSource& near, const Leaf& other) const;
+  void add_joined(const NearSource& near, const std::int32_t* joined, std::size_t count);
   void add_images(const NearSource& near, std::int32_t other);
   void add_if_near(const NearSource& near, const Leaf& other, Vec3 between);
   void add(const LeafSource& leaves, const Leaf& other, Vec3 between);
