@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <dch/base/error.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
 #include "base/describe.hpp"
+#include "ewald_series.hpp"
 #include "simd/lj_task.hpp"
 
 namespace dch {
@@ -131,10 +133,12 @@ void LennardJones::set_switch(double from) {
   if (!(from >= 0 && from < cutoff))
     throw InvalidParameter("the switching function begins at " + detail::describe(from) +
                            "; it must be at least 0 and below the cutoff " + detail::describe(cutoff));
+  if (splitting_ > 0 && !has_series_)
+    throw InvalidParameter(
+        "a switching function beside an Ewald sum without series is not available; drop either or set "
+        "by_series");
   if (shifted_)
     throw InvalidParameter("a switched energy is 0 at the cutoff by itself; do not have it shifted");
-  if (splitting_ > 0)
-    throw InvalidParameter("a switching function beside an Ewald sum is not available; drop either");
   switch_from_ = from;
 }
 
@@ -171,6 +175,7 @@ void LennardJones::set_coulomb(const CoulombTerm& term) {
   has_reaction_field_ = term.quadratic != 0 || term.offset != 0;
   charge_unit_ = std::sqrt(term.constant);
   splitting_ = term.splitting;
+  make_series(term);
   quadratic_ = term.quadratic;
   offset_ = term.offset;
 }
@@ -180,23 +185,41 @@ void LennardJones::check_coulomb_kind(const CoulombTerm& term) const {
   if (has_field && term.splitting > 0)
     throw InvalidParameter("a reaction field beside an Ewald sum (splitting parameter " +
                            detail::describe(term.splitting) + ") means nothing; drop either");
-  const bool is_special = mixes_ || switch_from_ >= 0;
-  if (is_special && term.splitting > 0)
+  const bool is_special = mixes_ || switch_from_ >= 0, is_series = term.splitting > 0 && term.by_series;
+  if (is_special && term.splitting > 0 && !term.by_series)
     throw InvalidParameter("an Ewald sum (splitting parameter " + detail::describe(term.splitting) +
-                           ") with parameters of particles or a switch is not available; give types and no "
-                           "switch");
-  if ((has_field || is_special) && common_cutoff() == 0)
+                           ") with parameters of particles or a switch is to be had with by_series only");
+  if ((has_field || is_special || is_series) && common_cutoff() == 0)
     throw InvalidParameter(
-        "with a reaction field, parameters of particles or a switch all cutoffs have to be the same, those "
-        "of charges too; the largest is " +
+        "with a reaction field, a series, parameters of particles or a switch all cutoffs have to be the "
+        "same, those of charges too; the largest is " +
         detail::describe(largest_cutoff_));
+}
+
+void LennardJones::make_series(const CoulombTerm& term) {
+  has_series_ = term.splitting > 0 && term.by_series;
+  if (!has_series_) return;
+  constexpr double kMaxErrorSingle = 2e-7, kMaxError = 2e-9;
+  using detail::kEwaldTerms;
+  detail::EwaldSeries exact = detail::make_ewald_series(term.splitting, largest_cutoff_, kEwaldTerms<double>);
+  detail::EwaldSeries single = detail::make_ewald_series(term.splitting, largest_cutoff_, kEwaldTerms<float>);
+  if (!(exact.error <= kMaxError))
+    throw InvalidParameter("the splitting parameter " + detail::describe(term.splitting) +
+                           " times the cutoff " + detail::describe(largest_cutoff_) +
+                           " is over 6, for which the series has too few terms");
+  fits_single_ = fits_single_ && single.error <= kMaxErrorSingle;
+  force_series_ = std::move(exact.force);
+  energy_series_ = std::move(exact.energy);
+  force_series_single_ = std::move(single.force);
+  energy_series_single_ = std::move(single.energy);
 }
 
 detail::ForceKind LennardJones::kind() const {
   using detail::ForceKind;
   const bool is_switched = switch_from_ >= 0;
   if (!has_charges_) return is_switched ? ForceKind::switched : ForceKind::lennard_jones;
-  if (splitting_ > 0) return ForceKind::ewald;
+  if (splitting_ > 0 && is_switched) return ForceKind::switched_ewald;
+  if (splitting_ > 0) return has_series_ ? ForceKind::ewald_series : ForceKind::ewald;
   // Bare charges are those in a reaction field of strength 0.
   if (is_switched) return ForceKind::switched_reaction_field;
   return has_reaction_field_ || mixes_ ? ForceKind::reaction_field : ForceKind::plain;
@@ -211,8 +234,17 @@ detail::LjParameters LennardJones::parameters() const {
 template <class Real>
 detail::LjConstants<Real> LennardJones::constants() const {
   const double width = largest_cutoff_ - switch_from_;
-  return {static_cast<Real>(splitting_), static_cast<Real>(quadratic_), static_cast<Real>(offset_),
-          static_cast<Real>(switch_from_), static_cast<Real>(switch_from_ >= 0 ? 1 / width : 0)};
+  detail::LjConstants<Real> all{static_cast<Real>(splitting_), static_cast<Real>(quadratic_),
+                                static_cast<Real>(offset_), static_cast<Real>(switch_from_),
+                                static_cast<Real>(switch_from_ >= 0 ? 1 / width : 0)};
+  if (!has_series_) return all;
+  constexpr bool kSingle = sizeof(Real) == 4;
+  all.series_scale = static_cast<Real>(2 / (largest_cutoff_ * largest_cutoff_));
+  for (std::size_t k = 0; k < std::size_t{detail::kEwaldTerms<Real>}; ++k) {
+    all.ewald_force[k] = static_cast<Real>((kSingle ? force_series_single_ : force_series_)[k]);
+    all.ewald_energy[k] = static_cast<Real>((kSingle ? energy_series_single_ : energy_series_)[k]);
+  }
+  return all;
 }
 
 template detail::LjConstants<double> LennardJones::constants() const;

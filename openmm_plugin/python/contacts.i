@@ -21,25 +21,15 @@ bool sequence_of(PyObject* object, std::vector<T>& values, const char* what, con
 }
 
 bool particles_of(PyObject* object, std::vector<int>& particles) {
-  return sequence_of(object, particles, "particles are a sequence of indices", [](PyObject* item, int& value) {
-    PyObject* const index = PyNumber_Index(item);
-    const long number = index ? PyLong_AsLong(index) : 0;
-    Py_XDECREF(index);
-    value = static_cast<int>(number);
-    if (!PyErr_Occurred() && value != number) PyErr_SetString(PyExc_OverflowError, "a particle index is too large");
-    return !PyErr_Occurred();
-  });
+  return sequence_of(object, particles, "particles are a sequence of indices", integer_of);
 }
 
 /// Numbers or quantities, or one quantity of all.
 bool radii_of(PyObject* object, std::vector<double>& radii) {
-  PyObject* numbers = object;
-  Py_INCREF(numbers);
-  if (PyObject_HasAttrString(object, "value_in_unit_system")) {
-    Py_DECREF(numbers);
-    numbers = in_md_units(object);
-  }
-  const bool done = numbers && sequence_of(numbers, radii, "radii are a sequence of lengths", number_of);
+  const Unit unit{"nanometer", 1};
+  PyObject* const numbers = stripped(object, unit);
+  const auto radius_of = [&](PyObject* item, double& value) { return number_of(item, value, unit); };
+  const bool done = numbers && sequence_of(numbers, radii, "radii are a sequence of lengths", radius_of);
   Py_XDECREF(numbers);
   return done;
 }
@@ -87,6 +77,18 @@ PyObject* list_of(const std::vector<OpenMMDCH::NecklaceContact>& contacts) {
   $result = list_of(contacts);
 }
 
+%pythoncode %{
+def _strength(value):
+    if not _unit.is_quantity(value):
+        return value
+    for in_unit in (_unit.kilojoule_per_mole, _unit.kilojoule_per_mole / _unit.nanometer**2):
+        if value.unit.is_compatible(in_unit):
+            return value.value_in_unit(in_unit)
+    raise TypeError(f"a strength in {value.unit} is neither an energy nor, for Harmonic, one per squared length")
+%}
+%pythonprepend OpenMMDCH::NecklaceContactForce::setStrength %{
+        value = _strength(value)
+%}
 %pythonappend OpenMMDCH::NecklaceContactForce::getStrength() const %{
         val = val * (_unit.kilojoule_per_mole / _unit.nanometer**2
                      if self.getEnergyFunction() == self.Harmonic else _unit.kilojoule_per_mole)

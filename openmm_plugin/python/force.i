@@ -15,26 +15,58 @@
 
 namespace {
 
-/// The value of a quantity of OpenMM's unit module in its unit system: a new reference, null with a Python error.
-PyObject* in_md_units(PyObject* quantity) {
+/// What a quantity may be given in: a unit of OpenMM's unit module to a power, or, without a name, any one of OpenMM's
+/// unit system.
+struct Unit {
+  const char* name = nullptr;
+  long power = 1;
+};
+
+PyObject* unit_module_attribute(const char* name) {
   PyObject* const units = PyImport_ImportModule("openmm.unit");
-  PyObject* const system = units ? PyObject_GetAttrString(units, "md_unit_system") : nullptr;
-  PyObject* const value = system ? PyObject_CallMethod(quantity, "value_in_unit_system", "O", system) : nullptr;
-  Py_XDECREF(system);
+  PyObject* const attribute = units ? PyObject_GetAttrString(units, name) : nullptr;
   Py_XDECREF(units);
+  return attribute;
+}
+
+/// The value of a quantity: a new reference, null with a Python error if its unit is another one.
+PyObject* value_in(PyObject* quantity, Unit unit) {
+  PyObject* in = unit_module_attribute(unit.name ? unit.name : "md_unit_system");
+  if (in && unit.power != 1) {
+    PyObject* const power = PyLong_FromLong(unit.power);
+    PyObject* const raised = PyNumber_Power(in, power, Py_None);
+    Py_XDECREF(power);
+    Py_DECREF(in);
+    in = raised;
+  }
+  PyObject* const value =
+      in ? PyObject_CallMethod(quantity, unit.name ? "value_in_unit" : "value_in_unit_system", "O", in) : nullptr;
+  Py_XDECREF(in);
   return value;
 }
 
-/// A number, or a quantity. False with a Python error if it is neither.
-bool number_of(PyObject* object, double& value) {
-  PyObject* number = object;
-  Py_INCREF(number);
-  if (PyObject_HasAttrString(object, "value_in_unit_system")) {
-    Py_DECREF(number);
-    number = in_md_units(object);
-  }
+/// The object, or its value if it is a quantity: a new reference, null with a Python error.
+PyObject* stripped(PyObject* object, Unit unit) {
+  if (PyObject_HasAttrString(object, "value_in_unit_system")) return value_in(object, unit);
+  Py_INCREF(object);
+  return object;
+}
+
+/// A number, or a quantity. False with a Python error if it is neither, or one in another unit.
+bool number_of(PyObject* object, double& value, Unit unit = {}) {
+  PyObject* const number = stripped(object, unit);
   if (number) value = PyFloat_AsDouble(number);
   Py_XDECREF(number);
+  return !PyErr_Occurred();
+}
+
+/// An integer of Python or numpy. False with a Python error if it is none.
+bool integer_of(PyObject* object, int& value) {
+  PyObject* const index = PyNumber_Index(object);
+  const long number = index ? PyLong_AsLong(index) : 0;
+  Py_XDECREF(index);
+  value = static_cast<int>(number);
+  if (!PyErr_Occurred() && value != number) PyErr_SetString(PyExc_OverflowError, "an integer is too large");
   return !PyErr_Occurred();
 }
 
@@ -44,8 +76,11 @@ bool bonds_of(PyObject* object, std::vector<std::pair<int, int> >& bonds) {
   if (!items) return false;
   for (Py_ssize_t k = 0; k < PySequence_Fast_GET_SIZE(items) && !PyErr_Occurred(); ++k) {
     PyObject* const bond = PySequence_Tuple(PySequence_Fast_GET_ITEM(items, k));
-    int i = 0, j = 0;
-    if (bond && PyArg_ParseTuple(bond, "ii;a bond is a pair of particle indices", &i, &j)) bonds.push_back({i, j});
+    PyObject *i = nullptr, *j = nullptr;
+    std::pair<int, int> of;
+    if (bond && PyArg_ParseTuple(bond, "OO;a bond is a pair of particle indices", &i, &j) && integer_of(i, of.first) &&
+        integer_of(j, of.second))
+      bonds.push_back(of);
     Py_XDECREF(bond);
   }
   Py_DECREF(items);
@@ -74,6 +109,27 @@ void raise(const char* message) {
 
 %typemap(in) double {
   if (!number_of($input, $1)) SWIG_fail;
+}
+%define TAKES(names, unit, power)
+%typemap(in) names {
+  if (!number_of($input, $1, {unit, power})) SWIG_fail;
+}
+%enddef
+TAKES(double charge, "elementary_charge", 1)
+TAKES(double chargeProd, "elementary_charge", 2)
+TAKES(double sigma, "nanometer", 1)
+TAKES(double distance, "nanometer", 1)
+TAKES(double maxGap, "nanometer", 1)
+TAKES(double epsilon, "kilojoule_per_mole", 1)
+TAKES(double dielectric, "dimensionless", 1)
+TAKES(double coulomb14Scale, "dimensionless", 1)
+TAKES(double lj14Scale, "dimensionless", 1)
+%typemap(in) int {
+  if (!integer_of($input, $1)) SWIG_fail;
+}
+%typemap(in) enum SWIGTYPE (int number) {
+  if (!integer_of($input, number)) SWIG_fail;
+  $1 = static_cast<$1_ltype>(number);
 }
 %typemap(in) const std::vector<std::pair<int, int> >& (std::vector<std::pair<int, int> > bonds) {
   if (!bonds_of($input, bonds)) SWIG_fail;
@@ -117,6 +173,8 @@ WITH_UNITS(getExceptionParameters, _EXCEPTION_UNITS)
 WITH_UNITS(getExceptionParameterOffset, _EXCEPTION_UNITS)
 
 %feature("autodoc", "1");
+// One function, whose arguments are converted, not two that are chosen between by what arguments are.
+%feature("kwargs") OpenMMDCH::DCHNonbondedForce::addException;
 %newobject OpenMMDCH::DCHNonbondedForce::fromNonbonded;
 %newobject OpenMMDCH::DCHNonbondedForce::__copy__;
 
@@ -204,3 +262,4 @@ class DCHNonbondedForce : public OpenMM::Force {
 }  // namespace OpenMMDCH
 
 %include "contacts.i"
+%include "drop_in.i"

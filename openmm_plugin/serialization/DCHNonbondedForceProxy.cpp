@@ -13,7 +13,7 @@ using OpenMM::SerializationNode;
 namespace OpenMMDCH {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kNonbondedVersion = 1;
 
 void writeParticles(const DCHNonbondedForce& force, SerializationNode& node) {
   double charge, sigma, epsilon;
@@ -93,7 +93,7 @@ void readTerms(const SerializationNode& node, DCHNonbondedForce& force) {
 
 void DCHNonbondedForceProxy::serialize(const void* object, SerializationNode& node) const {
   const auto& force = *static_cast<const DCHNonbondedForce*>(object);
-  node.setIntProperty("version", kVersion)
+  node.setIntProperty("version", kNonbondedVersion)
       .setIntProperty("forceGroup", force.getForceGroup())
       .setStringProperty("name", force.getName())
       .setIntProperty("method", force.getNonbondedMethod())
@@ -110,9 +110,10 @@ void DCHNonbondedForceProxy::serialize(const void* object, SerializationNode& no
 
 void* DCHNonbondedForceProxy::deserialize(const SerializationNode& node) const {
   const int version = node.getIntProperty("version");
-  if (version != kVersion)
+  if (version != kNonbondedVersion)
     throw OpenMM::OpenMMException("DCHNonbondedForce: serialized version " + std::to_string(version) +
-                                  " is unknown; this library reads version " + std::to_string(kVersion));
+                                  " is unknown; this library reads version " +
+                                  std::to_string(kNonbondedVersion));
   auto force = std::make_unique<DCHNonbondedForce>();
   force->setForceGroup(node.getIntProperty("forceGroup"));
   force->setName(node.getStringProperty("name"));

@@ -14,7 +14,7 @@ using OpenMM::SerializationNode;
 namespace OpenMMDCH {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kContactVersion = 1;
 
 void writeChain(const NecklaceContactForce& force, int index, SerializationNode& node) {
   std::vector<int> particles;
@@ -40,7 +40,7 @@ void readChain(const SerializationNode& node, NecklaceContactForce& force) {
 
 void NecklaceContactForceProxy::serialize(const void* object, SerializationNode& node) const {
   const auto& force = *static_cast<const NecklaceContactForce*>(object);
-  node.setIntProperty("version", kVersion)
+  node.setIntProperty("version", kContactVersion)
       .setIntProperty("forceGroup", force.getForceGroup())
       .setStringProperty("name", force.getName())
       .setIntProperty("energyFunction", force.getEnergyFunction())
@@ -56,9 +56,10 @@ void NecklaceContactForceProxy::serialize(const void* object, SerializationNode&
 
 void* NecklaceContactForceProxy::deserialize(const SerializationNode& node) const {
   const int version = node.getIntProperty("version");
-  if (version != kVersion)
+  if (version != kContactVersion)
     throw OpenMM::OpenMMException("NecklaceContactForce: serialized version " + std::to_string(version) +
-                                  " is unknown; this library reads version " + std::to_string(kVersion));
+                                  " is unknown; this library reads version " +
+                                  std::to_string(kContactVersion));
   auto force = std::make_unique<NecklaceContactForce>();
   force->setForceGroup(node.getIntProperty("forceGroup"));
   force->setName(node.getStringProperty("name"));

@@ -22,6 +22,7 @@ struct Terms {
   double switch_from = -1;  ///< negative: none
   bool has_charges = false;
   double quadratic = 0, offset = 0;
+  double splitting = 0;
 };
 
 /// A gas of particles of several kinds, no two too close to each other, with charges.
@@ -73,8 +74,9 @@ LennardJonesResult all_pairs_of(const Gas& gas, const Box& box, const Terms& ter
       result.sums.energy += energy;
       if (terms.has_charges) {
         const double qq = 3.5 * gas.charges[i] * gas.charges[j];
-        result.sums.coulomb_energy += qq * (1 / r + terms.quadratic * r * r - terms.offset);
-        force += qq * (1 / (r * r) - 2 * terms.quadratic * r);
+        const double x = terms.splitting * r, gauss = 2 * x * std::exp(-x * x) / std::sqrt(M_PI);
+        result.sums.coulomb_energy += qq * (std::erfc(x) / r + terms.quadratic * r * r - terms.offset);
+        force += qq * ((std::erfc(x) + gauss) / (r * r) - 2 * terms.quadratic * r);
       }
       const Vec3 f = (force / r) * d;
       result.force[j] = result.force[j] + f;
@@ -99,36 +101,43 @@ LennardJones potential_of(const Gas& gas, const Terms& terms, bool by_particle) 
   coulomb.cutoffs.assign(by_particle ? 1 : side * side, kGasCutoff);
   coulomb.quadratic = terms.quadratic;
   coulomb.offset = terms.offset;
+  coulomb.splitting = terms.splitting;
+  coulomb.by_series = true;
   if (terms.has_charges) potential.set_coulomb(coulomb);
   if (terms.switch_from >= 0) potential.set_switch(terms.switch_from);
   return potential;
 }
 
+/// @param exact  how far results in double may be off, relative to forces and sums
 void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs, LennardJones& potential,
-                  const std::vector<double>& charges, const std::string& what) {
+                  const std::vector<double>& charges, double exact, const std::string& what) {
   const RestoreInstructionSet restore;
   for (const InstructionSet set : supported_sets())
     for (const ForcePrecision precision : {ForcePrecision::double_precision, ForcePrecision::mixed}) {
       set_instruction_set(set);
       const bool full = precision == ForcePrecision::double_precision;
+      if (!full && !potential.fits_single()) continue;
       const std::string where = what + ", " + name(set) + (full ? ", full" : ", mixed");
       std::vector<Vec3> forces(expected.force.size()), once_more(expected.force.size());
       const LennardJonesSums sums = potential.add_forces_and_sum(pairs, precision, forces, charges);
       potential.add_forces(pairs, precision, once_more, charges);
-      EXPECT_LT(force_error(forces, expected.force), full ? 1e-13 : 1e-5) << where;
-      EXPECT_LT(force_error(once_more, expected.force), full ? 1e-13 : 1e-5) << where;
+      const double tolerance = full ? exact : 1e-5;
+      EXPECT_LT(force_error(forces, expected.force), tolerance) << where;
+      EXPECT_LT(force_error(once_more, expected.force), tolerance) << where;
       double scale = std::abs(expected.sums.energy) + std::abs(expected.sums.coulomb_energy);
       for (const double v : expected.sums.virial) scale += std::abs(v);
-      EXPECT_NEAR(sums.energy, expected.sums.energy, (full ? 1e-13 : 1e-5) * scale) << where;
-      EXPECT_NEAR(sums.coulomb_energy, expected.sums.coulomb_energy, (full ? 1e-13 : 1e-5) * scale) << where;
+      EXPECT_NEAR(sums.energy, expected.sums.energy, tolerance * scale) << where;
+      EXPECT_NEAR(sums.coulomb_energy, expected.sums.coulomb_energy, tolerance * scale) << where;
       for (std::size_t k = 0; k < 6; ++k)
-        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], (full ? 1e-13 : 1e-5) * scale) << where << k;
+        EXPECT_NEAR(sums.virial[k], expected.sums.virial[k], tolerance * scale) << where << k;
     }
 }
 
 TEST(LennardJonesMixingTest, EqualsAllPairs) {
-  const std::vector<Terms> all_terms{{-1, false, 0, 0},  {-1, true, 0, 0},     {-1, true, 0.03, 0.5},
-                                     {1.9, false, 0, 0}, {0, true, 0.03, 0.5}, {1.2, true, 0, 0}};
+  const std::vector<Terms> all_terms{{-1, false, 0, 0},     {-1, true, 0, 0},       {-1, true, 0.03, 0.5},
+                                     {1.9, false, 0, 0},    {0, true, 0.03, 0.5},   {1.2, true, 0, 0},
+                                     {-1, true, 0, 0, 1.1}, {1.6, true, 0, 0, 0.9}, {-1, true, 0, 0, 1.45},
+                                     {-1, true, 0, 0, 1.8}};
   for (const Box& box : {Box::none(), Box::triclinic({7, 0, 0}, {1, 7, 0}, {0.5, -1, 7})})
     for (const int kinds : {1, 2, 6}) {
       const Box scatter = box.any_periodic() ? box : Box::orthorhombic({7, 7, 7});
@@ -148,13 +157,16 @@ TEST(LennardJonesMixingTest, EqualsAllPairs) {
         const LennardJonesResult expected = all_pairs_of(gas, box, all_terms[t]);
         for (const bool by_particle : {false, true}) {
           LennardJones potential = potential_of(gas, all_terms[t], by_particle);
+          // With 14 terms the series reaches that far.
+          EXPECT_EQ(potential.fits_single(), all_terms[t].splitting * kGasCutoff < 3.6);
           const std::vector<double> charges = all_terms[t].has_charges ? gas.charges : std::vector<double>();
           const std::string what = std::to_string(kinds) + " kinds, terms " + std::to_string(t) +
                                    (by_particle ? ", by particle" : ", by type");
-          expect_equal(expected, pairs, potential, charges, what);
+          const double exact = all_terms[t].splitting > 0 ? 1e-12 : 1e-13;
+          expect_equal(expected, pairs, potential, charges, exact, what);
           const auto threads = make_thread_pool(3);
           potential.set_executor(threads.get());
-          expect_equal(expected, pairs, potential, charges, what + ", three threads");
+          expect_equal(expected, pairs, potential, charges, exact, what + ", three threads");
         }
       }
     }
@@ -194,6 +206,8 @@ TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb(coulomb(1, 2, 0.1, 0)), InvalidParameter);
   EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb(coulomb(0, 1.5, 0.1, 0)), InvalidParameter);
   EXPECT_THROW(LennardJones(2, two).set_coulomb(coulomb(1, 2, 0, 0)), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb({1, 1, {1.5}, 0, 0, true}), InvalidParameter);
+  EXPECT_THROW(LennardJones({1, 1, 2}).set_coulomb({1, 3.2, {2}, 0, 0, true}), InvalidParameter);
   EXPECT_THROW(LennardJones(2, two).set_coulomb(coulomb(0, 1.5, 0, 0)), InvalidParameter);
 
   LennardJones plain({1, 1, 2}), shifted({1, 1, 2}, true), ewald({1, 1, 2});

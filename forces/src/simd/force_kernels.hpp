@@ -7,6 +7,7 @@
 #include <dch/forces/fene.hpp>
 
 #include "simd/lj_task.hpp"
+#include "simd/mesh_task.hpp"
 
 namespace dch::detail {
 
@@ -26,6 +27,7 @@ struct ForceKernels {
   LjFunctions<LjTask<float>> mixed;
   LjFunctions<LjTask<double>> full;
   LjFunctions<LjPairTask> pairs;
+  MeshKernels mesh;
 
   /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
   /// be room for all. Returns how many.

@@ -3,12 +3,13 @@
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
+#include "simd/mesh_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx2() {
   static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>, lj_functions_of<Avx2Double>,
-                                         lj_pair_functions_of<Avx2Double>, fene<Avx2Double>};
+                                         lj_pair_functions_of<Avx2Double>, mesh_kernels, fene<Avx2Double>};
   return kKernels;
 }
 

@@ -3,12 +3,14 @@
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
+#include "simd/mesh_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx512() {
   static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>, lj_functions_of<Avx512Double>,
-                                         lj_pair_functions_of<Avx512Double>, fene<Avx512Double>};
+                                         lj_pair_functions_of<Avx512Double>, mesh_kernels,
+                                         fene<Avx512Double>};
   return kKernels;
 }
 

@@ -3,12 +3,13 @@
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
+#include "simd/mesh_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
   static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>, lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>, fene<SseDouble>};
+                                         lj_pair_functions_of<SseDouble>, mesh_kernels, fene<SseDouble>};
   return kKernels;
 }
 

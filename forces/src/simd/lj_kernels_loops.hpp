@@ -209,7 +209,8 @@ constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
     {lj_functions_that_mix<S, ForceKind::lennard_jones>, lj_functions_of_kind<S, ForceKind::plain>,
      lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
      lj_functions_that_mix<S, ForceKind::switched>,
-     lj_functions_that_mix<S, ForceKind::switched_reaction_field>},
+     lj_functions_that_mix<S, ForceKind::switched_reaction_field>,
+     lj_functions_that_mix<S, ForceKind::ewald_series>, lj_functions_that_mix<S, ForceKind::switched_ewald>},
     kWantsLanes<S>};
 
 }  // namespace

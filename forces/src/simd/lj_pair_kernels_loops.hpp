@@ -126,6 +126,8 @@ constexpr LjFunctions<LjPairTask> lj_pair_functions_of{
      lj_pair_functions_of_kind<S, ForceKind::ewald>,
      {},
      {},
+     {},
+     {},
      {}}};
 
 }  // namespace

@@ -21,28 +21,49 @@ struct LjCoefficients {
 
 /// Which terms act: Lennard-Jones alone; with charges, whose energy is q_i q_j / r, what an Ewald sum leaves
 /// of that, q_i q_j erfc(splitting r) / r, or that with a reaction field, q_i q_j (1/r + quadratic r^2 -
-/// offset); and Lennard-Jones multiplied by a switching function, alone or with charges and their reaction
-/// field. Where there is a reaction field or a switch, all pairs have one cutoff.
-enum class ForceKind { lennard_jones, plain, ewald, reaction_field, switched, switched_reaction_field };
-inline constexpr int kForceKinds = 6;
+/// offset); and Lennard-Jones multiplied by a switching function, alone, with charges and their reaction
+/// field, or with what an Ewald sum leaves. `ewald` takes erfc from a formula; `ewald_series` and
+/// `switched_ewald` take it from a series. Where there is a reaction field, a switch or a series, all pairs
+/// have one cutoff.
+enum class ForceKind {
+  lennard_jones,
+  plain,
+  ewald,
+  reaction_field,
+  switched,
+  switched_reaction_field,
+  ewald_series,
+  switched_ewald
+};
+inline constexpr int kForceKinds = 8;
 
 constexpr bool has_reaction_field(ForceKind kind) {
   return kind == ForceKind::reaction_field || kind == ForceKind::switched_reaction_field;
 }
+constexpr bool has_ewald(ForceKind kind) {
+  return kind == ForceKind::ewald || kind == ForceKind::ewald_series || kind == ForceKind::switched_ewald;
+}
 constexpr bool has_charges(ForceKind kind) {
-  return kind == ForceKind::plain || kind == ForceKind::ewald || has_reaction_field(kind);
+  return kind == ForceKind::plain || has_ewald(kind) || has_reaction_field(kind);
 }
 constexpr bool is_switched(ForceKind kind) {
-  return kind == ForceKind::switched || kind == ForceKind::switched_reaction_field;
+  return kind == ForceKind::switched || kind == ForceKind::switched_reaction_field ||
+         kind == ForceKind::switched_ewald;
 }
 /// Whether all pairs and charges have the same cutoff.
-constexpr bool has_one_cutoff(ForceKind kind) { return has_reaction_field(kind) || is_switched(kind); }
+constexpr bool has_one_cutoff(ForceKind kind) {
+  return has_reaction_field(kind) || is_switched(kind) || kind == ForceKind::ewald_series;
+}
 /// Whether charges may have a cutoff of their own.
-constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_reaction_field(kind); }
+constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_one_cutoff(kind); }
 
 /// Where sigma and epsilon come from: they are the same for all pairs, stand in a table of pairs of types, or
 /// are mixed from those of the particles.
 enum class LjParameters { one_type, by_type, by_particle };
+
+/// How many terms of EwaldSeries a precision has.
+template <class Real>
+inline constexpr int kEwaldTerms = sizeof(Real) == 4 ? 14 : 26;
 
 /// What is the same for all pairs.
 template <class Real>
@@ -50,6 +71,8 @@ struct LjConstants {
   Real splitting = 0;                    ///< of an Ewald sum [1/length]
   Real quadratic = 0, offset = 0;        ///< of a reaction field [1/length^3, 1/length]
   Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
+  Real series_scale = 0;                 ///< EwaldSeries has powers of r^2 times this, less 1 [1/length^2]
+  Real ewald_force[kEwaldTerms<Real>]{}, ewald_energy[kEwaldTerms<Real>]{};
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.
@@ -98,8 +121,8 @@ struct LjSums {
 };
 
 /// Which sums are made, whose parameters and which terms, is decided when this is compiled. Functions that
-/// nobody asks for are null: an Ewald sum with parameters by particle, and for pairs one by one all but the
-/// first three kinds and parameters by particle.
+/// nobody asks for are null: an Ewald sum by formula with parameters by particle, and for pairs one by one
+/// a reaction field, a switch, a series and parameters by particle.
 template <class Task>
 struct LjFunctions {
   using Function = void (*)(const Task&, LjSums&);

@@ -155,8 +155,11 @@ struct Constants {
         quadratic(S::set1(c.quadratic)),
         offset(S::set1(c.offset)),
         switch_from(S::set1(c.switch_from)),
-        over_width(S::set1(c.over_width)) {}
-  typename S::V splitting, quadratic, offset, switch_from, over_width;
+        over_width(S::set1(c.over_width)),
+        series_scale(S::set1(c.series_scale)),
+        series(&c) {}
+  typename S::V splitting, quadratic, offset, switch_from, over_width, series_scale;
+  const LjConstants<typename S::Real>* series;
 };
 
 /// What the pairs of a register add: force / r, energies.
@@ -215,6 +218,37 @@ void add_reaction_field(typename S::V r2, typename S::V s, typename S::V over_r,
   }
 }
 
+/// A series in powers of u, the even ones and the odd ones side by side.
+template <class S>
+typename S::V series(const typename S::Real* term, typename S::V u) {
+  using V = typename S::V;
+  constexpr int kTerms = kEwaldTerms<typename S::Real>;
+  static_assert(kTerms % 2 == 0);
+  const V u2 = S::mul(u, u);
+  V even = S::set1(term[kTerms - 2]), odd = S::set1(term[kTerms - 1]);
+  for (int k = kTerms - 4; k >= 0; k -= 2) {
+    even = S::madd(even, u2, S::set1(term[k]));
+    odd = S::madd(odd, u2, S::set1(term[k + 1]));
+  }
+  return S::madd(odd, u, even);
+}
+
+/// What an Ewald sum leaves to charges: their bare term less what reciprocal space holds of them, which does
+/// not end where they are too far apart.
+template <class S, bool kSums>
+void add_ewald(typename S::V r2, typename S::V s, typename S::V over_r, typename S::V charge,
+               const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  const auto acts = S::less(S::zero(), s, 0xFFFF, 0);
+  const V u = S::msub(r2, constants.series_scale, S::set1(1));
+  const V far = S::keep(acts, series<S>(constants.series->ewald_force, u));
+  terms.force = S::madd(charge, S::msub(over_r, s, far), terms.force);
+  if constexpr (kSums) {
+    const V far_energy = S::keep(acts, series<S>(constants.series->ewald_energy, u));
+    terms.coulomb_energy = S::mul(charge, S::sub(over_r, far_energy));
+  }
+}
+
 /// S::over_root gives 1/r from these two, and 0 where s is.
 /// @param s inverse squared distances, 0 where nothing acts
 /// @param charge products of charges
@@ -232,6 +266,8 @@ PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2
     if constexpr (is_switched(kKind)) switch_off<S>(S::mul(r2, over_r), over_r, constants, terms);
     if constexpr (has_reaction_field(kKind))
       add_reaction_field<S, kSums>(r2, s, over_r, charge, constants, terms);
+    if constexpr (has_ewald(kKind) && has_one_cutoff(kKind))
+      add_ewald<S, kSums>(r2, s, over_r, charge, constants, terms);
     if constexpr (has_two_cutoffs(kKind)) {
       const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
       const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);

@@ -23,6 +23,12 @@ void checkCutoff(const DCHNonbondedForce& force, const OpenMM::System& system) {
   if (force.getUseSwitchingFunction() && !(from >= 0 && from < cutoff))
     refuse("the switching distance is " + textOf(from) +
            " nm; it must be at least 0 and less than the cutoff, " + textOf(cutoff) + " nm");
+  if (force.getUseSwitchingFunction() && from == 0 && force.getUseDispersionCorrection() &&
+      force.usesPeriodicBoundaryConditions())
+    refuse(
+        "the switching distance is 0, for which the dispersion correction has no value; choose a larger one, "
+        "or "
+        "setUseDispersionCorrection(false)");
   const double dielectric = force.getReactionFieldDielectric();
   if (!(std::isfinite(dielectric) && dielectric >= 0))
     refuse("the reaction field dielectric is " + textOf(dielectric) + "; it must be finite and not negative");

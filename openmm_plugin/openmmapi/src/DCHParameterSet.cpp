@@ -17,7 +17,7 @@ namespace {
 
 }  // namespace
 
-DCHParameterSet::DCHParameterSet(const DCHNonbondedForce& force) {
+DCHParameterSet::DCHParameterSet(const OpenMM::NonbondedForce& force) {
   baseParticles.resize(static_cast<std::size_t>(force.getNumParticles()));
   for (int k = 0; k < force.getNumExceptions(); ++k) {
     Exception e;
@@ -27,7 +27,7 @@ DCHParameterSet::DCHParameterSet(const DCHNonbondedForce& force) {
   take(force);
 }
 
-void DCHParameterSet::take(const DCHNonbondedForce& force) {
+void DCHParameterSet::take(const OpenMM::NonbondedForce& force) {
   if (force.getNumParticles() != static_cast<int>(baseParticles.size()))
     refuseNumber("particles", baseParticles.size(), force.getNumParticles());
   if (force.getNumExceptions() != static_cast<int>(baseExceptions.size()))

@@ -15,11 +15,12 @@ PairTerms lennardJones(double sigma, double epsilon, double r2) {
 
 }  // namespace
 
-PairPotential::PairPotential(const DCHNonbondedForce& force) {
-  if (force.getNonbondedMethod() == DCHNonbondedForce::NoCutoff) return;
+PairPotential::PairPotential(const OpenMM::NonbondedForce& force, double splitting) : alpha(splitting) {
+  if (force.getNonbondedMethod() == OpenMM::NonbondedForce::NoCutoff) return;
   cutoff = force.getCutoffDistance();
   switched = force.getUseSwitchingFunction();
   switchFrom = force.getSwitchingDistance();
+  if (hasLatticeSum()) return;
   const double dielectric = force.getReactionFieldDielectric();
   krf = std::pow(cutoff, -3) * (dielectric - 1) / (2 * dielectric + 1);
   crf = 1 / cutoff * 3 * dielectric / (2 * dielectric + 1);
@@ -40,10 +41,24 @@ PairTerms PairPotential::ofParticles(const DCHParameterSet::Particle& a, const D
     terms.energy *= value;
   }
   if (const double charges = coulombConstant() * a.charge * b.charge; charges != 0) {
-    terms.energy += charges * (1 / r + krf * r2 - crf);
-    terms.forceOverR += charges * (1 / (r * r2) - 2 * krf);
+    const double near = std::erfc(alpha * r) / r;
+    terms.energy += charges * (near + krf * r2 - crf);
+    terms.forceOverR += charges * ((near + gaussian(r2)) / r2 - 2 * krf);
   }
   return terms;
+}
+
+/// 2 splitting / sqrt(pi) e^-(splitting r)^2
+double PairPotential::gaussian(double r2) const {
+  return 2 * alpha / std::sqrt(PI_M) * std::exp(-alpha * alpha * r2);
+}
+
+PairTerms PairPotential::inReciprocalSpace(double chargeProd, double r2) const {
+  const double charges = coulombConstant() * chargeProd, r = std::sqrt(r2);
+  // Where particles coincide there is an energy, and no force.
+  if (r2 == 0) return {charges * gaussian(0), 0};
+  const double far = std::erf(alpha * r) / r;
+  return {charges * far, charges * (far - gaussian(r2)) / r2};
 }
 
 PairTerms PairPotential::ofException(const DCHParameterSet::Exception& exception, double r2) {

@@ -2,7 +2,8 @@
 #ifndef OPENMM_DCH_PAIR_POTENTIAL_H_
 #define OPENMM_DCH_PAIR_POTENTIAL_H_
 
-#include "DCHNonbondedForce.h"
+#include <openmm/NonbondedForce.h>
+
 #include "internal/DCHParameterSet.h"
 
 namespace OpenMMDCH {
@@ -12,18 +13,25 @@ namespace OpenMMDCH {
 struct PairTerms {
   double energy = 0, forceOverR = 0;
 };
+inline PairTerms operator-(const PairTerms& a, const PairTerms& b) {
+  return {a.energy - b.energy, a.forceOverR - b.forceOverR};
+}
 
-/// The potential of a DCHNonbondedForce in plain double: of pairs of particles, and of exceptions.
+/// The potential of a nonbonded force in plain double: of pairs of particles, and of exceptions.
 class PairPotential {
  public:
-  explicit PairPotential(const DCHNonbondedForce& force);
+  /// @param splitting  of a lattice sum, of which this is the part in direct space; 0 without one [1/nm]
+  PairPotential(const OpenMM::NonbondedForce& force, double splitting);
 
   bool hasCutoff() const { return cutoff > 0; }
   /// 0 without one [nm].
   double cutoffDistance() const { return cutoff; }
   bool isSwitched() const { return switched; }
   double switchingDistance() const { return switchFrom; }
-  /// With a cutoff the energy of two charges is constant q q (1/r + krf r^2 - crf), else the first term only.
+  bool hasLatticeSum() const { return alpha > 0; }
+  double splitting() const { return alpha; }
+  /// The energy of two charges is constant q q (1/r + krf r^2 - crf), or constant q q erfc(splitting r) / r
+  /// in a lattice sum; both are 0 there and without a cutoff.
   double reactionFieldK() const { return krf; }
   double reactionFieldC() const { return crf; }
   static double coulombConstant();  ///< [kJ nm/mol/e^2]
@@ -32,9 +40,13 @@ class PairPotential {
   PairTerms ofParticles(const DCHParameterSet::Particle& a, const DCHParameterSet::Particle& b,
                         double r2) const;
   static PairTerms ofException(const DCHParameterSet::Exception& exception, double r2);
+  /// What the sum in reciprocal space holds of a pair, constant q q erf(splitting r) / r.
+  PairTerms inReciprocalSpace(double chargeProd, double r2) const;
 
  private:
-  double cutoff = 0, switchFrom = 0, krf = 0, crf = 0;
+  double gaussian(double r2) const;
+
+  double cutoff = 0, switchFrom = 0, krf = 0, crf = 0, alpha = 0;
   bool switched = false;
 };
 

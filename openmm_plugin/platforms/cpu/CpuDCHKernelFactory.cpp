@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
 // The plugin of the CPU platform.
+#include <CpuKernelFactory.h>
 #include <CpuPlatform.h>
 #include <memory>
 #include <openmm/KernelFactory.h>
 #include <openmm/OpenMMException.h>
 #include <openmm/Platform.h>
 #include <openmm/PluginInitializer.h>
+#include <openmm/kernels.h>
 
-#include "CpuDCHKernels.h"
+#include "CpuNonbondedSum.h"
+#include "CpuReciprocalSum.h"
+#include "DCHNonbondedKernel.h"
+#include "DropInKernel.h"
 #include "NecklaceContactKernel.h"
 #include "PoolExecutor.h"
+#include "internal/DropInRegistry.h"
 
 namespace {
 
@@ -20,12 +26,21 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
                                        OpenMM::ContextImpl& context) const override {
     OpenMM::ThreadPool& threads = OpenMM::CpuPlatform::getPlatformData(context).threads;
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
-      return new OpenMMDCH::CpuCalcDCHNonbondedForceKernel(name, platform, threads);
+      return new OpenMMDCH::DCHNonbondedKernel(name, platform,
+                                               std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads));
+    if (name == OpenMM::CalcNonbondedForceKernel::Name())
+      return OpenMMDCH::makeNonbondedKernel(name, platform, context,
+                                            {std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads),
+                                             std::make_unique<OpenMMDCH::CpuReciprocalSum>(threads)},
+                                            native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
       return new OpenMMDCH::NecklaceContactKernel(name, platform,
                                                   std::make_unique<OpenMMDCH::PoolExecutor>(threads));
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
+
+ private:
+  OpenMM::CpuKernelFactory native;
 };
 
 }  // namespace
@@ -39,7 +54,9 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
     if (platform.getName() != "CPU") continue;
     auto* const factory = new CpuDCHKernelFactory();
     for (const std::string& name :
-         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name()})
+         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name(),
+          OpenMM::CalcNonbondedForceKernel::Name()})
       platform.registerKernelFactory(name, factory);
+    OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
   }
 }

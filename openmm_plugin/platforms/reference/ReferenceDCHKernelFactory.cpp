@@ -1,26 +1,42 @@
 // SPDX-License-Identifier: MIT
 //
 // The plugin of the Reference platform.
+#include <memory>
 #include <openmm/KernelFactory.h>
 #include <openmm/OpenMMException.h>
 #include <openmm/Platform.h>
 #include <openmm/PluginInitializer.h>
+#include <openmm/kernels.h>
+#include <openmm/reference/ReferenceKernelFactory.h>
 
+#include "DCHNonbondedKernel.h"
+#include "DropInKernel.h"
 #include "NecklaceContactKernel.h"
-#include "ReferenceDCHKernels.h"
+#include "ReferenceNonbondedSum.h"
+#include "ReferenceReciprocalSum.h"
+#include "internal/DropInRegistry.h"
 
 namespace {
 
 class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
  public:
   OpenMM::KernelImpl* createKernelImpl(std::string name, const OpenMM::Platform& platform,
-                                       OpenMM::ContextImpl&) const override {
+                                       OpenMM::ContextImpl& context) const override {
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
-      return new OpenMMDCH::ReferenceCalcDCHNonbondedForceKernel(name, platform);
+      return new OpenMMDCH::DCHNonbondedKernel(name, platform,
+                                               std::make_unique<OpenMMDCH::ReferenceNonbondedSum>());
+    if (name == OpenMM::CalcNonbondedForceKernel::Name())
+      return OpenMMDCH::makeNonbondedKernel(name, platform, context,
+                                            {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(),
+                                             std::make_unique<OpenMMDCH::ReferenceReciprocalSum>()},
+                                            native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
       return new OpenMMDCH::NecklaceContactKernel(name, platform);
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
+
+ private:
+  OpenMM::ReferenceKernelFactory native;
 };
 
 }  // namespace
@@ -35,7 +51,9 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
     if (platform.getName() != "Reference") continue;
     auto* const factory = new ReferenceDCHKernelFactory();
     for (const std::string& name :
-         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name()})
+         {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name(),
+          OpenMM::CalcNonbondedForceKernel::Name()})
       platform.registerKernelFactory(name, factory);
+    OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
   }
 }

@@ -2,17 +2,21 @@
 """OpenMM's nonbonded forces on neighbor lists from a discrete center hierarchy, and contacts of bead chains.
 
     import openmm_dch
-    openmm_dch.replaceNonbonded(system)  # before the Context is made
+    openmm_dch.enable()                  # all Systems, before Contexts are made
+
+    openmm_dch.replaceNonbonded(system)  # or one System
 
 Importing it loads the kernels for OpenMM's platforms Reference and CPU.
 """
 
 import openmm as _openmm
 
+from ._drop_in import disable, enable, status
 from ._location import PLUGINS as _PLUGINS
+from ._location import VERSION as __version__
 from .force import DCHNonbondedForce, NecklaceContactForce
 
-__all__ = ["DCHNonbondedForce", "NecklaceContactForce", "replaceNonbonded"]
+__all__ = ["DCHNonbondedForce", "NecklaceContactForce", "__version__", "disable", "enable", "replaceNonbonded", "status"]
 
 
 def _load_plugins():

@@ -18,13 +18,21 @@ inline RadialTerms lennard_jones(double sigma, double epsilon, double r) {
   return {4 * epsilon * (s6 * s6 - s6), 24 * epsilon * (2 * s6 * s6 - s6) / r};
 }
 
-inline RadialTerms pair_terms(const DCHNonbondedForce& force, int i, int j, double r) {
+/// What a lattice sum leaves of a charge product to pairs, or, with `far`, what reciprocal space holds of it.
+inline RadialTerms ewald_terms(double qq, double splitting, double r, bool far) {
+  const double x = splitting * r, gauss = 2 / std::sqrt(M_PI) * x * std::exp(-x * x);
+  const double share = far ? std::erf(x) : std::erfc(x);
+  return {qq * share / r, qq * (share + (far ? -gauss : gauss)) / (r * r)};
+}
+
+template <class Force>
+RadialTerms pair_terms(const Force& force, int i, int j, double r, double splitting) {
   double qi, si, ei, qj, sj, ej;
   force.getParticleParameters(i, qi, si, ei);
   force.getParticleParameters(j, qj, sj, ej);
   RadialTerms terms = lennard_jones((si + sj) / 2, std::sqrt(ei) * std::sqrt(ej), r);
   const double qq = kCoulomb * qi * qj;
-  if (force.getNonbondedMethod() == DCHNonbondedForce::NoCutoff)
+  if (force.getNonbondedMethod() == Force::NoCutoff)
     return {terms.energy + qq / r, terms.force + qq / (r * r)};
   const double rc = force.getCutoffDistance(), rs = force.getSwitchingDistance();
   if (force.getUseSwitchingFunction() && r > rs) {
@@ -32,6 +40,10 @@ inline RadialTerms pair_terms(const DCHNonbondedForce& force, int i, int j, doub
     const double s = 1 - 10 * std::pow(x, 3) + 15 * std::pow(x, 4) - 6 * std::pow(x, 5);
     const double slope = (-30 * x * x + 60 * std::pow(x, 3) - 30 * std::pow(x, 4)) / (rc - rs);
     terms = {s * terms.energy, s * terms.force - slope * terms.energy};
+  }
+  if (splitting > 0) {
+    const RadialTerms ewald = ewald_terms(qq, splitting, r, false);
+    return {terms.energy + ewald.energy, terms.force + ewald.force};
   }
   const double e = force.getReactionFieldDielectric();
   const double k = (e - 1) / (2 * e + 1) / (rc * rc * rc), c = 3 * e / (2 * e + 1) / rc;
@@ -55,9 +67,11 @@ void for_each_image(const Vec3& apart, const Vec3* box, const F& act) {
 }
 
 /// Energy and forces by all pairs of particles and all their images within the cutoff, and by all exceptions,
-/// in plain double. The dispersion correction is left out. `box` may be null.
-inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Vec3>& positions,
-                            const Vec3* box) {
+/// in plain double. The dispersion correction is left out. `box` may be null. With a splitting it is the part
+/// of a lattice sum in direct space.
+template <class Force>
+Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, const Vec3* box,
+                     double splitting = 0) {
   Evaluation result{0, std::vector<Vec3>(positions.size())};
   const auto act = [&](std::size_t i, std::size_t j, const Vec3& apart, const RadialTerms& terms) {
     const Vec3 f = apart * (terms.force / std::sqrt(apart.dot(apart)));
@@ -77,8 +91,15 @@ inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Ve
     const double r = std::sqrt(apart.dot(apart));
     RadialTerms terms = lennard_jones(sigma, epsilon, r);
     act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
+    if (splitting > 0) {
+      double qi, qj;
+      force.getParticleParameters(i, qi, sigma, epsilon);
+      force.getParticleParameters(j, qj, sigma, epsilon);
+      terms = ewald_terms(kCoulomb * qi * qj, splitting, r, true);
+      act(a, b, apart, {-terms.energy, -terms.force});
+    }
   }
-  const double cutoff = force.getNonbondedMethod() == DCHNonbondedForce::NoCutoff
+  const double cutoff = force.getNonbondedMethod() == Force::NoCutoff
                             ? std::numeric_limits<double>::infinity()
                             : force.getCutoffDistance();
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -86,7 +107,8 @@ inline Evaluation all_pairs(const DCHNonbondedForce& force, const std::vector<Ve
       if (excluded.count({static_cast<int>(i), static_cast<int>(j)}) > 0) continue;
       const auto act_within_cutoff = [&](const Vec3& apart) {
         if (const double r2 = apart.dot(apart); r2 < cutoff * cutoff)
-          act(i, j, apart, pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2)));
+          act(i, j, apart,
+              pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2), splitting));
       };
       for_each_image(positions[j] - positions[i], box, act_within_cutoff);
     }

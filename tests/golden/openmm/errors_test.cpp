@@ -133,12 +133,24 @@ TEST_P(ErrorsTest, UpdatesThatDoNotFitTheContext) {
 }
 
 TEST_P(ErrorsTest, PositionsThatAreNotFinite) {
+  for (const auto method : {DCHNonbondedForce::NoCutoff, DCHNonbondedForce::CutoffNonPeriodic,
+                            DCHNonbondedForce::CutoffPeriodic}) {
+    pair.set_method(method, 1.5);
+    Host host(pair.system, GetParam());
+    std::vector<Vec3> positions = pair.positions;
+    positions[2][1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(message_of([&] { host.evaluate(positions); }), "") << method;
+    EXPECT_EQ(message_of([&] { host.evaluate(pair.positions); }), "");
+  }
+}
+
+TEST_P(ErrorsTest, DispersionCorrectionOfASwitchThatBeginsAtZero) {
   pair.set_method(DCHNonbondedForce::CutoffPeriodic, 1.5);
-  Host host(pair.system, GetParam());
-  std::vector<Vec3> positions = pair.positions;
-  positions[2][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(message_of([&] { host.evaluate(positions); }), "");
-  EXPECT_EQ(message_of([&] { host.evaluate(pair.positions); }), "");
+  pair.force->setUseSwitchingFunction(true);
+  pair.force->setSwitchingDistance(0);
+  EXPECT_THAT(complaint(), HasSubstr("switching distance is 0"));
+  pair.force->setUseDispersionCorrection(false);
+  EXPECT_EQ(complaint(), "");
 }
 
 TEST(MethodsTest, LatticeSumsAreRefused) {

@@ -10,7 +10,7 @@ namespace OpenMMDCH {
 namespace {
 
 class NonbondedTest : public OnPlatform {};
-DCH_ON_EACH_PLATFORM(NonbondedTest);
+DCH_IN_EACH_WAY(NonbondedTest);
 
 /// The same force as OpenMM computes it, on its Reference platform.
 OpenMM::System native_copy(const Case& of) {

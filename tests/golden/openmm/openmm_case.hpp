@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "DCHNonbondedForce.h"
+#include "DropIn.h"
 #include "random.hpp"
 
 namespace OpenMMDCH {
@@ -32,8 +33,26 @@ inline std::vector<std::string> dch_platforms() {
   return {"Reference", "CPU"};
 }
 
+/// What stands before the name of a platform where OpenMM's own force is computed by the drop-in.
+inline const std::string kDropIn = "DropIn";
+
+inline bool is_drop_in(const std::string& way) { return way.compare(0, kDropIn.size(), kDropIn) == 0; }
+inline std::string platform_of(const std::string& way) {
+  return is_drop_in(way) ? way.substr(kDropIn.size()) : way;
+}
+
+/// The ways to have a nonbonded force computed: by our force on each platform, and by the drop-in.
+inline std::vector<std::string> dch_ways() {
+  std::vector<std::string> ways = dch_platforms();
+  for (const std::string& platform : dch_platforms()) ways.push_back(kDropIn + platform);
+  return ways;
+}
+
 /// How far forces and energies may be from exact ones: in single precision as OpenMM's own tests have it.
-inline double tolerance_of(const std::string& platform) { return platform == "Reference" ? 1e-10 : 1e-5; }
+inline double tolerance_of(const std::string& way) {
+  if (platform_of(way) == "Reference") return 1e-10;
+  return is_drop_in(way) ? 3e-5 : 1e-5;  // without a cutoff that is OpenMM's own kernel
+}
 
 struct Evaluation {
   double energy = 0;
@@ -59,28 +78,64 @@ struct Case {
   }
 };
 
-/// A Context that lives with its integrator.
+/// Enables the drop-in for as long as it lives.
+class DropInEnabled {
+ public:
+  explicit DropInEnabled(bool wanted = true) : wanted_(wanted) {
+    if (wanted_) enableDropIn();
+  }
+  ~DropInEnabled() {
+    if (wanted_) disableDropIn();
+  }
+  DropInEnabled(const DropInEnabled&) = delete;
+  DropInEnabled& operator=(const DropInEnabled&) = delete;
+
+ private:
+  bool wanted_;
+};
+
+/// A copy of a System with OpenMM's own force in the place of each of ours, behind the others.
+inline std::unique_ptr<OpenMM::System> with_native_forces(const OpenMM::System& system) {
+  std::unique_ptr<OpenMM::System> copy(OpenMM::XmlSerializer::clone(system));
+  for (int k = copy->getNumForces() - 1; k >= 0; --k) {
+    const auto* const own = dynamic_cast<const DCHNonbondedForce*>(&copy->getForce(k));
+    if (!own) continue;
+    auto* const native = new OpenMM::NonbondedForce(own->getParameters());
+    native->setForceGroup(own->getForceGroup());
+    copy->removeForce(k);
+    copy->addForce(native);
+  }
+  return copy;
+}
+
+/// A Context that lives with its integrator, and with its System where that is a copy for the drop-in.
 class Host {
  public:
-  Host(const OpenMM::System& system, const std::string& platform,
+  Host(const OpenMM::System& system, const std::string& way,
        const std::map<std::string, std::string>& properties = {})
-      : integrator_(0.001),
-        context_(system, integrator_, OpenMM::Platform::getPlatformByName(platform), properties) {}
-  OpenMM::Context& operator*() { return context_; }
-  OpenMM::Context* operator->() { return &context_; }
+      : integrator_(0.001) {
+    const DropInEnabled enabled(is_drop_in(way));
+    if (is_drop_in(way)) own_ = with_native_forces(system);
+    context_ =
+        std::make_unique<OpenMM::Context>(own_ ? *own_ : system, integrator_,
+                                          OpenMM::Platform::getPlatformByName(platform_of(way)), properties);
+  }
+  OpenMM::Context& operator*() { return *context_; }
+  OpenMM::Context* operator->() { return context_.get(); }
   Evaluation evaluate(int groups = 0xFFFFFFFF) {
     const OpenMM::State state =
-        context_.getState(OpenMM::State::Forces | OpenMM::State::Energy, false, groups);
+        context_->getState(OpenMM::State::Forces | OpenMM::State::Energy, false, groups);
     return {state.getPotentialEnergy(), state.getForces()};
   }
   Evaluation evaluate(const std::vector<Vec3>& positions) {
-    context_.setPositions(positions);
+    context_->setPositions(positions);
     return evaluate();
   }
 
  private:
+  std::unique_ptr<OpenMM::System> own_;
   OpenMM::VerletIntegrator integrator_;
-  OpenMM::Context context_;
+  std::unique_ptr<OpenMM::Context> context_;
 };
 
 inline Evaluation evaluate(const Case& of, const std::string& platform) {
@@ -129,5 +184,8 @@ inline std::string name_of_platform(const testing::TestParamInfo<std::string>& p
 /// Tests of a suite derived from OnPlatform run once on each platform.
 #define DCH_ON_EACH_PLATFORM(Suite) \
   INSTANTIATE_TEST_SUITE_P(Platforms, Suite, testing::ValuesIn(dch_platforms()), name_of_platform)
+/// The same, by the drop-in too.
+#define DCH_IN_EACH_WAY(Suite) \
+  INSTANTIATE_TEST_SUITE_P(Platforms, Suite, testing::ValuesIn(dch_ways()), name_of_platform)
 
 }  // namespace OpenMMDCH

@@ -5,7 +5,7 @@ namespace OpenMMDCH {
 namespace {
 
 class SwitchingTest : public OnPlatform {};
-DCH_ON_EACH_PLATFORM(SwitchingTest);
+DCH_IN_EACH_WAY(SwitchingTest);
 
 // Energies by the formula; forces as their slope.
 TEST_P(SwitchingTest, ScalesTheEnergyAndItsSlope) {

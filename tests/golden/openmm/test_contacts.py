@@ -105,6 +105,17 @@ class ForceTest(unittest.TestCase):
             self.assertRaises((TypeError, ValueError, OverflowError), force.addChain, *bad)
         self.assertEqual(force.getNumChains(), 2)
 
+    def test_wrong_units_are_refused(self):
+        force = small_force()
+        for call in (lambda: force.addChain([6, 7], np.array([1, 2]) * unit.degree),
+                     lambda: force.addChain([6, 7], [1 * unit.degree, 1]),
+                     lambda: force.setStrength(1 * unit.nanometer)):
+            self.assertRaises(TypeError, call)
+        self.assertEqual(force.getNumChains(), 2)
+        force.setEnergyFunction(np.int64(force.Harmonic))
+        force.setStrength(3 * unit.kilojoule_per_mole / unit.angstrom**2)
+        self.assertAlmostEqual(force.getStrength()._value, 300)
+
     def test_copies(self):
         force = small_force()
         for other in (copy.copy(force), copy.deepcopy(force), pickle.loads(pickle.dumps(force))):

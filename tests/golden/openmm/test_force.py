@@ -49,6 +49,47 @@ class ForceTest(unittest.TestCase):
         self.assertEqual((name, index, epsilon), ("scale", 0, 0.6 * unit.kilojoule_per_mole))
         self.assertRaises(TypeError, force.addParticle, "one", 2, 3)
 
+    def test_exceptions_take_quantities_and_names(self):
+        force = small_force()
+        force.addException(1, 0, 0.2 * unit.elementary_charge**2, 2.5 * unit.angstrom, 1 * unit.kilocalorie_per_mole,
+                           replace=True)
+        _, _, product, sigma, epsilon = force.getExceptionParameters(0)
+        self.assertEqual((product, sigma), (0.2 * unit.elementary_charge**2, 0.25 * unit.nanometer))
+        self.assertAlmostEqual(epsilon.value_in_unit(unit.kilojoule_per_mole), 4.184)
+
+    def test_wrong_units_are_refused(self):
+        force = small_force()
+        charge, length, energy = unit.elementary_charge, unit.nanometer, unit.kilojoule_per_mole
+        for call in (lambda: force.addParticle(1 * charge, 1 * energy, 0.3 * length),
+                     lambda: force.setParticleParameters(0, 1 * length, 0.3, 1),
+                     lambda: force.addException(0, 1, 1 * charge, 0.3, 1, True),
+                     lambda: force.setExceptionParameters(0, 0, 1, 1, 1, 0.3 * length),
+                     lambda: force.setCutoffDistance(1 * unit.degree),
+                     lambda: force.setSwitchingDistance(1 * unit.picosecond),
+                     lambda: force.setReactionFieldDielectric(78 * length),
+                     lambda: force.createExceptionsFromBonds([(0, 1)], 0.5 * charge, 0.5)):
+            with self.assertRaisesRegex(TypeError, "not compatible"):
+                call()
+        self.assertEqual(force.getNumParticles(), 2)
+
+    def test_integers_of_numpy(self):
+        force = small_force()
+        zero, one = np.int32(0), np.int64(1)
+        self.assertEqual(force.getParticleParameters(one)[0], -0.5 * unit.elementary_charge)
+        self.assertEqual(force.addException(zero, one, 0, 1, 0, True), 0)
+        fresh = DCHNonbondedForce()
+        for _ in range(2):
+            fresh.addParticle(0, 1, 0)
+        fresh.createExceptionsFromBonds(np.array([[0, 1]]), 1, 1)
+        self.assertEqual(fresh.getNumExceptions(), 1)
+        force.setNonbondedMethod(np.int64(0))
+        self.assertEqual(force.getNonbondedMethod(), force.NoCutoff)
+        self.assertRaises(TypeError, force.getParticleParameters, 1.0)
+        self.assertRaises(OverflowError, force.getParticleParameters, 2**40)
+
+    def test_version(self):
+        self.assertRegex(openmm_dch.__version__, r"^\d+\.\d+\.\d+$")
+
     def test_copies(self):
         force = small_force()
         for other in (copy.copy(force), copy.deepcopy(force), pickle.loads(pickle.dumps(force))):

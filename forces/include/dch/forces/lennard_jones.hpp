@@ -44,15 +44,17 @@ struct LennardJonesParticle {
 /// How charges act on each other within a cutoff: with the energy constant q_i q_j / r or, where `splitting`
 /// is positive, with what an Ewald sum leaves to pairs, constant q_i q_j erfc(splitting r) / r. erfc is taken
 /// from formula 7.1.26 of Abramowitz and Stegun, Handbook of Mathematical Functions (1964), as in LAMMPS:
-/// within 1.5e-7. Where `quadratic` or `offset` is not 0 they act in a reaction field, with the energy
-/// constant q_i q_j (1/r + quadratic r^2 - offset) (Tironi, Sperb, Smith and van Gunsteren, J. Chem. Phys.
-/// 102:5451, 1995).
+/// within 1.5e-7; or, where `by_series` asks for it and all cutoffs are one, from a series that is faster and
+/// exact to rounding (in double precision to 1e-9 where splitting times cutoff is over 4.5). Where
+/// `quadratic` or `offset` is not 0 they act in a reaction field, with the energy constant q_i q_j (1/r +
+/// quadratic r^2 - offset) (Tironi, Sperb, Smith and van Gunsteren, J. Chem. Phys. 102:5451, 1995).
 struct CoulombTerm {
   double constant = 1;          ///< >= 0 [energy length / charge^2]
   double splitting = 0;         ///< >= 0 [1/length]
   std::vector<double> cutoffs;  ///< >= 0, for all pairs of types as Lennard-Jones pairs are given [length]
   double quadratic = 0;         ///< [1/length^3]
   double offset = 0;            ///< [1/length]
+  bool by_series = false;       ///< how an Ewald sum takes erfc
 };
 
 /// Sums over the pairs, each counted once.
@@ -87,14 +89,16 @@ class LennardJones {
 
   /// Has charges act too.
   /// @throws InvalidParameter for a negative or non-finite number, another number of cutoffs than pairs of
-  ///   types, and cutoffs that are not symmetric; for a reaction field beside an Ewald sum, or with cutoffs
-  ///   that are not all the same and that of Lennard-Jones; for an Ewald sum with parameters of particles or
-  ///   a switch.
+  ///   types, and cutoffs that are not symmetric; for a reaction field beside an Ewald sum; for a reaction
+  ///   field, a series, parameters of particles or a switch with cutoffs that are not all the same and that
+  ///   of Lennard-Jones; for an Ewald sum without series with parameters of particles or a switch; for a
+  ///   series where splitting times cutoff exceeds 6.
   void set_coulomb(const CoulombTerm& term);
   /// Multiplies the Lennard-Jones energy by 1 + t^3 (-10 + t (15 - 6 t)), t = (r - from) / (cutoff - from),
   /// where r > from: energy and force go to 0 smoothly at the cutoff. For cluster pairs only.
-  /// @throws InvalidParameter unless 0 <= from < cutoff, and if the energy is shifted, cutoffs differ, or
-  ///   charges act as beside an Ewald sum or have another cutoff.
+  /// @throws InvalidParameter unless 0 <= from < cutoff, and if the energy is shifted, cutoffs differ, that
+  /// of
+  ///   charges too, or charges act as in an Ewald sum without series.
   void set_switch(double from);
   /// Threads to compute forces of cluster pairs with; null for that of the caller alone. Not owned.
   void set_executor(Executor* executor) { executor_ = executor; }
@@ -152,6 +156,7 @@ class LennardJones {
 
   void take_matrix(const std::vector<LennardJonesPair>& matrix, bool shifted);
   void check_coulomb_kind(const CoulombTerm& term) const;
+  void make_series(const CoulombTerm& term);
   detail::ForceKind kind() const;
   detail::LjParameters parameters() const;
   template <class Real>
@@ -173,9 +178,12 @@ class LennardJones {
   double largest_cutoff_ = 0;
   bool shifted_ = false;
   bool fits_single_ = true;
-  bool has_charges_ = false, has_reaction_field_ = false;
+  bool has_charges_ = false, has_reaction_field_ = false, has_series_ = false;
   double charge_unit_ = 1, splitting_ = 0;  ///< the former squared is the CoulombTerm's constant
   double quadratic_ = 0, offset_ = 0;
+  /// Of what reciprocal space holds of charges, by power: forces, energies; in double and in single
+  /// precision.
+  std::vector<double> force_series_, energy_series_, force_series_single_, energy_series_single_;
   double switch_from_ = -1;                        ///< negative: there is no switch
   bool mixes_ = false;                             ///< parameters are those of particles
   std::vector<double> half_sigma_, root_epsilon_;  ///< by particle then; 4 epsilon of a pair is the product

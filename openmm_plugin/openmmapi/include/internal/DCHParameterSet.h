@@ -3,15 +3,14 @@
 #define OPENMM_DCH_PARAMETER_SET_H_
 
 #include <map>
+#include <openmm/NonbondedForce.h>
 #include <openmm/internal/ContextImpl.h>
 #include <string>
 #include <vector>
 
-#include "DCHNonbondedForce.h"
-
 namespace OpenMMDCH {
 
-/// The parameters of a DCHNonbondedForce with those offsets added that the Context's global parameters ask
+/// The parameters of a nonbonded force with those offsets added that the Context's global parameters ask
 /// for.
 class DCHParameterSet {
  public:
@@ -24,12 +23,12 @@ class DCHParameterSet {
     bool acts() const { return chargeProd != 0 || epsilon != 0; }
   };
 
-  explicit DCHParameterSet(const DCHNonbondedForce& force);
+  explicit DCHParameterSet(const OpenMM::NonbondedForce& force);
 
   /// Takes the parameters of a force anew.
   /// @throws OpenMMException if the number of particles or exceptions has changed, or the particles of an
   ///   exception.
-  void take(const DCHNonbondedForce& force);
+  void take(const OpenMM::NonbondedForce& force);
 
   /// Follows the Context's global parameters. Says whether anything has changed since the last call.
   /// @throws OpenMMException if an offset makes a sigma or an epsilon negative.

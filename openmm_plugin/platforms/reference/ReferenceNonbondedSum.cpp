@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ReferenceDCHKernels.h"
+#include "ReferenceNonbondedSum.h"
 
 #include <dch/engines/pair_search.hpp>
 
@@ -13,7 +13,7 @@ constexpr double kSkinFraction = 0.25;
 
 /// A list whose skin fits the box: as large as there is room, or near it, since boxes change all the time
 /// under a barostat.
-void ReferenceCalcDCHNonbondedForceKernel::chooseList(double room) {
+void ReferenceNonbondedSum::chooseList(double room) {
   if (list && skin <= room && skin >= 0.5 * room) return;
   skin = room;
   dch::ListParams params;
@@ -23,10 +23,13 @@ void ReferenceCalcDCHNonbondedForceKernel::chooseList(double room) {
   list = std::make_unique<dch::VerletList>(dch::make_dch_search(params.list_radius()), params);
 }
 
-double ReferenceCalcDCHNonbondedForceKernel::addPairs(OpenMM::ContextImpl&, const HostState& state, bool) {
+double ReferenceNonbondedSum::addPairs(const HostState& state, bool) {
   const double room =
       potential().hasCutoff() ? roomForSkin(potential().cutoffDistance(), kSkinFraction, state.box) : -1;
-  if (room < 0) return addRows(state, 0, 1, state.forces);
+  if (room < 0) {
+    checkPositions(state.positions);
+    return addRows(state, 0, 1, state.forces);
+  }
   chooseList(room);
   list->update(state.positions, state.box);
   double energy = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef OPENMM_DCH_CPU_KERNELS_H_
-#define OPENMM_DCH_CPU_KERNELS_H_
+#ifndef OPENMM_DCH_CPU_NONBONDED_SUM_H_
+#define OPENMM_DCH_CPU_NONBONDED_SUM_H_
 
 #include <optional>
 #include <vector>
@@ -8,28 +8,28 @@
 #include <dch/forces/lennard_jones.hpp>
 
 #include "ClusterPairKeeper.h"
-#include "DCHNonbondedKernelBase.h"
+#include "NonbondedSum.h"
 #include "PoolExecutor.h"
 
 namespace OpenMMDCH {
 
-/// A DCHNonbondedForce on the CPU platform: cluster pairs from double positions, SIMD kernels in single
+/// A nonbonded force on the CPU platform: cluster pairs from double positions, SIMD kernels in single
 /// precision with sums in double, on the threads of the platform. Without a cutoff, and in the few boxes
 /// where lists cannot be made, all pairs in double.
-class CpuCalcDCHNonbondedForceKernel : public DCHNonbondedKernelBase {
+class CpuNonbondedSum : public NonbondedSum {
  public:
-  CpuCalcDCHNonbondedForceKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
-                                 OpenMM::ThreadPool& threads)
-      : DCHNonbondedKernelBase(kernelName, onPlatform), executor(threads) {}
+  explicit CpuNonbondedSum(OpenMM::ThreadPool& threads) : executor(threads) {}
 
-  void initialize(const OpenMM::System& system, const DCHNonbondedForce& force) override;
+  void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
+                  double splitting) override;
 
  protected:
-  double addPairs(OpenMM::ContextImpl& context, const HostState& state, bool includeEnergy) override;
+  double addPairs(const HostState& state, bool includeEnergy) override;
   void parametersChanged() override;
 
  private:
   void makeForces();
+  void setCharges(std::size_t typePairs);
   double addAllPairs(const HostState& state);
 
   PoolExecutor executor;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "CpuDCHKernels.h"
+#include "CpuNonbondedSum.h"
 
 #include <cmath>
 #include <map>
@@ -14,17 +14,17 @@ constexpr std::size_t kMaxKinds = 4;
 
 }  // namespace
 
-void CpuCalcDCHNonbondedForceKernel::initialize(const OpenMM::System& system,
-                                                const DCHNonbondedForce& force) {
-  DCHNonbondedKernelBase::initialize(system, force);
+void CpuNonbondedSum::initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
+                                 double splitting) {
+  NonbondedSum::initialize(system, force, splitting);
   if (potential().hasCutoff()) keeper.emplace(potential().cutoffDistance(), exclusions(), executor);
 }
 
-void CpuCalcDCHNonbondedForceKernel::parametersChanged() {
+void CpuNonbondedSum::parametersChanged() {
   if (keeper) makeForces();
 }
 
-void CpuCalcDCHNonbondedForceKernel::makeForces() {
+void CpuNonbondedSum::makeForces() {
   const auto& particles = parameters().particles();
   const double cutoff = potential().cutoffDistance();
   std::map<std::pair<double, double>, std::int32_t> kinds;  // sigma and epsilon
@@ -50,17 +50,20 @@ void CpuCalcDCHNonbondedForceKernel::makeForces() {
   }
   forces->set_executor(&executor);
   keeper->setTypes(std::move(kindOf), static_cast<int>(side));
-  charges.clear();
-  if (parameters().hasCharges()) {
-    for (const auto& p : particles) charges.push_back(p.charge);
-    forces->set_coulomb({PairPotential::coulombConstant(), 0, std::vector<double>(side * side, cutoff),
-                         potential().reactionFieldK(), potential().reactionFieldC()});
-  }
+  setCharges(side * side);
   if (potential().isSwitched()) forces->set_switch(potential().switchingDistance());
 }
 
-double CpuCalcDCHNonbondedForceKernel::addPairs(OpenMM::ContextImpl&, const HostState& state,
-                                                bool includeEnergy) {
+void CpuNonbondedSum::setCharges(std::size_t typePairs) {
+  charges.clear();
+  if (!parameters().hasCharges()) return;
+  for (const auto& p : parameters().particles()) charges.push_back(p.charge);
+  forces->set_coulomb({PairPotential::coulombConstant(), potential().splitting(),
+                       std::vector<double>(typePairs, potential().cutoffDistance()),
+                       potential().reactionFieldK(), potential().reactionFieldC(), true});
+}
+
+double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   if (!keeper || !keeper->fits(state.box)) return addAllPairs(state);
   const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
   const auto precision =
@@ -73,7 +76,8 @@ double CpuCalcDCHNonbondedForceKernel::addPairs(OpenMM::ContextImpl&, const Host
   return sums.energy + sums.coulomb_energy;
 }
 
-double CpuCalcDCHNonbondedForceKernel::addAllPairs(const HostState& state) {
+double CpuNonbondedSum::addAllPairs(const HostState& state) {
+  checkPositions(state.positions);
   const auto threads = static_cast<std::size_t>(executor.threads());
   std::vector<double> energies(threads);
   forcesByThread.resize(threads);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_DROP_IN_H_
+#define OPENMM_DCH_DROP_IN_H_
+
+#include <openmm/Context.h>
+#include <string>
+#include <vector>
+
+namespace OpenMMDCH {
+
+/// The drop-in: while it is enabled, the NonbondedForces of each Context that is made are computed on DCH's
+/// lists, on the platforms Reference and CPU, without a change to the System. What is not covered keeps
+/// OpenMM's own kernel, and the reason is written to standard error, once each.
+///
+/// It is enabled from the start if the environment variable OPENMM_DCH is 1. Contexts that are made already
+/// are not affected. Safe to call from several threads.
+
+/// @throws OpenMMException if no platform of this program has the kernels: their plugins are not loaded, or
+///   were before OpenMM's own.
+void enableDropIn();
+void disableDropIn();
+bool isDropInEnabled();
+
+/// Who computes a nonbonded force of a Context: "DCH", "OpenMM", or "" for a part that the force has not.
+struct NonbondedStatus {
+  int force;               ///< its index in the System
+  std::string name;        ///< that the force has
+  std::string direct;      ///< pairs
+  std::string reciprocal;  ///< the sum in reciprocal space
+  std::string reason;      ///< why OpenMM computes pairs, "" if it does not
+};
+
+/// Of each NonbondedForce and DCHNonbondedForce of the Context's System, in order.
+std::vector<NonbondedStatus> nonbondedStatus(const OpenMM::Context& context);
+
+/// How many NonbondedForces have been given to OpenMM's own kernels because the drop-in has not been enabled
+/// yet; 0 once it has been.
+int countOfForcesBeforeDropIn();
+
+}  // namespace OpenMMDCH
+
+#endif

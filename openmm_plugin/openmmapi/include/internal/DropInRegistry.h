@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_DROP_IN_REGISTRY_H_
+#define OPENMM_DCH_DROP_IN_REGISTRY_H_
+
+#include <map>
+#include <mutex>
+#include <openmm/Context.h>
+#include <openmm/Force.h>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "DropIn.h"
+
+namespace OpenMMDCH {
+
+/// What the plugins of all platforms and the callers of the drop-in share, as OpenMM's list of platforms is
+/// shared.
+class DropInRegistry {
+ public:
+  static DropInRegistry& get();
+
+  void setEnabled(bool value);
+  bool isEnabled();
+  /// A platform now has the kernels.
+  void addPlatform(const std::string& name);
+  bool hasPlatform(const std::string& name);
+  bool hasPlatforms();
+  /// A force was given to OpenMM's kernel because the drop-in is not enabled.
+  void countNative();
+  /// How often that happened before it was first enabled; 0 from then on.
+  int nativeCount();
+
+  /// Remembers who computes a force of a Context, until it is forgotten.
+  void remember(const OpenMM::Context& context, const OpenMM::Force& force, const NonbondedStatus& status);
+  void forget(const OpenMM::Context& context, const OpenMM::Force& force);
+  /// False if nobody said so.
+  bool find(const OpenMM::Context& context, const OpenMM::Force& force, NonbondedStatus& status);
+  /// Writes a reason to standard error unless that was done before.
+  void sayOnce(const std::string& reason);
+
+ private:
+  DropInRegistry();
+
+  std::mutex mutex;
+  bool enabled, wasEnabled;
+  int natives = 0;
+  std::set<std::string> platforms, said;
+  std::map<std::pair<const OpenMM::Context*, const OpenMM::Force*>, NonbondedStatus> statusOf;
+};
+
+}  // namespace OpenMMDCH
+
+#endif

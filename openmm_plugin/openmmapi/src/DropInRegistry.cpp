@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "internal/DropInRegistry.h"
+
+#include <cstdlib>
+#include <iostream>
+
+namespace OpenMMDCH {
+namespace {
+
+using Lock = std::lock_guard<std::mutex>;
+
+bool isAskedForByEnvironment() {
+  const char* const value = std::getenv("OPENMM_DCH");
+  return value && std::string(value) == "1";
+}
+
+}  // namespace
+
+DropInRegistry::DropInRegistry() : enabled(isAskedForByEnvironment()), wasEnabled(enabled) {}
+
+DropInRegistry& DropInRegistry::get() {
+  // Never destroyed: Contexts may outlive all that is static.
+  static DropInRegistry& registry = *new DropInRegistry();
+  return registry;
+}
+
+void DropInRegistry::setEnabled(bool value) {
+  const Lock lock(mutex);
+  enabled = value;
+  wasEnabled = wasEnabled || value;
+  if (value) natives = 0;
+}
+
+bool DropInRegistry::isEnabled() {
+  const Lock lock(mutex);
+  return enabled;
+}
+
+void DropInRegistry::addPlatform(const std::string& name) {
+  const Lock lock(mutex);
+  platforms.insert(name);
+}
+
+bool DropInRegistry::hasPlatform(const std::string& name) {
+  const Lock lock(mutex);
+  return platforms.count(name) > 0;
+}
+
+bool DropInRegistry::hasPlatforms() {
+  const Lock lock(mutex);
+  return !platforms.empty();
+}
+
+void DropInRegistry::countNative() {
+  const Lock lock(mutex);
+  if (!wasEnabled) ++natives;
+}
+
+int DropInRegistry::nativeCount() {
+  const Lock lock(mutex);
+  return natives;
+}
+
+void DropInRegistry::remember(const OpenMM::Context& context, const OpenMM::Force& force,
+                              const NonbondedStatus& status) {
+  const Lock lock(mutex);
+  statusOf[{&context, &force}] = status;
+}
+
+void DropInRegistry::forget(const OpenMM::Context& context, const OpenMM::Force& force) {
+  const Lock lock(mutex);
+  statusOf.erase({&context, &force});
+}
+
+bool DropInRegistry::find(const OpenMM::Context& context, const OpenMM::Force& force,
+                          NonbondedStatus& status) {
+  const Lock lock(mutex);
+  const auto found = statusOf.find({&context, &force});
+  if (found != statusOf.end()) status = found->second;
+  return found != statusOf.end();
+}
+
+void DropInRegistry::sayOnce(const std::string& reason) {
+  const Lock lock(mutex);
+  if (said.insert(reason).second)
+    std::cerr << "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: " << reason << std::endl;
+}
+
+}  // namespace OpenMMDCH

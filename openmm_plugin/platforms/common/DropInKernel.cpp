@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "DropInKernel.h"
+
+#include <openmm/OpenMMException.h>
+#include <utility>
+
+#include "internal/DropInRegistry.h"
+
+namespace OpenMMDCH {
+namespace {
+
+using OpenMM::NonbondedForce;
+
+/// Why OpenMM's own kernel computes a force, "" if ours does.
+std::string reasonForNative(const NonbondedForce& force) {
+  switch (force.getNonbondedMethod()) {
+    case NonbondedForce::NoCutoff:
+      return "without a cutoff (NoCutoff) there are no lists to gain by";
+    case NonbondedForce::Ewald:
+      return "the method Ewald is not covered; PME is, and is faster";
+    case NonbondedForce::LJPME:
+      return "the method LJPME is not covered";
+    default:
+      break;
+  }
+  if (force.getUseSwitchingFunction() && force.getSwitchingDistance() <= 0 &&
+      force.getUseDispersionCorrection() && force.usesPeriodicBoundaryConditions())
+    return "the dispersion correction has no value for a switching distance of 0";
+  return "";
+}
+
+/// The same for what the splitting parameter of PME times the cutoff is.
+std::string reasonForNative(double splittingTimesCutoff) {
+  constexpr double kMax = 6;  // of the series of dch::CoulombTerm
+  return splittingTimesCutoff <= kMax ? "" : "the splitting parameter of PME times the cutoff is over 6";
+}
+
+OpenMM::CalcNonbondedForceKernel& kernelIn(OpenMM::Kernel& kernel) {
+  return kernel.getAs<OpenMM::CalcNonbondedForceKernel>();
+}
+
+// Before OpenMM 8.2 a kernel takes all parameters anew, from then on a range of them.
+template <class Kernel>
+auto copyParameters(Kernel& kernel, OpenMM::ContextImpl& context, const NonbondedForce& force,
+                    const int* /*range*/, int /*preferred*/)
+    -> decltype(kernel.copyParametersToContext(context, force)) {
+  kernel.copyParametersToContext(context, force);
+}
+template <class Kernel>
+auto copyParameters(Kernel& kernel, OpenMM::ContextImpl& context, const NonbondedForce& force,
+                    const int* range, long /*otherwise*/)
+    -> decltype(kernel.copyParametersToContext(context, force, 0, 0, 0, 0)) {
+  kernel.copyParametersToContext(context, force, range[0], range[1], range[2], range[3]);
+}
+
+}  // namespace
+
+DropInKernel::DropInKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
+                           OpenMM::ContextImpl& ofContext, SumsOfPlatform ofPlatform,
+                           const OpenMM::KernelFactory& ofOpenMM)
+    : CalcNonbondedForceKernel(kernelName, onPlatform),
+      context(ofContext),
+      nativeFactory(ofOpenMM),
+      sums(std::move(ofPlatform)) {}
+
+DropInKernel::~DropInKernel() {
+  if (owner) DropInRegistry::get().forget(context.getOwner(), *owner);
+}
+
+void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce& force) {
+  std::string reason = reasonForNative(force);
+  if (force.getNonbondedMethod() != NonbondedForce::PME) sums.reciprocal.reset();
+  if (reason.empty() && sums.reciprocal) {
+    sums.reciprocal->initialize(system, force);
+    reason = reasonForNative(sums.reciprocal->splitting() * force.getCutoffDistance());
+  }
+  if (reason.empty()) {
+    sums.pairs->initialize(system, force, sums.reciprocal ? sums.reciprocal->splitting() : 0);
+  } else {
+    giveToNative(system, force);
+    DropInRegistry::get().sayOnce(reason);
+  }
+  owner = &force;
+  rememberStatus(reason);
+}
+
+void DropInKernel::giveToNative(const OpenMM::System& system, const NonbondedForce& force) {
+  sums = {};
+  native = OpenMM::Kernel(nativeFactory.createKernelImpl(getName(), getPlatform(), context));
+  kernelIn(native).initialize(system, force);
+}
+
+void DropInKernel::rememberStatus(const std::string& reason) {
+  const bool hasLatticeSum = owner->getNonbondedMethod() > NonbondedForce::CutoffPeriodic;
+  const std::string ofOpenMM = hasLatticeSum ? "OpenMM" : "";
+  DropInRegistry::get().remember(context.getOwner(), *owner,
+                                 {0, owner->getName(), sums.pairs ? "DCH" : "OpenMM",
+                                  sums.reciprocal ? sums.reciprocal->computedBy() : ofOpenMM, reason});
+}
+
+double DropInKernel::execute(OpenMM::ContextImpl& ofContext, bool includeForces, bool includeEnergy,
+                             bool includeDirect, bool includeReciprocal) {
+  if (!sums.pairs)
+    return kernelIn(native).execute(ofContext, includeForces, includeEnergy, includeDirect,
+                                    includeReciprocal);
+  sums.pairs->follow(ofContext);
+  double energy = 0;
+  if (includeDirect) energy += sums.pairs->add(ofContext, includeEnergy);
+  if (includeReciprocal && sums.reciprocal)
+    energy += sums.reciprocal->add(ofContext, sums.pairs->parameters().particles());
+  return energy;
+}
+
+void DropInKernel::copyParametersToContext(OpenMM::ContextImpl& ofContext, const NonbondedForce& force) {
+  copyParametersToContext(ofContext, force, 0, force.getNumParticles() - 1, 0, force.getNumExceptions() - 1);
+}
+
+void DropInKernel::copyParametersToContext(OpenMM::ContextImpl& ofContext, const NonbondedForce& force,
+                                           int firstParticle, int lastParticle, int firstException,
+                                           int lastException) {
+  const int range[] = {firstParticle, lastParticle, firstException, lastException};
+  if (sums.pairs)
+    sums.pairs->copyParameters(ofContext.getSystem(), force);
+  else
+    copyParameters(kernelIn(native), ofContext, force, range, 0);
+}
+
+void DropInKernel::getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
+  if (!sums.pairs)
+    return native.getAs<OpenMM::CalcNonbondedForceKernel>().getPMEParameters(alpha, nx, ny, nz);
+  if (!sums.reciprocal)
+    throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
+  alpha = sums.reciprocal->splitting();
+  nx = sums.reciprocal->gridSize()[0];
+  ny = sums.reciprocal->gridSize()[1];
+  nz = sums.reciprocal->gridSize()[2];
+}
+
+void DropInKernel::getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
+  if (sums.pairs) throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
+  native.getAs<OpenMM::CalcNonbondedForceKernel>().getLJPMEParameters(alpha, nx, ny, nz);
+}
+
+OpenMM::KernelImpl* makeNonbondedKernel(const std::string& name, const OpenMM::Platform& platform,
+                                        OpenMM::ContextImpl& context, SumsOfPlatform ofPlatform,
+                                        const OpenMM::KernelFactory& native) {
+  DropInRegistry& registry = DropInRegistry::get();
+  if (registry.isEnabled()) return new DropInKernel(name, platform, context, std::move(ofPlatform), native);
+  registry.countNative();
+  return native.createKernelImpl(name, platform, context);
+}
+
+}  // namespace OpenMMDCH

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_DROP_IN_KERNEL_H_
+#define OPENMM_DCH_DROP_IN_KERNEL_H_
+
+#include <memory>
+#include <openmm/Kernel.h>
+#include <openmm/KernelFactory.h>
+#include <openmm/kernels.h>
+#include <string>
+
+#include "DropIn.h"
+#include "NonbondedSum.h"
+#include "ReciprocalSum.h"
+
+namespace OpenMMDCH {
+
+struct SumsOfPlatform {
+  std::unique_ptr<NonbondedSum> pairs;
+  std::unique_ptr<ReciprocalSum> reciprocal;
+};
+
+/// OpenMM's NonbondedForce by the sums that a platform has of ours, or by OpenMM's own kernel where
+/// that does not cover the force.
+class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
+ public:
+  /// @param ofOpenMM  makes OpenMM's own kernels; it and the context outlive this
+  DropInKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
+               OpenMM::ContextImpl& ofContext, SumsOfPlatform ofPlatform,
+               const OpenMM::KernelFactory& ofOpenMM);
+  ~DropInKernel() override;
+
+  void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) override;
+  double execute(OpenMM::ContextImpl& ofContext, bool includeForces, bool includeEnergy, bool includeDirect,
+                 bool includeReciprocal) override;
+  // Before OpenMM 8.2, and from then on. The one that the host has not overrides nothing.
+  void copyParametersToContext(OpenMM::ContextImpl& ofContext, const OpenMM::NonbondedForce& force);
+  void copyParametersToContext(OpenMM::ContextImpl& ofContext, const OpenMM::NonbondedForce& force,
+                               int firstParticle, int lastParticle, int firstException, int lastException);
+  void getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const override;
+  void getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const override;
+
+ private:
+  void giveToNative(const OpenMM::System& system, const OpenMM::NonbondedForce& force);
+  void rememberStatus(const std::string& reason);
+
+  OpenMM::ContextImpl& context;
+  const OpenMM::KernelFactory& nativeFactory;
+  const OpenMM::NonbondedForce* owner = nullptr;
+  SumsOfPlatform sums;  ///< null if OpenMM's kernel computes the force, the second without a lattice sum too
+  OpenMM::Kernel native;
+};
+
+/// What a platform's factory gives for a NonbondedForce: the drop-in, or OpenMM's own kernel while that is
+/// not enabled.
+OpenMM::KernelImpl* makeNonbondedKernel(const std::string& name, const OpenMM::Platform& platform,
+                                        OpenMM::ContextImpl& context, SumsOfPlatform ofPlatform,
+                                        const OpenMM::KernelFactory& native);
+
+}  // namespace OpenMMDCH
+
+#endif

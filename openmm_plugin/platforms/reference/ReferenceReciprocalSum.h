@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_REFERENCE_RECIPROCAL_SUM_H_
+#define OPENMM_DCH_REFERENCE_RECIPROCAL_SUM_H_
+
+#include <memory>
+
+#include "ReciprocalSum.h"
+
+namespace OpenMMDCH {
+
+/// By OpenMM's own function, in double, on one thread.
+class ReferenceReciprocalSum : public ReciprocalSum {
+ public:
+  std::string computedBy() const override { return "OpenMM"; }
+
+ protected:
+  void start(int particles) override;
+  double addMesh(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
+
+ private:
+  std::shared_ptr<void> function;  ///< what OpenMM's function keeps
+};
+
+}  // namespace OpenMMDCH
+
+#endif

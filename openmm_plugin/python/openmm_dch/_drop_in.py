@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+"""The drop-in: OpenMM's own NonbondedForce on DCH's lists."""
+
+import warnings
+
+from . import force as _force
+
+
+def enable():
+    """Has the NonbondedForces of all Contexts that are made from now on computed on DCH's lists.
+
+    Systems and scripts stay as they are. This holds on the platforms Reference and CPU; what is not covered keeps
+    OpenMM's own kernel, and the reason is written to standard error, once. The environment variable OPENMM_DCH=1 does
+    the same from the start.
+
+    Warns the first time if Contexts were made before, which keep what they have. Raises OpenMMException if the kernels are missing.
+    """
+    if _force.countOfForcesBeforeDropIn() > 0:
+        warnings.warn("openmm_dch.enable(): Contexts that were made before keep OpenMM's own forces; call enable() "
+                      "first, or context.reinitialize(preserveState=True) of each", stacklevel=2)
+    _force.enableDropIn()
+
+
+def disable():
+    """Contexts that are made from now on have OpenMM's own forces; those that there are stay as they are."""
+    _force.disableDropIn()
+
+
+def status(context):
+    """Who computes the nonbonded forces of a Context: a list with a dict for each, in the order of the System.
+
+    force: its index in the System; name: its name; direct: who computes pairs, "DCH" or "OpenMM"; reciprocal: who
+    computes the sum in reciprocal space, the same, or "" where there is none; reason: why OpenMM computes pairs, or "".
+    """
+    return _force.nonbondedStatus(context)

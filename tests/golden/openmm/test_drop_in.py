@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The drop-in in Python: enable(), disable(), status(), the environment variable, and scripts that do not change."""
+
+import copy
+import os
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import openmm
+from openmm import app, unit
+
+import openmm_dch
+from openmm_systems import PLATFORMS, context_of, energy_and_forces, positions_from_checkpoint, relative_error, water_box
+
+# Of forces, relative, and of energies, in kJ/mol an atom.
+TOLERANCE = {"Reference": 1e-9, "CPU": 5e-6}
+ENERGY_TOLERANCE = {"Reference": 1e-8, "CPU": 1e-4}
+
+
+def pme_water(**options):
+    system, positions, topology = water_box()
+    topology.setPeriodicBoxVectors(np.eye(3) * 1.8642 * unit.nanometer)
+    system = app.ForceField("tip3p.xml").createSystem(
+        topology, nonbondedMethod=app.PME, nonbondedCutoff=0.7 * unit.nanometer, rigidWater=True, **options)
+    force, = (f for f in system.getForces() if isinstance(f, openmm.NonbondedForce))
+    force.setPMEParameters(3.5, 24, 25, 24)  # the same on both platforms
+    return system, positions, topology
+
+
+def run_script(text, **environment):
+    """Runs it in a Python of its own, as a user would who knows of the package's folder; what it wrote."""
+    site = os.path.dirname(os.path.dirname(os.path.abspath(openmm_dch.__file__)))
+    first = f"import site; site.addsitedir({site!r})\n"
+    done = subprocess.run([sys.executable, "-c", first + text], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": os.path.dirname(os.path.abspath(__file__)), **environment})
+    return done.stdout, done.stderr
+
+
+class DropInTest(unittest.TestCase):
+    def setUp(self):
+        openmm_dch.enable()
+
+    def tearDown(self):
+        openmm_dch.disable()
+
+    def test_water_of_a_force_field(self):
+        reciprocal = {"Reference": "OpenMM", "CPU": "DCH"}
+        for method in (app.PME, app.CutoffPeriodic):
+            system, positions, _ = pme_water() if method is app.PME else water_box()
+            untouched = openmm.XmlSerializer.serialize(system)
+            openmm_dch.disable()
+            expected = energy_and_forces(context_of(system, "Reference"), positions)
+            openmm_dch.enable()
+            for platform in PLATFORMS:
+                with self.subTest(platform=platform, method=str(method)):
+                    context = context_of(system, platform)
+                    index = [isinstance(f, openmm.NonbondedForce) for f in system.getForces()].index(True)
+                    self.assertEqual(openmm_dch.status(context), [
+                        {"force": index, "name": "NonbondedForce", "direct": "DCH",
+                         "reciprocal": reciprocal[platform] if method is app.PME else "", "reason": ""}])
+                    energy, forces = energy_and_forces(context, positions)
+                    self.assertAlmostEqual(energy, expected[0], delta=ENERGY_TOLERANCE[platform] * len(positions))
+                    self.assertLess(relative_error(expected[1], forces), TOLERANCE[platform])
+            self.assertEqual(openmm.XmlSerializer.serialize(system), untouched)
+
+    def test_forces_of_our_own_are_named_too(self):
+        system, _, _ = water_box()
+        openmm_dch.replaceNonbonded(system)
+        status, = openmm_dch.status(context_of(system, "CPU"))
+        self.assertEqual((status["direct"], status["name"]), ("DCH", "DCHNonbondedForce"))
+
+    def test_simulations(self):
+        system, positions, topology = pme_water(constraints=app.HBonds)
+        barostat = openmm.MonteCarloBarostat(1, 300, 5)
+        barostat.setRandomNumberSeed(4)
+        system.addForce(barostat)
+        integrator = openmm.LangevinMiddleIntegrator(300, 1, 0.002)
+        integrator.setRandomNumberSeed(5)
+        simulation = app.Simulation(topology, system, integrator, openmm.Platform.getPlatformByName("CPU"))
+        simulation.context.setPositions(positions)
+        simulation.minimizeEnergy(maxIterations=300)
+        simulation.context.setVelocitiesToTemperature(300, 6)
+        simulation.step(30)
+        state = simulation.context.getState(getEnergy=True, getForces=True, getPositions=True)
+        openmm_dch.disable()
+        native = context_of(copy.deepcopy(system), "Reference")
+        openmm_dch.enable()
+        native.setState(state)
+        energy, forces = energy_and_forces(native)
+        self.assertAlmostEqual(state.getPotentialEnergy()._value, energy,
+                               delta=ENERGY_TOLERANCE["CPU"] * len(positions))
+        self.assertLess(relative_error(forces, state.getForces(asNumpy=True)._value), TOLERANCE["CPU"])
+
+    def test_checkpoints(self):
+        system, positions, _ = pme_water()
+        integrator = openmm.VerletIntegrator(0.0005)
+        context = context_of(system, "CPU", integrator)
+        context.setPositions(positions)
+        first, second = positions_from_checkpoint(context, integrator)
+        np.testing.assert_allclose(second, first, atol=1e-5)
+
+    def test_several_contexts(self):
+        system, positions, _ = pme_water()
+        contexts = [context_of(system, "CPU") for _ in range(2)]
+        moved = positions + 0.002 * np.random.default_rng(1).normal(size=positions.shape)
+        first = energy_and_forces(contexts[0], positions)[0]
+        second = energy_and_forces(contexts[1], moved)[0]
+        self.assertNotEqual(first, second)
+        self.assertAlmostEqual(energy_and_forces(contexts[0], moved)[0] / second, 1, delta=1e-6)
+        del contexts[0]
+        self.assertEqual(openmm_dch.status(contexts[0])[0]["direct"], "DCH")
+
+
+class ScriptTest(unittest.TestCase):
+    SCRIPT = ("import openmm, sys\n"
+              "from openmm_systems import context_of, water_box\n"
+              "system, positions, _ = water_box()\n"
+              "force = [f for f in system.getForces() if isinstance(f, openmm.NonbondedForce)][0]\n"
+              "contexts = []\n"
+              "for method in (force.CutoffPeriodic, force.Ewald, force.Ewald):\n"
+              "    force.setNonbondedMethod(method)\n"
+              "    contexts.append(context_of(system, 'CPU'))\n"
+              "loaded = 'openmm_dch' in sys.modules\n"
+              "import openmm_dch\n"
+              "print(loaded, *[openmm_dch.status(c)[0]['direct'] for c in contexts])\n")
+
+    def test_the_environment_variable_needs_no_import(self):
+        out, err = run_script(self.SCRIPT, OPENMM_DCH="1")
+        self.assertEqual(out, "True DCH OpenMM OpenMM\n", err)
+        self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method Ewald is not covered; "
+                              "PME is, and is faster\n")
+
+    def test_without_it_nothing_changes(self):
+        for value in ("", "0"):
+            self.assertEqual(run_script(self.SCRIPT, OPENMM_DCH=value), ("False OpenMM OpenMM OpenMM\n", ""))
+
+    def test_enabling_after_a_context_warns(self):
+        out, err = run_script("import openmm_dch\n" + self.SCRIPT +
+                              "for _ in range(2):\n"
+                              "    openmm_dch.enable()\n"
+                              "    openmm_dch.disable()\n"
+                              "    context_of(system, 'CPU')\n"
+                              "print(openmm_dch.status(contexts[0])[0]['reason'])\n")
+        self.assertEqual(out.splitlines()[1], "the drop-in was not enabled when the Context was made", err)
+        self.assertEqual(err.count("UserWarning"), 1, err)
+        self.assertIn("reinitialize", err)
+
+    def test_a_program_without_the_cpu_platform_is_told(self):
+        out, err = run_script("import openmm_dch\nopenmm_dch.enable()", OPENMM_PLUGIN_DIR=os.path.dirname(__file__))
+        self.assertEqual(out, "")
+        self.assertIn("OPENMM_PLUGIN_DIR", err)
+
+
+if __name__ == "__main__":
+    unittest.main()
