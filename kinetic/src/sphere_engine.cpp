@@ -34,7 +34,6 @@ SphereEngine::SphereEngine(const HardSphereParams& params, Span<const Vec3> posi
       homes_(positions.size()),
       exits_(positions.size(), kNever),
       rooms_(positions.size()),
-      is_doubtful_(positions.size(), 0),
       rows_(positions.size()),
       candidates_(positions.size()),
       anchors_(params.box),
@@ -94,14 +93,15 @@ void SphereEngine::predict_all() {
 
 std::optional<Collision> SphereEngine::step(double limit) {
   while (!events_.empty() && events_.top().time <= limit) {
-    const Edge next = events_.top().edge;
-    now_ = events_.top().time;
-    if (is_doubtful_[static_cast<std::size_t>(next.a)]) {
-      predict(next.a);
-    } else if (next.b < 0) {
-      leave_home(next.a);
+    const std::int32_t id = events_.winner();
+    const SphereEvent next = events_.top();
+    now_ = next.time;
+    if (next.is_doubtful) {
+      predict(id);
+    } else if (next.partner < 0) {
+      leave_home(id);
     } else {
-      return collide(next.a, next.b);
+      return collide(id, next.partner);
     }
   }
   now_ = limit;
@@ -122,52 +122,52 @@ double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
   return std::max(now_, start + time_to_contact(apart, velocity, sum * scale_at(start), sum * growth_));
 }
 
-/// Has the flights of partners on their way before the first one is needed.
-void SphereEngine::fetch(const std::vector<std::int32_t>& row) const {
-  for (const std::int32_t other : row) __builtin_prefetch(&sphere(other));
+/// Has the flights of partners and what is next for them on their way before the first one is needed.
+void SphereEngine::fetch_partners(std::int32_t id) const {
+  for (const std::int32_t other : rows_.of(id)) {
+    __builtin_prefetch(&sphere(other));
+    __builtin_prefetch(&events_.of(other));
+  }
 }
 
 /// What is next for a sphere, with its tracked pairs as they are.
 void SphereEngine::predict(std::int32_t id) {
-  fetch(rows_.of(id));
-  Due next{exits_[static_cast<std::size_t>(id)], {id, -1}};
+  fetch_partners(id);
+  SphereEvent next{exits_[static_cast<std::size_t>(id)]};
   for (const std::int32_t other : rows_.of(id)) {
-    const Due due{contact_time(id, other), {id, other}};
-    if (due < next) next = due;
+    const SphereEvent event{contact_time(id, other), other};
+    if (event.is_before(next)) next = event;
   }
   events_.set(id, next);
-  is_doubtful_[static_cast<std::size_t>(id)] = 0;
 }
 
 /// The same for a sphere with a new flight, which its partners are told.
 void SphereEngine::predict_changed(std::int32_t id) {
-  fetch(rows_.of(id));
-  Due next{exits_[static_cast<std::size_t>(id)], {id, -1}};
+  SphereEvent next{exits_[static_cast<std::size_t>(id)]};
   for (const std::int32_t other : rows_.of(id)) {
-    const double time = contact_time(id, other);
-    const Due due{time, {id, other}};
-    if (due < next) next = due;
-    tell_partner(other, id, time);
+    const SphereEvent event{contact_time(id, other), other};
+    if (event.is_before(next)) next = event;
+    tell_partner(other, id, event.time);
   }
   events_.set(id, next);
-  is_doubtful_[static_cast<std::size_t>(id)] = 0;
 }
 
 /// A partner whose next collision was with the sphere keeps its entry as a time before which nothing happens
 /// to it: often it has another flight before then.
 void SphereEngine::tell_partner(std::int32_t partner, std::int32_t id, double time) {
-  const Due due{time, {partner, id}};
-  const Due& known = events_.of(partner);
-  if (due < known) {
-    events_.set(partner, due);
-    is_doubtful_[static_cast<std::size_t>(partner)] = 0;
-  } else if (known.edge.b == id) {
-    is_doubtful_[static_cast<std::size_t>(partner)] = 1;
+  const SphereEvent event{time, id};
+  const SphereEvent& known = events_.of(partner);
+  if (event.is_before(known)) {
+    events_.set(partner, event);
+  } else if (known.partner == id) {
+    events_.doubt(partner);
   }
 }
 
 Collision SphereEngine::collide(std::int32_t a, std::int32_t b) {
   Sphere &p = sphere(a), &q = sphere(b);
+  fetch_partners(a);
+  fetch_partners(b);
   for (const std::int32_t id : {a, b}) {
     const Vec3 at = position(id);
     sphere(id).position = at;

@@ -11,7 +11,7 @@
 #include "anchor_search.hpp"
 #include "images.hpp"
 #include "mutual_rows.hpp"
-#include "point_queue.hpp"
+#include "sphere_queue.hpp"
 
 namespace dch::kinetic {
 
@@ -60,7 +60,7 @@ class SphereEngine {
 
   void check_overlap(std::int32_t id) const;
   double contact_time(std::int32_t a, std::int32_t b);
-  void fetch(const std::vector<std::int32_t>& row) const;
+  void fetch_partners(std::int32_t id) const;
   void predict(std::int32_t id);
   void predict_changed(std::int32_t id);
   void tell_partner(std::int32_t partner, std::int32_t id, double time);
@@ -94,12 +94,11 @@ class SphereEngine {
   std::vector<Ball> homes_;
   std::vector<double> exits_;
   std::vector<Rooms> rooms_;
-  std::vector<char> is_doubtful_;    ///< whether nothing happens to the sphere before its entry, nor then
   MutualRows rows_;                  ///< whose balls around homes touch: the tracked pairs
   MutualRows candidates_;            ///< whose balls around anchors touch
   std::vector<std::int32_t> found_;  ///< a row that is being made
   AnchorSearch anchors_;
-  PointQueue events_;
+  SphereQueue events_;
   HardSphereCounters counters_;
 };
 

@@ -181,7 +181,7 @@ void SphereEngine::join_near(std::int32_t id) {
   rows_.replace(
       id, found_, [&](std::int32_t other) { tell_partner(other, id, contact_time(id, other)); },
       [&](std::int32_t other) {
-        if (events_.of(other).edge.b == id) is_doubtful_[static_cast<std::size_t>(other)] = 1;
+        if (events_.of(other).partner == id) events_.doubt(other);
       });
 }
 

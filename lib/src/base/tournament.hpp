@@ -41,6 +41,10 @@ class Tournament {
     for (std::size_t k = before; k < size; ++k) set(static_cast<std::int32_t>(k), entry);
   }
 
+ protected:
+  /// For changes of what the order does not depend on.
+  Entry& entry(std::int32_t number) { return entries_[static_cast<std::size_t>(number)]; }
+
  private:
   void play_all() {
     while (leaves_ < entries_.size()) leaves_ *= 2;
