@@ -11,7 +11,8 @@
 
 namespace dch::kinetic {
 
-/// What is next for a sphere, in as few bytes as it takes: each collision looks at the entries of all partners.
+/// What is next for a sphere, in as few bytes as it takes: each collision looks at the entries of all
+/// partners.
 struct SphereEvent {
   double time = kNever;
   std::int32_t partner = -1;  ///< -1 where the sphere leaves its home
@@ -29,7 +30,8 @@ struct SphereEvent {
 class SphereQueue : public detail::Tournament<SphereEvent> {
  public:
   explicit SphereQueue(std::size_t spheres) : Tournament(std::vector<SphereEvent>(spheres)) {}
-  /// An entry that was the next collision with a partner which has another flight now: its time stays as a bound.
+  /// An entry that was the next collision with a partner which has another flight now: its time stays as a
+  /// bound.
   void doubt(std::int32_t id) { entry(id).is_doubtful = true; }
 };
 
