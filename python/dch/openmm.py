@@ -71,14 +71,16 @@ class CrossingReporter:
         self.crossings = self.contacts = self.undetermined = 0
         #: What the last report found, a dch.CrossingStep; None where it began.
         self.found: CrossingStep | None = None
-        self._owns_file = isinstance(file, str)
-        self._file: TextIO | None = open(file, "w") if isinstance(file, str) else file
+        self._owned_file: TextIO | None = None
+        if isinstance(file, str):
+            file = self._owned_file = open(file, "w")
+        self._file = file
         if self._file is not None:
             print("#" + ",".join(f'"{name}"' for name in COLUMNS), file=self._file, flush=True)
 
     def __del__(self) -> None:
-        if getattr(self, "_owns_file", False) and self._file is not None:
-            self._file.close()
+        if getattr(self, "_owned_file", None) is not None:  # nor where an argument was refused
+            self._owned_file.close()
 
     def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
         """Steps until the next report, and that it needs positions, not wrapped."""
@@ -112,7 +114,7 @@ class CrossingReporter:
         self.contacts += len(found.contacts.time)
         self.undetermined += len(found.undetermined.bonds)
         if self._file is not None and len(found.crossings.time) > 0:
-            self._write(found, last, now)
+            self._write(self._file, found, last, now)
 
     @staticmethod
     def _warn(found: CrossingStep, step: int) -> None:
@@ -122,10 +124,10 @@ class CrossingReporter:
                       f"{step}: the bond of the particles {a} and {b} {why}, or more; report more often, or take a larger box",
                       RuntimeWarning, stacklevel=3)
 
-    def _write(self, found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> None:
+    @staticmethod
+    def _write(file: TextIO, found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> None:
         for p, q, time, _, place, sign in zip(*found.crossings):
             step, picoseconds = (a + time * (b - a) for a, b in zip(last, now))
             numbers = [f"{step:.3f}", f"{picoseconds:.9g}", *p, *q, sign, *(f"{x:.9g}" for x in place)]
-            print(*numbers, sep=",", file=self._file)
-        assert self._file is not None
-        self._file.flush()
+            print(*numbers, sep=",", file=file)
+        file.flush()
