@@ -14,7 +14,7 @@
 namespace dch {
 namespace {
 
-constexpr std::size_t kPoints = 1000;
+constexpr std::size_t kPoints = 3000;
 
 class UpdateByReference : public testing::TestWithParam<const char*> {
  protected:
