@@ -109,7 +109,7 @@ std::optional<Collision> SphereEngine::step(double limit) {
 }
 
 /// From the later of both plans on, so that the time does not depend on when it is asked for.
-double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
+SphereEngine::Contact SphereEngine::approach(std::int32_t a, std::int32_t b) const {
   const Sphere &p = sphere(a), &q = sphere(b);
   const double start = std::max(p.time, q.time);
   const Vec3 velocity = q.velocity - p.velocity;
@@ -118,8 +118,17 @@ double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
   const Vec3 nearest = images_.box().nearest_image(present);
   if (nearest != present) apart = apart + images_.to_image(present, nearest);
   const double sum = p.radius + q.radius;
+  return {start, Approach(apart, velocity, sum * scale_at(start), sum * growth_), b};
+}
+
+double SphereEngine::time_of(const Contact& contact) const {
+  return std::max(now_, contact.start + contact.approach.time_to_contact());
+}
+
+double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
   ++counters_.predictions;
-  return std::max(now_, start + time_to_contact(apart, velocity, sum * scale_at(start), sum * growth_));
+  const Contact contact = approach(a, b);
+  return contact.approach.meets() ? time_of(contact) : kNever;
 }
 
 /// Has the flights of partners and what is next for them on their way before the first one is needed.
@@ -133,9 +142,10 @@ void SphereEngine::fetch_partners(std::int32_t id) const {
 /// What is next for a sphere, with its tracked pairs as they are.
 void SphereEngine::predict(std::int32_t id) {
   fetch_partners(id);
+  find_contacts(id);
   SphereEvent next{exits_[static_cast<std::size_t>(id)]};
-  for (const std::int32_t other : rows_.of(id)) {
-    const SphereEvent event{contact_time(id, other), other};
+  for (const Contact& contact : contacts_) {
+    const SphereEvent event{time_of(contact), contact.partner};
     if (event.is_before(next)) next = event;
   }
   events_.set(id, next);
@@ -143,13 +153,31 @@ void SphereEngine::predict(std::int32_t id) {
 
 /// The same for a sphere with a new flight, which its partners are told.
 void SphereEngine::predict_changed(std::int32_t id) {
+  for (const std::int32_t other : rows_.of(id))
+    if (events_.of(other).partner == id) events_.doubt(other);
+  find_contacts(id);
   SphereEvent next{exits_[static_cast<std::size_t>(id)]};
-  for (const std::int32_t other : rows_.of(id)) {
-    const SphereEvent event{contact_time(id, other), other};
+  for (const Contact& contact : contacts_) {
+    const SphereEvent event{time_of(contact), contact.partner};
     if (event.is_before(next)) next = event;
-    tell_partner(other, id, event.time);
+    tell_partner(contact.partner, id, event.time);
   }
   events_.set(id, next);
+}
+
+/// Most pairs never touch, which no branch can foretell: so all are looked at by selects, and those that do
+/// are left.
+void SphereEngine::find_contacts(std::int32_t id) {
+  const std::vector<std::int32_t>& row = rows_.of(id);
+  contacts_.resize(row.size());
+  std::size_t found = 0;
+  for (const std::int32_t other : row) {
+    Contact& contact = contacts_[found];
+    contact = approach(id, other);
+    found += contact.approach.meets() ? 1 : 0;
+  }
+  contacts_.resize(found);
+  counters_.predictions += static_cast<std::int64_t>(row.size());
 }
 
 /// A partner whose next collision was with the sphere keeps its entry as a time before which nothing happens

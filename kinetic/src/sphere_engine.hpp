@@ -11,6 +11,7 @@
 #include "anchor_search.hpp"
 #include "images.hpp"
 #include "mutual_rows.hpp"
+#include "sphere_motion.hpp"
 #include "sphere_queue.hpp"
 
 namespace dch::kinetic {
@@ -53,13 +54,23 @@ class SphereEngine {
     std::int32_t hurried = 0;  ///< collisions since then
   };
 
+  /// Two spheres from a time on.
+  struct Contact {
+    double start;
+    Approach approach;
+    std::int32_t partner;
+  };
+
   Sphere& sphere(std::int32_t id) { return spheres_[static_cast<std::size_t>(id)]; }
   const Sphere& sphere(std::int32_t id) const { return spheres_[static_cast<std::size_t>(id)]; }
   double scale_at(double time) const { return scale_ + growth_ * time; }
   double radius_at(const Sphere& sphere, double time) const { return sphere.radius * scale_at(time); }
 
   void check_overlap(std::int32_t id) const;
+  Contact approach(std::int32_t a, std::int32_t b) const;
+  double time_of(const Contact& contact) const;
   double contact_time(std::int32_t a, std::int32_t b);
+  void find_contacts(std::int32_t id);
   void fetch_partners(std::int32_t id) const;
   void predict(std::int32_t id);
   void predict_changed(std::int32_t id);
@@ -97,6 +108,7 @@ class SphereEngine {
   MutualRows rows_;                  ///< whose balls around homes touch: the tracked pairs
   MutualRows candidates_;            ///< whose balls around anchors touch
   std::vector<std::int32_t> found_;  ///< a row that is being made
+  std::vector<Contact> contacts_;    ///< of the sphere that is predicted
   AnchorSearch anchors_;
   SphereQueue events_;
   HardSphereCounters counters_;
