@@ -54,7 +54,6 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
 /// Bonded pairs leave the cluster pairs; those to be weighted go into a list of their own. A bonded atom's
 /// far image is no bonded atom, as in LAMMPS's lists.
 void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList& list) {
-  excluded_.clear();
   if (atom->molecular == Atom::ATOMIC) return;
   for (int i = 0; i < points.owned(); ++i) {
     for (int k = 0; k < atom->nspecial[i][2]; ++k) {
@@ -79,21 +78,35 @@ bool ClusterListFiller::is_left_out(const AtomPoints& points, int i, int j) cons
   return i < points.owned() ? !rules_.stored_here(i, j) : !rules_.stored_here(j, i);
 }
 
-void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const {
+/// The pairs of two clusters that stay, asked about one by one.
+std::uint16_t ClusterListFiller::mask_by_pair(const AtomPoints& points, const std::int32_t* own,
+                                              const std::int32_t* other, std::uint16_t mask) const {
+  constexpr int kSlots = dch::ClusterPairs::kSlots;
+  for (int bit = 0; bit < kSlots * kSlots; ++bit) {
+    if ((mask >> bit & 1) != 0 && is_left_out(points, own[bit / kSlots], other[bit % kSlots]))
+      mask = static_cast<std::uint16_t>(mask & ~(1 << bit));
+  }
+  return mask;
+}
+
+void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) {
   constexpr int kSlots = dch::ClusterPairs::kSlots;
   if (!leaves_out_any(points)) return;
+  const bool by_turns = !rules_.excludes_any() && rules_.goes_by_parity();
+  if (by_turns) turns_.assign(pairs.particle, atom->tag, points.owned());
+  const auto mask_of = [&](std::int32_t own, const dch::ClusterPairs::Entry& entry) {
+    if (by_turns && turns_.can_tell(own, entry.cluster, entry.mask))
+      return static_cast<std::uint16_t>(entry.mask & turns_.mask(own, entry.cluster));
+    return mask_by_pair(points, &pairs.particle[kSlots * static_cast<std::size_t>(own)],
+                        &pairs.particle[kSlots * static_cast<std::size_t>(entry.cluster)], entry.mask);
+  };
   std::int64_t from = 0, to = 0;
   std::size_t rows = 0;
   for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
-    const std::int32_t* const own = &pairs.particle[kSlots * static_cast<std::size_t>(pairs.rows[r].cluster)];
     const std::int64_t row_begins = to;
     for (; from < pairs.rows[r + 1].first; ++from) {
       dch::ClusterPairs::Entry entry = pairs.entries[static_cast<std::size_t>(from)];
-      const std::int32_t* const other = &pairs.particle[kSlots * static_cast<std::size_t>(entry.cluster)];
-      for (int bit = 0; bit < kSlots * kSlots; ++bit) {
-        if ((entry.mask >> bit & 1) != 0 && is_left_out(points, own[bit / kSlots], other[bit % kSlots]))
-          entry.mask = static_cast<std::uint16_t>(entry.mask & ~(1 << bit));
-      }
+      entry.mask = mask_of(pairs.rows[r].cluster, entry);
       if (entry.mask != 0) pairs.entries[static_cast<std::size_t>(to++)] = entry;
     }
     if (to > row_begins) pairs.rows[rows++] = {row_begins, pairs.rows[r].cluster, pairs.rows[r].first_shift};
@@ -103,13 +116,42 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   pairs.entries.resize(static_cast<std::size_t>(to));
 }
 
+/// Whether special bonds keep a pair out of the others: in the box it is that of the nearest images.
+bool ClusterListFiller::is_special(const AtomPoints& points, int i, int j) const {
+  if (special_.kind(i, j) == 0) return false;
+  if (points.in_box()) return true;
+  const double *xi = atom->x[i], *xj = atom->x[j];
+  return !domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]);
+}
+
+/// Rows are those of owned atoms, so each can be asked whom it is bonded to. Exclusions would have to be made
+/// anew whenever ghosts are.
 void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        ClusterList& list) {
   params.order = dch::RowOrder::unsorted;
   params.superset = true;
   search.list(params, rows_);
-  const bool any = leaves_out_any(points);
-  const auto accept = [&](int i, int j) { return !any || !is_left_out(points, i, j); };
+  const bool excludes = rules_.excludes_any(), by_parity = rules_.goes_by_parity();
+  const bool takes_turns = !points.in_box() && force->newton_pair;
+  const bool asks_bonds = atom->molecular != Atom::ATOMIC && params.exclusions == nullptr;
+  const tagint* const tag = atom->tag;
+  const auto is_taken = [&](int i, int ghost) {
+    return by_parity && tag[i] != tag[ghost] ? PairRules::goes_to_first(tag[i], tag[ghost])
+                                             : rules_.stored_here(i, ghost);
+  };
+  int row = -1;
+  std::vector<tagint> partners;  // of the atom of the row
+  const auto is_partner = [&](int i, int j) {
+    if (std::exchange(row, i) != i) special_.marked_partners(i, partners);
+    bool any = false;
+    for (const tagint partner : partners) any |= partner == tag[j];
+    return any;
+  };
+  const auto accept = [&](int i, int j) {
+    if (takes_turns && j >= points.owned() && !is_taken(i, j)) return false;
+    if (excludes && rules_.excluded(i, j)) return false;
+    return !(asks_bonds && is_partner(i, j) && is_special(points, i, j));
+  };
   dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
                       list.pair_list);
 }
@@ -121,13 +163,10 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
   params.first_ghost = points.in_box() ? -1 : points.owned();
   if (atom->ntypes > 1) params.types = points.types();
   list.special.clear();
-  dch::Exclusions exclusions;
-  if (points.in_box() && !special_.any_marked()) {
-    params.exclusions = special_.never_seen(points.owned());
-  } else if (take_special_pairs(points, list); !excluded_.empty()) {
-    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
-    params.exclusions = &exclusions;
-  }
+  excluded_.clear();
+  const bool any_marked = special_.any_marked();
+  if (points.in_box() && !any_marked) params.exclusions = special_.never_seen(points.owned());
+  if (any_marked) take_special_pairs(points, list);
   // `dch skin auto` changes the radius.
   if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
   if (list.one_by_one) {
@@ -138,6 +177,12 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
     list.pair_list = {};
   }
   params.shell = 0;
+  if (!points.in_box() && !any_marked) take_special_pairs(points, list);
+  dch::Exclusions exclusions;
+  if (!excluded_.empty()) {
+    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
+    params.exclusions = &exclusions;
+  }
   search.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <lammps_host.h>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "atom_points.h"
 #include "pair_rules.h"
 #include "special_pairs.h"
+#include "turn_masks.h"
 
 namespace LAMMPS_NS {
 
@@ -66,13 +68,17 @@ class ClusterListFiller : protected Pointers {
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;
   void take_special_pairs(const AtomPoints& points, ClusterList& list);
   void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
+  bool is_special(const AtomPoints& points, int i, int j) const;
   bool leaves_out_any(const AtomPoints& points) const;
   bool is_left_out(const AtomPoints& points, int i, int j) const;
-  void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) const;
+  std::uint16_t mask_by_pair(const AtomPoints& points, const std::int32_t* own, const std::int32_t* other,
+                             std::uint16_t mask) const;
+  void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs);
   void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params, ClusterList& list);
 
   SpecialPairs& special_;
   const PairRules& rules_;
+  TurnMasks turns_;
   std::vector<dch::IndexPair> excluded_;
   dch::NeighborList rows_;
 };

@@ -64,6 +64,29 @@ int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count
   return n;
 }
 
+/// Whether all that leaves neighbors out of the row of atom i is that each of two processes has a pair.
+bool ListFiller::takes_turns_only(const Scene& scene, int i) const {
+  return !scene.points.in_box() && scene.served.newton && !scene.served.ghost && !scene.served.history &&
+         !rules_.excludes_any() && rules_.goes_by_parity() && !neighbor->includegroup &&
+         !special_.has_partners(i);
+}
+
+/// A row without the ghosts whose owner takes the pair, without a branch for each.
+int ListFiller::take_turns(int i, std::int32_t* row, int count) const {
+  const tagint* const tag = atom->tag;
+  const tagint own = tag[i];
+  const int owned = atom->nlocal;
+  int n = 0;
+  for (int k = 0; k < count; ++k) {
+    const std::int32_t j = row[k];
+    row[n] = j;
+    const bool is_taken =
+        own == tag[j] ? rules_.stored_here(i, j) : (j < owned) | PairRules::goes_to_first(own, tag[j]);
+    n += is_taken ? 1 : 0;
+  }
+  return n;
+}
+
 bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const {
   if (rules_.excludes_any() || scene.served.ghost || scene.served.history) return false;
   if (scene.points.in_box()) {
@@ -95,7 +118,11 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
     const dch::Span<const std::int32_t> row = rows.row(r);
     std::int32_t* const to = served.rows.j.data() + rows.first[r];
     auto count = static_cast<int>(row.size());
-    if (!stays_as_it_is(scene, i, row)) count = edit_row(scene, i, to, count);
+    if (takes_turns_only(scene, i)) {
+      count = take_turns(i, to, count);
+    } else if (!stays_as_it_is(scene, i, row)) {
+      count = edit_row(scene, i, to, count);
+    }
     if (served.history && count > neighbor->oneatom) refuse_history(i, count);
     list.firstneigh[i] = to;
     list.numneigh[i] = count;

@@ -49,6 +49,8 @@ class ListFiller : protected Pointers {
     const ServedList& served;
   };
   bool stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const;
+  bool takes_turns_only(const Scene& scene, int i) const;
+  int take_turns(int i, std::int32_t* row, int count) const;
   int edit_row(const Scene& scene, int i, std::int32_t* row, int count) const;
   void refuse_history(int i, int count) const;
   int mark_of(const ServedList& served, int i, int j) const;

@@ -38,12 +38,14 @@ bool PairRules::excluded(int i, int j) const {
   });
 }
 
+bool PairRules::goes_by_parity() const { return comm->mode != Comm::MULTI; }
+
 // With comm_modify mode multi and reduce/multi a process may have no ghost of a smaller atom where the larger
 // one's owner has: the owner of the smaller takes the pair. Else the parity of the IDs decides, which every
 // process sees alike; an atom and its own image are told apart by their coordinates, of which equal ones are
 // equal bit by bit, since ghosts are made by adding whole box vectors.
 bool PairRules::stored_here(int i, int ghost) const {
-  if (comm->mode == Comm::MULTI) {
+  if (!goes_by_parity()) {
     const auto own_cutoff2 = [&](int k) {
       const int c = neighbor->collection[k];
       return neighbor->cutcollectionsq[c][c];
@@ -52,8 +54,7 @@ bool PairRules::stored_here(int i, int ghost) const {
     if (at_i != at_ghost) return at_i < at_ghost;
   }
   const tagint tag_i = atom->tag[i], tag_j = atom->tag[ghost];
-  const bool even_sum = ((tag_i ^ tag_j) & 1) == 0;
-  if (tag_i != tag_j) return (tag_i < tag_j) == even_sum;
+  if (tag_i != tag_j) return goes_to_first(tag_i, tag_j);
   const double *xi = atom->x[i], *xj = atom->x[ghost];
   if (xj[2] != xi[2]) return xj[2] > xi[2];
   if (xj[1] != xi[1]) return xj[1] > xi[1];

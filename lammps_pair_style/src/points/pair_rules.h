@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lammps_host.h>
+#include <lmptype.h>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -21,6 +22,13 @@ class PairRules : protected Pointers {
   /// Whether owned atom i takes the pair with a ghost; the ghost's owner, and what is this atom's ghost
   /// there, take it else.
   bool stored_here(int i, int ghost) const;
+  /// Whether IDs alone decide that, unless they are equal.
+  bool goes_by_parity() const;
+  /// Whether the first of two atoms with different IDs takes their pair then, if the other one is a ghost.
+  static bool goes_to_first(tagint first, tagint second) {
+    const bool even_sum = ((first ^ second) & 1) == 0;
+    return (first < second) == even_sum;
+  }
 
  private:
   struct GroupPair {

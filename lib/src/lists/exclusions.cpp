@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include <dch/base/error.hpp>
@@ -18,41 +19,60 @@ struct Rows {
   }
 };
 
-void check_pairs(std::size_t n, Span<const IndexPair> pairs, const std::string& what) {
+bool is_index(std::int32_t i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; }
+
+[[noreturn]] void refuse_pair(std::size_t n, IndexPair pair, const std::string& name_of_kind, std::size_t k) {
+  const auto [i, j] = pair;
+  const std::string name =
+      name_of_kind + " " + std::to_string(k) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
+  for (const std::int32_t index : {i, j}) {
+    if (is_index(index, n)) continue;
+    throw InvalidParameter(name + " names particle " + std::to_string(index) +
+                           ", but indices run from 0 to " + std::to_string(static_cast<std::int64_t>(n) - 1));
+  }
+  throw InvalidParameter(name + " names one particle twice; name two different ones");
+}
+
+/// Hosts hand in their pairs at every list, so no text is made for a good one.
+void check_pairs(std::size_t n, Span<const IndexPair> pairs, const std::string& name_of_kind) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [i, j] = pairs[k];
-    const std::string name =
-        what + " " + std::to_string(k) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
-    for (const std::int32_t index : {i, j}) {
-      if (index < 0 || static_cast<std::size_t>(index) >= n) {
-        throw InvalidParameter(name + " names particle " + std::to_string(index) +
-                               ", but indices run from 0 to " +
-                               std::to_string(static_cast<std::int64_t>(n) - 1));
-      }
-    }
-    if (i == j) throw InvalidParameter(name + " names one particle twice; name two different ones");
+    if (!is_index(i, n) || !is_index(j, n) || i == j) refuse_pair(n, pairs[k], name_of_kind, k);
   }
+}
+
+/// Both directions of every pair, in no order within a row: a counting sort by row.
+Rows both_directions(std::size_t n, Span<const IndexPair> pairs) {
+  Rows rows;
+  rows.first.assign(n + 1, 0);
+  for (const auto& [i, j] : pairs) {
+    ++rows.first[static_cast<std::size_t>(i)];
+    ++rows.first[static_cast<std::size_t>(j)];
+  }
+  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
+  rows.entry.resize(2 * pairs.size());
+  // Each row is filled from its end, which moves its end to its beginning.
+  for (const auto& [i, j] : pairs) {
+    rows.entry[static_cast<std::size_t>(--rows.first[static_cast<std::size_t>(i)])] = j;
+    rows.entry[static_cast<std::size_t>(--rows.first[static_cast<std::size_t>(j)])] = i;
+  }
+  return rows;
 }
 
 /// Both directions of every pair, rows ascending and without repetition.
 Rows symmetric_rows(std::size_t n, Span<const IndexPair> pairs) {
-  std::vector<IndexPair> both;
-  both.reserve(2 * pairs.size());
-  for (const auto& [i, j] : pairs) {
-    both.push_back({i, j});
-    both.push_back({j, i});
+  Rows rows = both_directions(n, pairs);
+  std::int64_t end = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = rows.entry.begin() + static_cast<std::ptrdiff_t>(rows.first[i]);
+    const auto row_end = rows.entry.begin() + static_cast<std::ptrdiff_t>(rows.first[i + 1]);
+    std::sort(row, row_end);
+    rows.first[i] = end;
+    for (auto k = row, different = std::unique(row, row_end); k != different; ++k)
+      rows.entry[static_cast<std::size_t>(end++)] = *k;
   }
-  std::sort(both.begin(), both.end());
-  both.erase(std::unique(both.begin(), both.end()), both.end());
-
-  Rows rows;
-  rows.first.assign(n + 1, 0);
-  rows.entry.reserve(both.size());
-  for (const auto& [i, j] : both) {
-    ++rows.first[static_cast<std::size_t>(i) + 1];
-    rows.entry.push_back(j);
-  }
-  for (std::size_t i = 0; i < n; ++i) rows.first[i + 1] += rows.first[i];
+  rows.first[n] = end;
+  rows.entry.resize(static_cast<std::size_t>(end));
   return rows;
 }
 

@@ -31,12 +31,15 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
   const std::size_t rows = found.particle.size();
   const bool has_shell = !found.near_end.empty();
   const auto may_own = [&](std::int32_t particle) { return first_ghost < 0 || particle < first_ghost; };
-  const auto take_row = [&](std::size_t r, std::int64_t first, std::int64_t last, const auto& f) {
+  // A row of which all pairs stay is taken as it is.
+  const auto take_row = [&](std::size_t r, std::int64_t first, std::int64_t last, const auto& one,
+                            const auto& all) {
     const std::int32_t i = found.particle[r];
-    for (std::int64_t k = first; k < last; ++k) {  // f(owner, other)
+    if (kind == ListKind::half && may_own(i)) return all(r, first, last);
+    for (std::int64_t k = first; k < last; ++k) {  // one(owner, other)
       const std::int32_t j = found.j[static_cast<std::size_t>(k)];
-      if (may_own(i)) f(i, j);
-      if (may_own(j) && (kind == ListKind::full || !may_own(i))) f(j, i);
+      if (may_own(i)) one(i, j);
+      if (may_own(j)) one(j, i);
     }
   };
   std::vector<std::int32_t> row_of(n, kNone);
@@ -45,18 +48,25 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
   out.particle = found.particle;
   out.first.assign(rows + 1, 0);
   const auto count = [&](std::int32_t owner, std::int32_t) { ++out.first[row_of[owner] + 1]; };
-  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.first[r], found.first[r + 1], count);
+  const auto count_row = [&](std::size_t r, std::int64_t first, std::int64_t last) {
+    out.first[r + 1] += last - first;
+  };
+  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.first[r], found.first[r + 1], count, count_row);
   for (std::size_t r = 0; r < rows; ++r) out.first[r + 1] += out.first[r];
   if (out.j.size() < static_cast<std::size_t>(out.first.back()))
     out.j.resize(static_cast<std::size_t>(out.first.back()));
   std::vector<std::int64_t> next(out.first.begin(), out.first.end());
   const auto put = [&](std::int32_t owner, std::int32_t other) { out.j[next[row_of[owner]]++] = other; };
+  const auto put_row = [&](std::size_t r, std::int64_t first, std::int64_t last) {
+    std::copy(found.j.begin() + first, found.j.begin() + last, out.j.begin() + next[r]);
+    next[r] += last - first;
+  };
   for (std::size_t r = 0; r < rows; ++r)
-    take_row(r, found.first[r], has_shell ? found.near_end[r] : found.first[r + 1], put);
+    take_row(r, found.first[r], has_shell ? found.near_end[r] : found.first[r + 1], put, put_row);
   out.near_end.clear();
   if (!has_shell) return;
   out.near_end.assign(next.begin(), next.end() - 1);
-  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.near_end[r], found.first[r + 1], put);
+  for (std::size_t r = 0; r < rows; ++r) take_row(r, found.near_end[r], found.first[r + 1], put, put_row);
 }
 
 }  // namespace

@@ -37,7 +37,10 @@ std::int32_t image_number(double n) {
 
 PairListMaker::PairListMaker(const NeighborList& list, double list_radius, Span<const Vec3> positions,
                              const Box& box, Span<const std::int32_t> types, PairList& out)
-    : positions_(positions), near2_(box.max_cutoff() * box.max_cutoff()), out_(out) {
+    : positions_(positions),
+      has_images_(box.any_periodic()),
+      near2_(box.max_cutoff() * box.max_cutoff()),
+      out_(out) {
   if (list.kind != ListKind::half)
     throw InvalidParameter("a pair list is made from a half neighbor list, but this one is full");
   if (list.size() != positions.size())

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <random>
+#include <set>
 #include <vector>
 
 #include <dch/base/error.hpp>
@@ -32,6 +34,31 @@ TEST(Exclusions, PairsInAnyOrderAndRepeated) {
   EXPECT_TRUE(exclusions.excluded(1, 3));
   EXPECT_TRUE(exclusions.excluded(3, 1));
   EXPECT_FALSE(exclusions.excluded(0, 1));
+}
+
+TEST(Exclusions, RowsAreTheSetsOfPartners) {
+  std::mt19937 draw(20261126);
+  for (int round = 0; round < 200; ++round) {
+    const auto n = static_cast<std::int32_t>(2 + draw() % 30);
+    const auto any = [&] { return static_cast<std::int32_t>(draw() % static_cast<unsigned>(n)); };
+    std::vector<IndexPair> pairs;
+    std::vector<std::set<std::int32_t>> expected(static_cast<std::size_t>(n));
+    for (auto left = 1 + draw() % 60; left > 0; --left) {
+      const std::int32_t i = any(), j = any();
+      if (i == j) continue;
+      pairs.push_back({i, j});
+      expected[static_cast<std::size_t>(i)].insert(j);
+      expected[static_cast<std::size_t>(j)].insert(i);
+    }
+    const auto exclusions = Exclusions::from_pairs(static_cast<std::size_t>(n), pairs);
+    std::size_t entries = 0;
+    for (std::int32_t i = 0; i < n; ++i) {
+      const auto& row = expected[static_cast<std::size_t>(i)];
+      EXPECT_EQ(partners(exclusions, i), std::vector<std::int32_t>(row.begin(), row.end()));
+      entries += row.size();
+    }
+    EXPECT_EQ(2 * exclusions.pairs(), static_cast<std::int64_t>(entries));
+  }
 }
 
 TEST(Exclusions, BondsOfABranchedChain) {

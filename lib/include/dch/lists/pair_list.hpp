@@ -79,8 +79,7 @@ class PairListMaker {
   PairListMaker(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,
                 Span<const std::int32_t> types, PairList& out);
   void add(std::int32_t i, std::int32_t j) {
-    const Vec3 d = positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)];
-    const bool is_near = norm2(d) <= near2_;
+    const bool is_near = !has_images_ || is_nearest(i, j);
     out_.i[near_] = i;  // there is room; what is far is overwritten by the next
     out_.j[near_] = j;
     near_ += is_near ? 1 : 0;
@@ -89,10 +88,14 @@ class PairListMaker {
   void finish();
 
  private:
+  bool is_nearest(std::int32_t i, std::int32_t j) const {
+    return norm2(positions_[static_cast<std::size_t>(j)] - positions_[static_cast<std::size_t>(i)]) <= near2_;
+  }
   std::size_t group_of(const std::array<std::int32_t, 3>& image);
 
   Span<const Vec3> positions_;
-  double near2_;  ///< below this no other image is nearer
+  bool has_images_;  ///< else no position is looked at
+  double near2_;     ///< below this no other image is nearer
   PairList& out_;
   std::size_t near_ = 0;  ///< pairs of the home image
   std::vector<std::array<std::int32_t, 2>> far_;
