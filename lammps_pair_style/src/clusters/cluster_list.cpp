@@ -54,6 +54,7 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
 /// Bonded pairs leave the cluster pairs; those to be weighted go into a list of their own. A bonded atom's
 /// far image is no bonded atom, as in LAMMPS's lists.
 void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList& list) {
+  excluded_.clear();
   if (atom->molecular == Atom::ATOMIC) return;
   for (int i = 0; i < points.owned(); ++i) {
     for (int k = 0; k < atom->nspecial[i][2]; ++k) {
@@ -116,16 +117,6 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   pairs.entries.resize(static_cast<std::size_t>(to));
 }
 
-/// Whether special bonds keep a pair out of the others: in the box it is that of the nearest images.
-bool ClusterListFiller::is_special(const AtomPoints& points, int i, int j) const {
-  if (special_.kind(i, j) == 0) return false;
-  if (points.in_box()) return true;
-  const double *xi = atom->x[i], *xj = atom->x[j];
-  return !domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]);
-}
-
-/// Rows are those of owned atoms, so each can be asked whom it is bonded to. Exclusions would have to be made
-/// anew whenever ghosts are.
 void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        ClusterList& list) {
   params.order = dch::RowOrder::unsorted;
@@ -133,24 +124,14 @@ void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& sear
   search.list(params, rows_);
   const bool excludes = rules_.excludes_any(), by_parity = rules_.goes_by_parity();
   const bool takes_turns = !points.in_box() && force->newton_pair;
-  const bool asks_bonds = atom->molecular != Atom::ATOMIC && params.exclusions == nullptr;
   const tagint* const tag = atom->tag;
   const auto is_taken = [&](int i, int ghost) {
     return by_parity && tag[i] != tag[ghost] ? PairRules::goes_to_first(tag[i], tag[ghost])
                                              : rules_.stored_here(i, ghost);
   };
-  int row = -1;
-  std::vector<tagint> partners;  // of the atom of the row
-  const auto is_partner = [&](int i, int j) {
-    if (std::exchange(row, i) != i) special_.marked_partners(i, partners);
-    bool any = false;
-    for (const tagint partner : partners) any |= partner == tag[j];
-    return any;
-  };
   const auto accept = [&](int i, int j) {
     if (takes_turns && j >= points.owned() && !is_taken(i, j)) return false;
-    if (excludes && rules_.excluded(i, j)) return false;
-    return !(asks_bonds && is_partner(i, j) && is_special(points, i, j));
+    return !(excludes && rules_.excluded(i, j));
   };
   dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
                       list.pair_list);
@@ -163,10 +144,13 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
   params.first_ghost = points.in_box() ? -1 : points.owned();
   if (atom->ntypes > 1) params.types = points.types();
   list.special.clear();
-  excluded_.clear();
-  const bool any_marked = special_.any_marked();
-  if (points.in_box() && !any_marked) params.exclusions = special_.never_seen(points.owned());
-  if (any_marked) take_special_pairs(points, list);
+  dch::Exclusions exclusions;
+  if (points.in_box() && !special_.any_marked()) {
+    params.exclusions = special_.never_seen(points.owned());
+  } else if (take_special_pairs(points, list); !excluded_.empty()) {
+    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
+    params.exclusions = &exclusions;
+  }
   // `dch skin auto` changes the radius.
   if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
   if (list.one_by_one) {
@@ -177,12 +161,6 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
     list.pair_list = {};
   }
   params.shell = 0;
-  if (!points.in_box() && !any_marked) take_special_pairs(points, list);
-  dch::Exclusions exclusions;
-  if (!excluded_.empty()) {
-    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
-    params.exclusions = &exclusions;
-  }
   search.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
 }

@@ -68,7 +68,6 @@ class ClusterListFiller : protected Pointers {
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;
   void take_special_pairs(const AtomPoints& points, ClusterList& list);
   void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
-  bool is_special(const AtomPoints& points, int i, int j) const;
   bool leaves_out_any(const AtomPoints& points) const;
   bool is_left_out(const AtomPoints& points, int i, int j) const;
   std::uint16_t mask_by_pair(const AtomPoints& points, const std::int32_t* own, const std::int32_t* other,

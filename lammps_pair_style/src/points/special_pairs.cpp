@@ -25,17 +25,6 @@ int SpecialPairs::kind(int i, int j) const {
   return 0;
 }
 
-void SpecialPairs::marked_partners(int i, std::vector<tagint>& tags) const {
-  tags.clear();
-  const int* last = atom->nspecial[i];
-  for (int kind = 1, k = 0; kind <= 3; ++kind) {
-    const int end = last[kind - 1];
-    if (neighbor->special_flag[kind] != 1)
-      tags.insert(tags.end(), atom->special[i] + k, atom->special[i] + end);
-    k = end;
-  }
-}
-
 /// Compares the topology with the one that is kept, and keeps it.
 bool SpecialPairs::are_as_before(int count) {
   bool same = tags_.size() == static_cast<std::size_t>(count) &&

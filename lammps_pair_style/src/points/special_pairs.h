@@ -18,8 +18,6 @@ class SpecialPairs : protected Pointers {
   /// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it
   /// never sees.
   int kind(int i, int j) const;
-  /// IDs of the partners of owned atom i whose pairs kind() may tell from ordinary ones.
-  void marked_partners(int i, std::vector<tagint>& tags) const;
   /// Whether owned atom i has such partners at all.
   bool has_partners(int i) const { return atom->molecular != Atom::ATOMIC && atom->nspecial[i][2] > 0; }
   /// Whether there are pairs to be marked.
