@@ -73,11 +73,16 @@ void AtomPasts::copy(int from, int to) {
 }
 
 int AtomPasts::write(int i, double* to) const {
+  if (!has(i)) {  // what stands in the arrays then was perhaps never written
+    std::fill_n(to, 4, 0.0);
+    to[4] = static_cast<double>(kNone);
+    return 5;
+  }
   double* at = to;
   for (int k = 0; k < 3; ++k) *at++ = position(i)[k];
   *at++ = static_cast<double>(image(i));
-  const auto held = has(i) ? partners(i) : dch::Span<const tagint>();
-  *at++ = has(i) ? static_cast<double>(held.size()) : static_cast<double>(kNone);
+  const auto held = partners(i);
+  *at++ = static_cast<double>(held.size());
   for (const tagint partner : held) *at++ = static_cast<double>(partner);
   return static_cast<int>(at - to);
 }
