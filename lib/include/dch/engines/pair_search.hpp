@@ -40,8 +40,9 @@ class PairSearch {
   ///   nothing until the next successful update().
   virtual void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys = {}) = 0;
 
-  /// As update() without keys, for callers who keep `positions` as they are until the next update or the last
-  /// call about this one: the grid reads them there and has no copy.
+  /// As update() without keys, for callers who keep `positions` where and as they are until the next update
+  /// or the last call about this one. The grid reads them there in place of a copy; other engines do as
+  /// update().
   virtual void update_by_reference(Span<const Vec3> positions, const Box& box) { update(positions, box); }
 
   /// All pairs that params asks for, at the positions of the last update.
