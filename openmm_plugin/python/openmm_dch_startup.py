@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Imports openmm_dch as soon as a program has imported openmm; openmm_dch.pth runs this where OPENMM_DCH is 1."""
 
+import importlib
 import importlib.abc
-import importlib.util
 import sys
 
 
@@ -22,12 +22,14 @@ class _Loader(importlib.abc.Loader):
 
 
 class _Finder(importlib.abc.MetaPathFinder):
+    """Finds openmm as the other finders do, each time anew: programs may look for it before they import it."""
+
     def find_spec(self, name, path, target=None):
         if name != "openmm":
             return None
-        sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(name)
-        if spec is not None:
+        found = (finder.find_spec(name, path, target) for finder in sys.meta_path if finder is not self)
+        spec = next((s for s in found if s is not None), None)
+        if spec is not None and spec.loader is not None:  # a folder without __init__.py has none
             spec.loader = _Loader(spec.loader)
         return spec
 

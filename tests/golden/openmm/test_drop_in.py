@@ -128,10 +128,21 @@ class ScriptTest(unittest.TestCase):
               "print(loaded, *[openmm_dch.status(c)[0]['direct'] for c in contexts])\n")
 
     def test_the_environment_variable_needs_no_import(self):
-        out, err = run_script(self.SCRIPT, OPENMM_DCH="1")
-        self.assertEqual(out, "True DCH OpenMM OpenMM\n", err)
-        self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method Ewald is not covered; "
-                              "PME is, and is faster\n")
+        looks_first = "import importlib.util\nassert importlib.util.find_spec('openmm')\n"
+        for script in (self.SCRIPT, looks_first + self.SCRIPT):
+            out, err = run_script(script, OPENMM_DCH="1")
+            self.assertEqual(out, "True DCH OpenMM OpenMM\n", err)
+            self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method Ewald is not covered; "
+                                  "PME is, and is faster\n")
+
+    def test_where_there_is_no_openmm_the_variable_does_no_harm(self):
+        out, err = run_script("import sys\n"
+                              "sys.path[:] = [p for p in sys.path if 'dist-packages' not in p]\n"
+                              "try:\n"
+                              "    import openmm\n"
+                              "except ModuleNotFoundError as error:\n"
+                              "    print(error.name)\n", OPENMM_DCH="1")
+        self.assertEqual((out, err), ("openmm\n", ""))
 
     def test_without_it_nothing_changes(self):
         for value in ("", "0"):
