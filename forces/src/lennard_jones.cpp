@@ -172,10 +172,10 @@ void LennardJones::set_coulomb(const CoulombTerm& term) {
   }
   has_charges_ = true;
   check_coulomb_kind(term);
+  make_series(term);
   has_reaction_field_ = term.quadratic != 0 || term.offset != 0;
   charge_unit_ = std::sqrt(term.constant);
   splitting_ = term.splitting;
-  make_series(term);
   quadratic_ = term.quadratic;
   offset_ = term.offset;
 }
@@ -197,8 +197,10 @@ void LennardJones::check_coulomb_kind(const CoulombTerm& term) const {
 }
 
 void LennardJones::make_series(const CoulombTerm& term) {
-  has_series_ = term.splitting > 0 && term.by_series;
-  if (!has_series_) return;
+  if (!(term.splitting > 0 && term.by_series)) {
+    has_series_ = false;
+    return;
+  }
   constexpr double kMaxErrorSingle = 2e-7, kMaxError = 2e-9;
   using detail::kEwaldTerms;
   detail::EwaldSeries exact = detail::make_ewald_series(term.splitting, largest_cutoff_, kEwaldTerms<double>);
@@ -212,6 +214,7 @@ void LennardJones::make_series(const CoulombTerm& term) {
   energy_series_ = std::move(exact.energy);
   force_series_single_ = std::move(single.force);
   energy_series_single_ = std::move(single.energy);
+  has_series_ = true;
 }
 
 detail::ForceKind LennardJones::kind() const {

@@ -25,8 +25,8 @@ void LennardJones::add(const PairList& pairs, Span<const Vec3> positions, const 
       detail::force_kernels(instruction_set()).pairs.choose(kind(), parameters(), sums != nullptr);
   if (!function)
     throw InvalidParameter(
-        "a pair list was given for a potential with a switch, a reaction field or parameters of particles; "
-        "use cluster pairs");
+        "a pair list was given for a potential with a switch, a reaction field, a series or parameters of "
+        "particles; use cluster pairs");
   // Pairs without types are all of type 0, as in clusters.
   std::vector<std::int32_t> none;
   if (types_ > 1 && pairs.type.empty()) none.assign(pairs.particles, 0);
