@@ -15,8 +15,8 @@ namespace OpenMMDCH {
 /// It is enabled from the start if the environment variable OPENMM_DCH is 1. Contexts that are made already
 /// are not affected. Safe to call from several threads.
 
-/// @throws OpenMMException if no platform of this program has the kernels: their plugins are not loaded, or
-///   were before OpenMM's own.
+/// @throws OpenMMException if OpenMM's platform CPU is missing, and if a platform of this program lacks the
+///   kernels: their plugins are not loaded, or were before OpenMM's own.
 void enableDropIn();
 void disableDropIn();
 bool isDropInEnabled();

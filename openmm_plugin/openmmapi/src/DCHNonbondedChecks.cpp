@@ -27,8 +27,7 @@ void checkCutoff(const DCHNonbondedForce& force, const OpenMM::System& system) {
       force.usesPeriodicBoundaryConditions())
     refuse(
         "the switching distance is 0, for which the dispersion correction has no value; choose a larger one, "
-        "or "
-        "setUseDispersionCorrection(false)");
+        "or setUseDispersionCorrection(false)");
   const double dielectric = force.getReactionFieldDielectric();
   if (!(std::isfinite(dielectric) && dielectric >= 0))
     refuse("the reaction field dielectric is " + textOf(dielectric) + "; it must be finite and not negative");

@@ -38,8 +38,7 @@ void enableDropIn() {
   if (!hasPlatformOfOpenMM("CPU"))
     throw OpenMM::OpenMMException(
         "openmm_dch: OpenMM has no platform CPU here; see whether the environment variable OPENMM_PLUGIN_DIR "
-        "names "
-        "a folder without OpenMM's own plugins");
+        "names a folder without OpenMM's own plugins");
   registry.setEnabled(true);
 }
 

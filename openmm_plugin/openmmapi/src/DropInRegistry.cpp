@@ -46,11 +46,6 @@ bool DropInRegistry::hasPlatform(const std::string& name) {
   return platforms.count(name) > 0;
 }
 
-bool DropInRegistry::hasPlatforms() {
-  const Lock lock(mutex);
-  return !platforms.empty();
-}
-
 void DropInRegistry::countNative() {
   const Lock lock(mutex);
   if (!wasEnabled) ++natives;

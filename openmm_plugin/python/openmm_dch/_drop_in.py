@@ -13,7 +13,8 @@ def enable():
     OpenMM's own kernel, and the reason is written to standard error, once. The environment variable OPENMM_DCH=1 does
     the same from the start.
 
-    Warns the first time if Contexts were made before, which keep what they have. Raises OpenMMException if the kernels are missing.
+    Warns the first time if Contexts were made after the import of the package, which keep what they have. Raises
+    OpenMMException if the kernels are missing.
     """
     if _force.countOfForcesBeforeDropIn() > 0:
         warnings.warn("openmm_dch.enable(): Contexts that were made before keep OpenMM's own forces; call enable() "

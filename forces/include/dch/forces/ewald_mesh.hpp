@@ -19,8 +19,8 @@ namespace dch {
 /// precision: beside the error that its sizes leave, forces are within 1e-6 of their root mean square. Forces
 /// and energy have the same bits on any number of threads. The Fourier transforms are of this library.
 ///
-/// One object belongs to one thread at a time. It keeps the influence function for as long as the box stays,
-/// 16 bytes a point of the mesh and 208 bytes a charge.
+/// One object belongs to one thread at a time. It keeps the influence function for as long as the box stays.
+/// It takes about 12 bytes a point of the mesh and 236 bytes a charge.
 class EwaldMesh {
  public:
   /// @param sizes  points of the mesh along the cell's vectors, at least 5; each is raised to the next number

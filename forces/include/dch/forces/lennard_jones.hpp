@@ -97,8 +97,7 @@ class LennardJones {
   /// Multiplies the Lennard-Jones energy by 1 + t^3 (-10 + t (15 - 6 t)), t = (r - from) / (cutoff - from),
   /// where r > from: energy and force go to 0 smoothly at the cutoff. For cluster pairs only.
   /// @throws InvalidParameter unless 0 <= from < cutoff, and if the energy is shifted, cutoffs differ, that
-  /// of
-  ///   charges too, or charges act as in an Ewald sum without series.
+  ///   of charges too, or charges act as in an Ewald sum without series.
   void set_switch(double from);
   /// Threads to compute forces of cluster pairs with; null for that of the caller alone. Not owned.
   void set_executor(Executor* executor) { executor_ = executor; }

@@ -25,7 +25,6 @@ class DropInRegistry {
   /// A platform now has the kernels.
   void addPlatform(const std::string& name);
   bool hasPlatform(const std::string& name);
-  bool hasPlatforms();
   /// A force was given to OpenMM's kernel because the drop-in is not enabled.
   void countNative();
   /// How often that happened before it was first enabled; 0 from then on.
