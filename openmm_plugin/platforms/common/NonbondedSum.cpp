@@ -48,7 +48,10 @@ void NonbondedSum::copyParameters(const OpenMM::System& system, const OpenMM::No
 }
 
 void NonbondedSum::follow(OpenMM::ContextImpl& context) {
-  if (parameterSet->follow(context)) withErrorsOfHost([&] { parametersChanged(); });
+  if (parameterSet->follow(context)) isFollowed = false;
+  if (isFollowed) return;
+  withErrorsOfHost([&] { parametersChanged(); });
+  isFollowed = true;  // not where parameters were refused, which are refused the next time too
 }
 
 HostState NonbondedSum::stateOf(OpenMM::ContextImpl& context) const {

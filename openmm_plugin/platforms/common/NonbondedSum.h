@@ -60,7 +60,7 @@ class NonbondedSum {
   double addExceptions(const HostState& state) const;
   double addException(const HostState& state, const DCHParameterSet::Exception& exception) const;
 
-  bool isPeriodic = false, exceptionsArePeriodic = false;
+  bool isPeriodic = false, exceptionsArePeriodic = false, isFollowed = false;
   std::optional<DCHParameterSet> parameterSet;
   std::optional<PairPotential> pairPotential;
   dch::Exclusions excludedPairs;

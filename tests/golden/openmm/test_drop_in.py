@@ -114,6 +114,22 @@ class DropInTest(unittest.TestCase):
         self.assertEqual(openmm_dch.status(contexts[0])[0]["direct"], "DCH")
 
 
+    def test_parameters_that_are_refused_are_refused_again(self):
+        """OpenMM itself lets NaN pass."""
+        system, positions, _ = pme_water()
+        force, = (f for f in system.getForces() if isinstance(f, openmm.NonbondedForce))
+        context = context_of(system, "CPU")
+        energy = energy_and_forces(context, positions)[0]
+        parameters = force.getParticleParameters(0)
+        force.setParticleParameters(0, 0, float("nan"), 1)
+        force.updateParametersInContext(context)
+        for _ in range(2):
+            self.assertRaisesRegex(openmm.OpenMMException, "sigma is nan", energy_and_forces, context)
+        force.setParticleParameters(0, *parameters)
+        force.updateParametersInContext(context)
+        self.assertEqual(energy_and_forces(context)[0], energy)
+
+
 class ScriptTest(unittest.TestCase):
     SCRIPT = ("import openmm, sys\n"
               "from openmm_systems import context_of, water_box\n"
