@@ -2,6 +2,7 @@
 #include "internal/DCHParameterSet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <openmm/OpenMMException.h>
 
 #include "internal/DCHNonbondedChecks.h"
@@ -13,6 +14,16 @@ namespace {
   throw OpenMM::OpenMMException("updateParametersInContext: the number of " + what + " has changed from " +
                                 std::to_string(before) + " to " + std::to_string(now) +
                                 "; reinitialize the Context");
+}
+
+/// OpenMM lets NaN pass where parameters are updated, and NonbondedForce at first too. Compared with the
+/// parameters of others it would be taken for equal.
+void checkParticle(const DCHParameterSet::Particle& p, std::size_t i) {
+  if (std::isfinite(p.charge) && std::isfinite(p.sigma + p.epsilon) && p.sigma >= 0 && p.epsilon >= 0) return;
+  const std::string of = "particle " + std::to_string(i);
+  checkFinite("charge", p.charge, of);
+  checkNotNegative("sigma", p.sigma, of);
+  checkNotNegative("epsilon", p.epsilon, of);
 }
 
 }  // namespace
@@ -103,6 +114,7 @@ void DCHParameterSet::evaluate(OpenMM::ContextImpl& context) {
     checkNotNegative("sigma", e.sigma, of);
     checkNotNegative("epsilon", e.epsilon, of);
   }
+  for (std::size_t i = 0; i < nowParticles.size(); ++i) checkParticle(nowParticles[i], i);
   anyCharge =
       std::any_of(nowParticles.begin(), nowParticles.end(), [](const Particle& p) { return p.charge != 0; });
 }

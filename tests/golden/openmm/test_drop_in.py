@@ -118,16 +118,22 @@ class DropInTest(unittest.TestCase):
         """OpenMM itself lets NaN pass."""
         system, positions, _ = pme_water()
         force, = (f for f in system.getForces() if isinstance(f, openmm.NonbondedForce))
-        context = context_of(system, "CPU")
-        energy = energy_and_forces(context, positions)[0]
-        parameters = force.getParticleParameters(0)
-        force.setParticleParameters(0, 0, float("nan"), 1)
-        force.updateParametersInContext(context)
-        for _ in range(2):
-            self.assertRaisesRegex(openmm.OpenMMException, "sigma is nan", energy_and_forces, context)
-        force.setParticleParameters(0, *parameters)
-        force.updateParametersInContext(context)
-        self.assertEqual(energy_and_forces(context)[0], energy)
+        parameters = force.getParticleParameters(3)
+        nan, alike = float("nan"), parameters[2]  # of all other oxygens
+        cases = [("charge of particle 3", (nan, 0.3, 1)), ("sigma of particle 3", (0, nan, alike)),
+                 ("epsilon of particle 3", (0, 0.3, nan)), ("sigma of particle 3", (0, -1, 1))]
+        out_of_range = ("epsilon is inf", (0, 1, 1e300))  # of pairs, which are made beforehand on one platform alone
+        for platform in PLATFORMS:
+            context = context_of(system, platform)
+            energy = energy_and_forces(context, positions)[0]
+            for message, bad in cases + [out_of_range] * (platform == "CPU"):
+                force.setParticleParameters(3, *bad)
+                force.updateParametersInContext(context)
+                for _ in range(2):
+                    self.assertRaisesRegex(openmm.OpenMMException, message, energy_and_forces, context)
+                force.setParticleParameters(3, *parameters)
+                force.updateParametersInContext(context)
+                self.assertEqual(energy_and_forces(context)[0], energy)
 
 
 class ScriptTest(unittest.TestCase):

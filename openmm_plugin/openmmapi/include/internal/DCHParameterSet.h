@@ -31,7 +31,8 @@ class DCHParameterSet {
   void take(const OpenMM::NonbondedForce& force);
 
   /// Follows the Context's global parameters. Says whether anything has changed since the last call.
-  /// @throws OpenMMException if an offset makes a sigma or an epsilon negative.
+  /// @throws OpenMMException if a sigma or an epsilon is negative, by an offset or since an update, or a
+  ///   number of a particle is not finite.
   bool follow(OpenMM::ContextImpl& context);
 
   const std::vector<Particle>& particles() const { return nowParticles; }
