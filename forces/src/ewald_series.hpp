@@ -14,7 +14,7 @@ struct EwaldSeries {
 };
 
 /// Through the functions' values at Chebyshev's nodes, so the error is near the least that so many terms can
-/// have. With x = splitting * cutoff it is below 2e-7 for 14 terms and x <= 3.6, below 2e-9 for 26 and x
+/// have. With x = splitting * cutoff it is below 2e-7 for 14 terms and x < 3.6, below 2e-9 for 26 and x
 /// <= 6.
 EwaldSeries make_ewald_series(double splitting, double cutoff, int terms);
 

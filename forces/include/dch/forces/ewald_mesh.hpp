@@ -16,7 +16,7 @@ namespace dch {
 ///
 /// The energy is that of each pair and all its images, constant q_i q_j erf(splitting r) / r, and of each
 /// charge with itself, constant splitting / sqrt(pi) q_i^2, which a caller takes away. The mesh is in single
-/// precision: beside the error that its sizes leave, forces are within 1e-6 of their root mean square. Forces
+/// precision: beside the error that its sizes leave, forces are within 3e-6 of their root mean square. Forces
 /// and energy have the same bits on any number of threads. The Fourier transforms are of this library.
 ///
 /// One object belongs to one thread at a time. It keeps the influence function for as long as the box stays.

@@ -45,7 +45,7 @@ struct LennardJonesParticle {
 /// is positive, with what an Ewald sum leaves to pairs, constant q_i q_j erfc(splitting r) / r. erfc is taken
 /// from formula 7.1.26 of Abramowitz and Stegun, Handbook of Mathematical Functions (1964), as in LAMMPS:
 /// within 1.5e-7; or, where `by_series` asks for it and all cutoffs are one, from a series that is faster and
-/// exact to rounding (in double precision to 1e-9 where splitting times cutoff is over 4.5). Where
+/// exact to rounding (in double precision to 2e-9 where splitting times cutoff is over 4.5). Where
 /// `quadratic` or `offset` is not 0 they act in a reaction field, with the energy constant q_i q_j (1/r +
 /// quadratic r^2 - offset) (Tironi, Sperb, Smith and van Gunsteren, J. Chem. Phys. 102:5451, 1995).
 struct CoulombTerm {
