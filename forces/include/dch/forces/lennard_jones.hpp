@@ -103,8 +103,8 @@ class LennardJones {
   void set_executor(Executor* executor) { executor_ = executor; }
 
   int types() const { return types_; }
-  /// Whether single precision can hold the coefficients: else only ForcePrecision::double_precision is to be
-  /// had.
+  /// Whether single precision can hold the coefficients and its series are long enough: else only
+  /// ForcePrecision::double_precision is to be had.
   bool fits_single() const { return fits_single_; }
   /// Of charges too.
   double largest_cutoff() const { return largest_cutoff_; }
@@ -113,8 +113,8 @@ class LennardJones {
   /// O(entries).
   /// @param charges one per particle, or none if no CoulombTerm was set [charge]
   /// @throws InvalidParameter if forces or charges are not one per particle, if the cutoff exceeds the radius
-  ///   that the pairs were made for, if they have more types than this, or if the coefficients leave the
-  ///   range of single precision and `precision` is mixed.
+  ///   that the pairs were made for, if they have more types than this, or if `precision` is mixed and not
+  ///   fits_single().
   void add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                   Span<const double> charges = {});
   /// The same, with energy and virial: a quarter slower.
@@ -125,7 +125,7 @@ class LennardJones {
   /// @param positions of the particles now, which have not been wrapped since the list was made [length]
   /// @param now the cell now; of the same periodicity
   /// @throws InvalidParameter as above, if positions are not one per particle, and for a switch, a reaction
-  ///   field or parameters of particles; InvalidBox for another periodicity
+  ///   field, a series or parameters of particles; InvalidBox for another periodicity
   void add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
                   Span<const double> charges = {}) const;
   LennardJonesSums add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions, const Box& now,
