@@ -92,7 +92,9 @@ void fft_step(const FftPlan::Step& step, std::size_t width, float sign, ComplexA
       in[k] = {from.re + source, from.im + source};
       out[k] = {to.re + target, to.im + target};
     }
+#ifndef __clang__  // has no such pragma, and tests at run time whether arrays overlap
 #pragma GCC ivdep
+#endif
     for (std::size_t q = 0; q < width; ++q) {
       Elements<kRadix> x;
       for (int k = 0; k < kRadix; ++k) {
