@@ -135,23 +135,21 @@ class Refused(unittest.TestCase):
         crossings = dch.Crossings(len(frames[0]), bonds_of_chains(len(frames[0])))
         refused = []
 
-        def other():
-            try:
-                crossings.start(frames[1])
-            except RuntimeError as error:
-                refused.append(str(error))
+        def call_until_refused(call):
+            for _ in range(10000):
+                if refused:
+                    return
+                try:
+                    call(frames[1])
+                except RuntimeError as error:
+                    refused.append(str(error))
 
-        for _ in range(50):  # until the other one comes at the right moment
-            crossings.start(frames[0])
-            thread = threading.Thread(target=other)
-            thread.start()
-            try:
-                crossings.step(frames[1])
-            except RuntimeError as error:
-                refused.append(str(error))
-            thread.join()
-            if refused:
-                break
+        crossings.start(frames[0])
+        thread = threading.Thread(target=call_until_refused, args=[crossings.start])
+        thread.start()
+        call_until_refused(crossings.step)
+        thread.join()
+        self.assertTrue(refused, "10,000 calls from each of two threads, and none at the same time")
         self.assertRegex(refused[0], "another thread is using this Crossings")
 
     def test_a_forked_process_has_threads_of_its_own(self):
