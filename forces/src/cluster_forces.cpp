@@ -161,8 +161,8 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
   check(pairs, forces.size(), charges.size());
   if (precision == ForcePrecision::mixed && !fits_single_)
     throw InvalidParameter(
-        "a coefficient or squared cutoff is outside 1.2e-38..3.4e38, the range of single precision, or a "
-        "series has a splitting times cutoff of 3.6 or more; use other units or "
+        "a series has a splitting times cutoff of 3.6 or more, or a coefficient or squared cutoff is "
+        "outside 1.2e-38..3.4e38, the range of single precision; use other units or "
         "ForcePrecision::double_precision");
   if (pairs.tasks.size() < 2) return;
   if (precision == ForcePrecision::mixed) {

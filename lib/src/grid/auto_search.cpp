@@ -37,8 +37,17 @@ std::string with_one_digit(double v) {
 AutoSearch::AutoSearch(const HierarchyParams& params)
     : params_(params), hierarchy_(make_dch_search(params)), grid_(params.radius, params.executor) {}
 
+void AutoSearch::update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
+  update_by(positions, box, keys, [&] { grid_.update(positions, box, keys); });
+}
+
+void AutoSearch::update_by_reference(Span<const Vec3> positions, const Box& box) {
+  update_by(positions, box, {}, [&] { grid_.update_by_reference(positions, box); });
+}
+
+template <class UpdateGrid>
 void AutoSearch::update_by(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys,
-                           const std::function<void()>& update_grid) {
+                           const UpdateGrid& update_grid) {
   const bool changed =
       differs(static_cast<double>(positions.size()), static_cast<double>(chosen_by_.particles)) ||
       differs(volume_of(box), chosen_by_.volume);

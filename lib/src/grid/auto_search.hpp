@@ -18,12 +18,8 @@ class AutoSearch final : public PairSearch {
  public:
   explicit AutoSearch(const HierarchyParams& params);
 
-  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override {
-    update_by(positions, box, keys, [&] { grid_.update(positions, box, keys); });
-  }
-  void update_by_reference(Span<const Vec3> positions, const Box& box) override {
-    update_by(positions, box, {}, [&] { grid_.update_by_reference(positions, box); });
-  }
+  void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
+  void update_by_reference(Span<const Vec3> positions, const Box& box) override;
   void list(const ListParams& params, NeighborList& out) override {
     choose({&params, 1});
     engine().list(params, out);
@@ -63,8 +59,9 @@ class AutoSearch final : public PairSearch {
     double distances = 0;  ///< that the hierarchy computed at an update, for each particle
   };
   PairSearch& engine() { return by_grid_ ? static_cast<PairSearch&>(grid_) : *hierarchy_; }
+  template <class UpdateGrid>
   void update_by(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys,
-                 const std::function<void()>& update_grid);
+                 const UpdateGrid& update_grid);
   void serve_pairs();
   void choose(Span<const ListParams> requests);
   void choose_by(const Scene& scene, bool has_cells);
