@@ -33,24 +33,28 @@ double cutoff_of(const ListLimits& limits, const OwnBlocks& own, std::int32_t bl
 }  // namespace
 
 void OpenPairs::note(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t before,
-                     const Candidates& near, const OpenCandidate* open, std::int32_t open_count) {
+                     const Candidates& near, const OpenLanes* open, std::int32_t open_count) {
   const ListLimits& limits = request.limits;
-  const std::size_t most = count_ + static_cast<std::size_t>(open_count) + 1;
-  if (open_.size() < most) open_.resize(2 * most);
-  for (const OpenCandidate* other = open; other != open + open_count; ++other) {
-    // Without branches: whether a pair is near enough is hard to foretell.
-    const std::int32_t row = other->row, at = other->at;
-    const double d2 = squared_distance(own.points[block], row, near, at);
-    const double cutoff = cutoff_of(limits, own, block, row, near.tag[at]);
-    const double less = std::max(cutoff - limits.off, 0.0), more = cutoff + limits.off;
-    const bool is_in = d2<less * less, is_out = d2> more * more;
-    OpenPair& pair = open_[count_];
-    pair.edit = {before + other->segment, near.id[at], !other->is_within};
-    pair.i = own.particle[block][row];
-    pair.is_decided = is_in || is_out;
-    request.filter->ask_for(pair.i, pair.edit.id);
-    const bool is_right = other->is_within ? is_in : is_out;
-    count_ += static_cast<std::size_t>(!is_right);
+  for (const OpenLanes* lanes = open; lanes != open + open_count; ++lanes) {
+    const std::int32_t row = lanes->row;
+    if (open_.size() < count_ + kChunk) open_.resize(2 * count_ + kChunk);
+    for (std::uint32_t rest = lanes->lanes; rest != 0; rest &= rest - 1) {
+      // Without branches: whether a pair is near enough is hard to foretell.
+      const std::uint32_t bit = rest & -rest;
+      const std::int32_t at = lanes->chunk * kChunk + __builtin_ctz(rest);
+      const double d2 = squared_distance(own.points[block], row, near, at);
+      const double cutoff = cutoff_of(limits, own, block, row, near.tag[at]);
+      const double less = std::max(cutoff - limits.off, 0.0), more = cutoff + limits.off;
+      const bool is_in = d2<less * less, is_out = d2> more * more, is_written = (lanes->within & bit) != 0;
+      OpenPair& pair = open_[count_];
+      pair.edit = {before + lanes->segment, lanes->before + __builtin_popcount(lanes->within & (bit - 1)),
+                   near.id[at], !is_written};
+      pair.i = own.particle[block][row];
+      pair.is_decided = is_in || is_out;
+      request.filter->ask_for(pair.i, pair.edit.id);
+      const bool is_right = is_written ? is_in : is_out;
+      count_ += static_cast<std::size_t>(!is_right);
+    }
   }
 }
 
@@ -62,9 +66,6 @@ const std::vector<RowEdit>& OpenPairs::decide(const PairFilter& filter) {
     if (pair.is_decided || filter.accept(pair.i, pair.edit.id) == pair.edit.is_missing)
       edits_.push_back(pair.edit);
   }
-  std::sort(edits_.begin(), edits_.end(), [](const RowEdit& a, const RowEdit& b) {
-    return a.segment != b.segment ? a.segment < b.segment : a.id < b.id;
-  });
   return edits_;
 }
 

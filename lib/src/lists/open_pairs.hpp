@@ -12,7 +12,8 @@ namespace dch::detail {
 
 /// An entry that a row has and is to lose, or that it lacks and is to get.
 struct RowEdit {
-  std::int32_t segment;  ///< see OpenCandidate
+  std::int32_t segment;  ///< see OpenLanes
+  std::int32_t place;    ///< in the segment as it was written
   std::int32_t id;
   bool is_missing;
 };
@@ -24,8 +25,8 @@ class OpenPairs {
   /// Decides what the rows of a block have left open, or notes it if that takes the positions.
   /// @param before segments of the blocks before
   void note(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t before,
-            const Candidates& near, const OpenCandidate* open, std::int32_t open_count);
-  /// Decides what has been noted since clear(). Returns what rows as written have wrong, by segment and id.
+            const Candidates& near, const OpenLanes* open, std::int32_t open_count);
+  /// Decides what has been noted since clear(). Returns what rows as written have wrong, in their order.
   const std::vector<RowEdit>& decide(const PairFilter& filter);
   std::size_t memory_bytes() const {
     return open_.capacity() * sizeof(OpenPair) + edits_.capacity() * sizeof(RowEdit);

@@ -70,15 +70,28 @@ void RowFinder::append_group(const RowRequest& request, const OwnBlocks& own, st
   if (is_restricted && as_written_.size() < most) as_written_.resize(most);
   std::int32_t* const to = is_restricted ? as_written_.data() : out.j.data() + written;
   write_group(request, own, first, last, to);
-  edit_rows(open_.decide(*request.filter), to);
-  if (is_restricted) restrict_rows(request, own, first, out);
+  const std::vector<RowEdit>& edits = open_.decide(*request.filter);
+  if (is_restricted) {
+    finish_rows(request, own, first, 0, edits, out);
+  } else if (!edits.empty()) {
+    const std::int32_t all = segment_end_[segments_];
+    if (as_written_.size() < static_cast<std::size_t>(all)) as_written_.resize(static_cast<std::size_t>(all));
+    const std::int32_t unchanged = segment_end_[edits.front().segment];
+    std::copy(to + unchanged, to + all, as_written_.data() + unchanged);
+    finish_rows(request, own, first, edits.front().segment, edits, out);
+  }
   append_ends(request, own, first, last, out);
 }
 
 void RowFinder::make_room(std::int32_t count) {
   near_.resize(kGroup);
+  const std::size_t room = static_cast<std::size_t>(rounded_up(count, kChunk)) + 2 * kChunk;
+  const std::size_t entries = room / kChunk * 2 * kBlock;
   segment_end_.resize(std::size_t{2} * kGroup * kBlock + 1);
-  for (BlockNear& near : near_) near.candidates.make_room(static_cast<std::size_t>(count) + 2 * kChunk);
+  if (room_ >= entries) return;
+  open_lanes_.resize(entries);
+  for (BlockNear& near : near_) near.candidates.make_room(room);
+  room_ = entries;
 }
 
 /// Writes the rows of a group as the kernels find them, and notes where each segment ends and what they leave
@@ -98,17 +111,15 @@ void RowFinder::write_group(const RowRequest& request, const OwnBlocks& own, std
   for (std::int32_t block = first; block < last; ++block) {
     BlockNear& others = near_[block - first];
     all.rows = near.rows = own.tags == nullptr ? nullptr : own.tags[block].data();
-    const auto most_open = static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(others.count) + 1;
-    if (open_candidates_.size() < most_open) open_candidates_.resize(2 * most_open);
     const std::int32_t written = segment_end_[segments_];
     std::int32_t* const end = segment_end_.data() + segments_ + 1;
-    const RowsTo target{to + written, end, open_candidates_.data(), own.are_candidates};
+    const RowsTo target{to + written, end, open_lanes_.data(), own.are_candidates};
     const Candidates candidates = others.candidates.at(0);
     const std::int32_t open = kernel(own.points[block], own.count[block], candidates, others.count, all,
                                      limits.has_shell ? &near : nullptr, target);
     const std::int32_t segments = own.count[block] * (limits.has_shell ? 2 : 1);
     for (std::int32_t s = 0; s < segments; ++s) end[s] += written;
-    open_.note(request, own, block, segments_, candidates, open_candidates_.data(), open);
+    open_.note(request, own, block, segments_, candidates, open_lanes_.data(), open);
     segments_ += segments;
   }
 }
@@ -122,45 +133,51 @@ void RowFinder::ask_for_exclusions(const PairFilter& filter, const OwnBlocks& ow
       __builtin_prefetch(filter.excluded_with(own.particle[block][row]).data());
 }
 
-/// Puts right what the kernels' rows of a group have wrong. All behind an entry that comes or goes moves:
-/// rare.
-void RowFinder::edit_rows(const std::vector<RowEdit>& edits, std::int32_t* rows) {
-  for (const RowEdit& edit : edits) {
-    std::int32_t* const begin = rows + segment_end_[edit.segment];
-    std::int32_t* const end = rows + segment_end_[edit.segment + 1];
-    std::int32_t* const last = rows + segment_end_[segments_];
-    if (edit.is_missing) {
-      std::copy_backward(end, last, last + 1);
-      *end = edit.id;
-    } else {
-      std::int32_t* const at = std::find(begin, end, edit.id);
-      std::copy(at + 1, last, at);
-    }
-    for (std::int32_t s = edit.segment + 1; s <= segments_; ++s) segment_end_[s] += edit.is_missing ? 1 : -1;
-  }
-}
-
-/// Copies the rows of a group from as_written_ to behind the rows of the groups before, without what is to be
-/// left out of them.
-void RowFinder::restrict_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
-                              NeighborList& out) {
+/// Copies the segments of a group from `segment` on as they are to be: from as_written_ to behind the rows of
+/// the groups before.
+void RowFinder::finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
+                            std::int32_t segment, const std::vector<RowEdit>& edits, NeighborList& out) {
   std::int32_t* const to = out.j.data() + out.first.back();
+  const RowEdit* edit = edits.data();
+  const RowEdit* const end = edit + edits.size();
   const int parts = request.limits.has_shell ? 2 : 1;
-  std::int32_t row = 0;  // of the blocks from `block` on
-  std::int32_t begin = 0, written = 0;
-  for (std::int32_t s = 0; s < segments_; ++s) {
+  std::int32_t row = segment / parts;  // of the blocks from `block` on
+  std::int32_t begin = segment_end_[segment], written = begin;
+  for (std::int32_t s = segment; s < segments_; ++s) {
     for (; row >= own.count[block]; ++block) row -= own.count[block];
-    const std::int32_t particle = own.particle[block][row], end = segment_end_[s + 1];
-    const std::int32_t* const from = as_written_.data() + begin;
-    if (request.limits.per_pair || request.filter->restricts(particle)) {
-      written += restricted_row(request, particle, from, end - begin, to + written);
-    } else {
-      written = static_cast<std::int32_t>(std::copy(from, from + (end - begin), to + written) - to);
-    }
-    begin = end;
+    const std::int32_t length = segment_end_[s + 1] - begin;
+    const RowEdit* const first = edit;
+    while (edit != end && edit->segment == s) ++edit;
+    written += finish_segment(request, own.particle[block][row], as_written_.data() + begin, length,
+                              {first, static_cast<std::size_t>(edit - first)}, to + written);
+    begin += length;
     segment_end_[s + 1] = written;
     row += static_cast<std::int32_t>((s + 1) % parts == 0);
   }
+}
+
+/// Returns the length of the segment.
+std::int32_t RowFinder::finish_segment(const RowRequest& request, std::int32_t particle,
+                                       const std::int32_t* from, std::int32_t length,
+                                       Span<const RowEdit> edits, std::int32_t* to) const {
+  std::int32_t taken = 0, written = 0;
+  const auto copy_until = [&](std::int32_t place) {
+    std::copy(from + taken, from + place, to + written);
+    written += place - taken;
+    taken = place;
+  };
+  for (const RowEdit& edit : edits) {
+    copy_until(edit.place);
+    if (edit.is_missing) {
+      to[written++] = edit.id;
+    } else {
+      ++taken;
+    }
+  }
+  const bool is_restricted = request.limits.per_pair || request.filter->restricts(particle);
+  if (is_restricted && edits.empty()) return restricted_row(request, particle, from, length, to);
+  copy_until(length);
+  return is_restricted ? restricted_row(request, particle, to, written, to) : written;
 }
 
 /// Where the rows of a finished group end, and whose they are.
@@ -203,7 +220,7 @@ std::int32_t RowFinder::restricted_row(const RowRequest& request, std::int32_t p
 
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes = open_.memory_bytes() + bytes_of(open_candidates_) + bytes_of(as_written_) +
+  std::size_t bytes = open_.memory_bytes() + bytes_of(open_lanes_) + bytes_of(as_written_) +
                       bytes_of(segment_end_) + around_request_.memory_bytes() + around_group_.memory_bytes();
   for (const BlockNear& near : near_) bytes += near.candidates.memory_bytes();
   return bytes;

@@ -47,8 +47,10 @@ class RowFinder {
                    std::int32_t* to);
   static void ask_for_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first,
                                  std::int32_t last);
-  void edit_rows(const std::vector<RowEdit>& edits, std::int32_t* rows);
-  void restrict_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block, NeighborList& out);
+  void finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t segment,
+                   const std::vector<RowEdit>& edits, NeighborList& out);
+  std::int32_t finish_segment(const RowRequest& request, std::int32_t particle, const std::int32_t* from,
+                              std::int32_t length, Span<const RowEdit> edits, std::int32_t* to) const;
   std::int32_t restricted_row(const RowRequest& request, std::int32_t particle, const std::int32_t* row,
                               std::int32_t count, std::int32_t* to) const;
   void append_ends(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
@@ -57,12 +59,13 @@ class RowFinder {
   const ListKernels* kernels_ = nullptr;
   std::int64_t tested_ = 0;
   CandidateStore around_request_, around_group_;
-  std::vector<BlockNear> near_;                 ///< of the blocks that are looked at together
-  std::vector<OpenCandidate> open_candidates_;  ///< of one of them
+  std::vector<BlockNear> near_;        ///< of the blocks that are looked at together
+  std::vector<OpenLanes> open_lanes_;  ///< of one of them
+  std::size_t room_ = 0;               ///< entries of open_lanes_; near_ has room for as many candidates
   /// Of the blocks that are looked at together, where each segment ends, after a 0.
   std::vector<std::int32_t> segment_end_;
   std::int32_t segments_ = 0;
-  std::vector<std::int32_t> as_written_;  ///< their rows, where exclusions, ghosts or cutoffs restrict them
+  std::vector<std::int32_t> as_written_;  ///< their rows, where these are not as they are to be
   OpenPairs open_;
 };
 

@@ -68,19 +68,20 @@ struct RowLimits {
   const std::int16_t* rows = nullptr;  ///< sizes or types of the rows
 };
 
-/// A candidate that is open in a row. A row is one segment, or two where it has a shell: near ones first.
-struct OpenCandidate {
-  std::int32_t at;            ///< its place among the candidates
-  std::uint8_t row, segment;  ///< of the block
-  bool is_within;             ///< whether its id is in the segment
+/// Lanes of a chunk that are open in a row. A row is one segment, or two where it has a shell: near ones
+/// first.
+struct OpenLanes {
+  std::int32_t row, segment, chunk;
+  std::int32_t before;          ///< entries of the segment in the chunks before
+  std::uint32_t lanes, within;  ///< within: lanes whose ids are in the segment
 };
 
 /// Where rows are written.
 struct RowsTo {
-  std::int32_t* j;      ///< segment after segment; up to kChunk entries beyond are overwritten
-  std::int32_t* end;    ///< by segment
-  OpenCandidate* open;  ///< room for one a row and candidate, and one more
-  bool own_first;       ///< the first candidates are the block's points: a row takes those after its own
+  std::int32_t* j;    ///< segment after segment; up to kChunk entries beyond are overwritten
+  std::int32_t* end;  ///< by segment
+  OpenLanes* open;    ///< room for two a row and chunk
+  bool own_first;     ///< the first candidates are the block's points: a row takes those after its own
 };
 
 /// The loops that lists are made with, compiled for one instruction set. No function allocates.
@@ -119,8 +120,7 @@ struct ListKernels {
 
   /// Tests the first `count` points of a block, its rows, against candidates, and writes the ids of those
   /// within the limits, in order. Rows have a shell if `near` is not null: those within it, which leaves
-  /// nothing open, come first. Returns how many OpenCandidates were noted, segment by segment, those of one
-  /// in any order.
+  /// nothing open, come first. Returns how many OpenLanes were noted, in the order of segments and chunks.
   using Rows = std::int32_t(const BlockPoints& points, std::int32_t count, const Candidates& candidates,
                             std::int32_t candidate_count, const RowLimits& limits, const RowLimits* near,
                             const RowsTo& to);

@@ -13,20 +13,7 @@ constexpr std::int32_t kIdsInLine = 16;  ///< of a cache line
 
 // NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
 
-// --- the same numbers for one pair
-
-inline int saturated(int v) { return v < 32767 ? v : 32767; }
-inline int square(int d) { return (d * d + 0x4000) >> 15; }
-
-/// Of row and candidate k.
-inline int sum_of_pair(const BlockPoints& points, int row, const Candidates& candidates, std::int32_t k) {
-  const auto difference = [](int a, int b) { return static_cast<std::int16_t>(a - b); };
-  return saturated(square(difference(candidates.x[k], points.x[row])) +
-                   square(difference(candidates.y[k], points.y[row])) +
-                   square(difference(candidates.z[k], points.z[row])));
-}
-
-// --- limits of a row's pairs: `middle(k)` for the candidates from k on, as RowLimits has it, and of one pair
+// --- limits of a row's pairs: `middle(k)` for the candidates from k on, as RowLimits has it
 
 template <class Simd>
 struct OneMiddle {
@@ -34,7 +21,6 @@ struct OneMiddle {
   explicit OneMiddle(const RowLimits& limits, const Candidates&) : all(Simd::set1(limits.middle)) {}
   void use_row(int) {}
   V middle(std::int32_t) const { return all; }
-  static int of_pair(const RowLimits& limits, const Candidates&, int, std::int32_t) { return limits.middle; }
   V all;
 };
 
@@ -46,9 +32,6 @@ struct MiddleBySize {
   void use_row(int row) { size = Simd::set1(static_cast<std::int16_t>(sizes[row] + skin)); }
   V middle(std::int32_t k) const {
     return Simd::adds(Simd::square(Simd::adds(Simd::load(tags + k), size)), raise);
-  }
-  static int of_pair(const RowLimits& limits, const Candidates& candidates, int row, std::int32_t k) {
-    return saturated(square(saturated(candidates.tag[k] + limits.rows[row] + limits.skin)) + limits.raise);
   }
   const std::int16_t *sizes, *tags;
   std::int16_t skin;
@@ -62,9 +45,6 @@ struct MiddleByType {
       : types(limits.rows), tags(candidates.tag), by_type(limits.by_type) {}
   void use_row(int row) { of_row = Simd::table(by_type[types[row]].limit); }
   V middle(std::int32_t k) const { return Simd::look_up(of_row, Simd::load(tags + k)); }
-  static int of_pair(const RowLimits& limits, const Candidates& candidates, int row, std::int32_t k) {
-    return limits.by_type[limits.rows[row]].limit[candidates.tag[k]];
-  }
   const std::int16_t *types, *tags;
   const TypeLimits* by_type;
   typename Simd::Table of_row{};
@@ -126,42 +106,29 @@ struct ValidLanes {
   int step;
 };
 
-/// What a row is made of.
-template <class Middle>
-struct RowPairs {
-  const BlockPoints& points;
-  const Candidates& candidates;
-  std::int32_t count;
-  const RowLimits& limits;
-  int above_band(int row, std::int32_t k) const {
-    return sum_of_pair(points, row, candidates, k) - Middle::of_pair(limits, candidates, row, k) +
-           limits.band;
-  }
-  bool is_within(int row, std::int32_t k) const { return above_band(row, k) < limits.band; }
-};
-
-template <class Simd>
-std::uint32_t lanes_below(typename Simd::V least, std::uint16_t width) {
-  return Simd::bits_below(least, Simd::set1(static_cast<std::int16_t>(width))) & Simd::kAll;
-}
-
-/// Notes the candidates from `first` on that are open in a row, of which some lanes have one at least. Rare,
-/// so apart from the loop over all chunks, and one by one: a row has one of them as a rule.
-/// @param lanes bit k % kLanes of the candidates k to be looked at
-/// @param in_segment `(k)`: whether candidate k belongs to the segment
+/// Rare, so apart from the loop over all chunks, and with copies of what that keeps in registers.
+/// `in_segment(chunk)`: its lanes that belong to the segment.
 template <class Simd, class Middle, class InSegment>
-[[gnu::noinline]] std::int32_t note_open(const RowPairs<Middle>& pairs, int row, std::int32_t first,
-                                         std::uint32_t lanes, int segment, const InSegment& in_segment,
-                                         OpenCandidate* open) {
-  const int band = pairs.limits.band;
-  std::int32_t noted = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    for (std::int32_t k = __builtin_ctz(lanes); k < pairs.count; k += Simd::kLanes) {
-      const int above = pairs.above_band(row, k);
-      const int is_open = (above >= 0) & (above < 2 * band) & (k >= first) & static_cast<int>(in_segment(k));
-      open[noted] = {k, static_cast<std::uint8_t>(row), static_cast<std::uint8_t>(segment), above < band};
-      noted += is_open;
+[[gnu::noinline]] std::int32_t note_open(RowTest<Simd, Middle> test, ValidLanes valid, std::int16_t band,
+                                         std::int32_t row, InSegment in_segment, std::int32_t segment,
+                                         OpenLanes* open) {
+  using V = typename Simd::V;
+  std::int32_t noted = 0, before = 0;
+  for (std::int32_t chunk = 0; chunk < valid.chunks; ++chunk) {
+    std::uint32_t within = 0, in_band = 0;
+    for (int part = 0; part < kChunk / Simd::kLanes; ++part) {
+      const std::int32_t k = chunk * kChunk + part * Simd::kLanes;
+      const V t = test.sum(k), middle = test.limit.middle(k);
+      const V above = Simd::sub(t, Simd::sub(middle, test.band));
+      within |= (Simd::bits_greater(middle, t) & Simd::kAll) << (part * Simd::kLanes);
+      in_band |= (Simd::bits_below(above, Simd::set1(static_cast<std::int16_t>(2 * band))) & Simd::kAll)
+                 << (part * Simd::kLanes);
     }
+    const std::uint32_t lanes = valid(chunk) & in_segment(chunk);
+    within &= lanes;
+    in_band &= lanes;
+    if (in_band != 0) open[noted++] = {row, segment, chunk, before, in_band, within};
+    before += __builtin_popcount(within);
   }
   return noted;
 }
@@ -174,11 +141,12 @@ std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Cand
   const std::int32_t chunks = kFixed > 0 ? kFixed : (count + kChunk - 1) / kChunk;
   RowTest<Simd, Middle> test(points, candidates, limits);
   ValidLanes valid(count, chunks, to.own_first);
-  const auto width = static_cast<std::uint16_t>(2 * limits.band);
+  const std::int16_t band = limits.band;
+  const auto width = static_cast<std::uint16_t>(2 * band);
   const std::int32_t* const id = candidates.id;
   std::int32_t* const j = to.j;
   std::int32_t* const end = to.end;
-  OpenCandidate* const open = to.open;
+  OpenLanes* const open = to.open;
   std::int32_t written = 0, noted = 0;
   for (std::int32_t row = 0; row < rows; ++row) {
     test.use_row(row);
@@ -191,9 +159,8 @@ std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Cand
     }
     end[row] = written;
     if (Simd::any_below(least, width))
-      noted += note_open<Simd>(
-          RowPairs<Middle>{points, candidates, count, limits}, row, to.own_first ? row + 1 : 0,
-          lanes_below<Simd>(least, width), row, [](std::int32_t) { return true; }, open + noted);
+      noted += note_open(
+          test, valid, band, row, [](std::int32_t) { return ~0u; }, row, open + noted);
     valid.next_row();
   }
   return noted;
@@ -225,12 +192,8 @@ std::int32_t write_rows_with_shell(const BlockPoints& points, std::int32_t rows,
       }
       const std::int32_t segment = 2 * row + part;
       to.end[segment] = written;
-      const RowPairs<Middle> pairs{points, candidates, count, limits},
-          near_pairs{points, candidates, count, near};
       if (Simd::any_below(least, width))
-        noted += note_open<Simd>(
-            pairs, row, to.own_first ? row + 1 : 0, lanes_below<Simd>(least, width), segment,
-            [&](std::int32_t k) { return near_pairs.is_within(row, k) == (part == 0); }, to.open + noted);
+        noted += note_open(test, valid, limits.band, row, in_segment, segment, to.open + noted);
     }
     valid.next_row();
   }

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdlib>
 #include <gtest/gtest.h>
-#include <tuple>
 #include <vector>
 
 #include "instruction_sets.hpp"
@@ -97,31 +96,37 @@ BlockPoints random_points(scenes::Random& random, int most) {
   return points;
 }
 
-/// Segment, place and whether it is within.
-using Open = std::tuple<int, std::int32_t, bool>;
-
 /// Rows of a block by their definition.
 struct ExpectedRows {
   std::vector<std::int32_t> j, end;
-  std::vector<Open> open;
+  std::vector<OpenLanes> open;
 
   ExpectedRows(const BlockPoints& points, int rows, const CandidateArrays& c, std::size_t count,
                const RandomLimits& limits, const RandomLimits* near, bool own_first) {
     for (int r = 0; r < rows; ++r)
       for (int part = 0; part < (near != nullptr ? 2 : 1); ++part) {
+        const auto begin = static_cast<std::int32_t>(j.size());
         for (std::size_t k = 0; k < count; ++k) {
+          if (k % kChunk == 0)
+            open.push_back({r, static_cast<std::int32_t>(end.size()), static_cast<std::int32_t>(k / kChunk),
+                            static_cast<std::int32_t>(j.size()) - begin, 0, 0});
           const int t = saturated(
               saturated(square(wrapped(c.x[k] - points.x[r])) + square(wrapped(c.y[k] - points.y[r]))) +
               square(wrapped(c.z[k] - points.z[r])));
           if (own_first && k <= static_cast<std::size_t>(r)) continue;
           if (near != nullptr && (t < near->middle(r, c.tag[k])) != (part == 0)) continue;
           const int middle = limits.middle(r, c.tag[k]), band = limits.row_limits.band;
-          if (t < middle) j.push_back(c.id[k]);
-          if (t >= middle - band && t < middle + band)
-            open.emplace_back(static_cast<int>(end.size()), static_cast<std::int32_t>(k), t < middle);
+          const std::uint32_t bit = 1u << (k % kChunk);
+          if (t < middle) {
+            j.push_back(c.id[k]);
+            open.back().within |= bit;
+          }
+          if (t >= middle - band && t < middle + band) open.back().lanes |= bit;
         }
         end.push_back(static_cast<std::int32_t>(j.size()));
       }
+    open.erase(std::remove_if(open.begin(), open.end(), [](const OpenLanes& o) { return o.lanes == 0; }),
+               open.end());
   }
 };
 
@@ -148,20 +153,22 @@ TEST_P(ListKernelsTest, RowsHoldWhatIsWithinTheirLimitsAndNoteWhatIsOpen) {
                         : limits.kind == Limit::by_size ? kernels().rows_by_size
                                                         : kernels().rows_by_type;
     std::vector<std::int32_t> j(kBlock * (count + kChunk) + kChunk + 1, -7), end(2 * kBlock);
-    std::vector<OpenCandidate> open(kBlock * count + 1);
+    std::vector<OpenLanes> open(2 * kBlock * (count / kChunk + 1));
     const std::int32_t noted =
         kernel(points, rows, candidates.view(), static_cast<std::int32_t>(count), limits.row_limits,
                has_shell ? &near.row_limits : nullptr, {j.data(), end.data(), open.data(), own_first});
     ASSERT_TRUE(std::equal(expected.end.begin(), expected.end.end(), end.begin())) << trial;
     ASSERT_TRUE(std::equal(expected.j.begin(), expected.j.end(), j.begin())) << trial;
     ASSERT_EQ(j[expected.j.size() + kChunk], -7) << "writes farther than it says";
-    std::vector<Open> found;
-    for (std::int32_t k = 0; k < noted; ++k) {
-      ASSERT_EQ(open[k].row, open[k].segment / (has_shell ? 2 : 1));
-      found.emplace_back(open[k].segment, open[k].at, open[k].is_within);
+    ASSERT_EQ(noted, static_cast<std::int32_t>(expected.open.size())) << trial;
+    for (std::size_t k = 0; k < expected.open.size(); ++k) {
+      ASSERT_EQ(open[k].row, expected.open[k].row);
+      ASSERT_EQ(open[k].segment, expected.open[k].segment);
+      ASSERT_EQ(open[k].chunk, expected.open[k].chunk);
+      ASSERT_EQ(open[k].before, expected.open[k].before);
+      ASSERT_EQ(open[k].lanes, expected.open[k].lanes);
+      ASSERT_EQ(open[k].within, expected.open[k].within);
     }
-    std::sort(found.begin(), found.end());
-    ASSERT_EQ(found, expected.open) << trial;
   }
 }
 
