@@ -80,6 +80,7 @@ struct EwaldMesh::Impl {
   Executor* executor = nullptr;
   Box box;  ///< that the influence function is of
   std::array<Vec3, 3> reciprocal;
+  double scale = 0;                ///< of the influence function
   AlignedVector<float> influence;  ///< [x][z][y], x up to half of its size
   AlignedVector<float> mesh, spectrum_re, spectrum_im;
   AlignedVector<MeshPoint> points;
@@ -130,17 +131,19 @@ void EwaldMesh::Impl::prepare(const Box& now) {
     for (auto& numbers : of_worker.numbers) numbers.resize(wanted);
   if (now == box) return;
   reciprocal = reciprocal_vectors(now);
-  box = now;
+  scale = constant / (kPi * now.volume());
+  box = Box();  // what is thrown meanwhile leaves part of an influence function
   in_shares(planes(), [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t x = begin; x < end; ++x) find_influence(static_cast<int>(x));
   });
+  box = now;
 }
 
 /// constant e^(-(pi m / splitting)^2) / (pi volume m^2) for a wave m, 0 for m = 0.
 double EwaldMesh::Impl::weight(double x, double y, double z) const {
   const double m2 = norm2(x * reciprocal[0] + y * reciprocal[1] + z * reciprocal[2]);
   if (m2 == 0) return 0;
-  return constant * std::exp(-kPi * kPi * m2 / (splitting * splitting)) / (kPi * box.volume() * m2);
+  return scale * std::exp(-kPi * kPi * m2 / (splitting * splitting)) / m2;
 }
 
 /// Weights over the moduli of splines. The shortest wave along an axis of even size has two signs, which a
