@@ -145,7 +145,9 @@ void CellCandidates::append_row(const CellScene& scene, CellLayer& layer, std::i
   while (first <= last) {
     std::int32_t begin = first;
     const std::int32_t periods = wrap(begin, cells), end = std::min(cells - 1, begin + (last - first));
-    append(begin, end, shift_of(scene, by + static_cast<double>(periods) * layout[0].period));
+    const bool needs_none = is_here && periods == 0;
+    append(begin, end,
+           needs_none ? Shift() : shift_of(scene, by + static_cast<double>(periods) * layout[0].period));
     first += end - begin + 1;
   }
 }

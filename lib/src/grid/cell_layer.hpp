@@ -15,6 +15,7 @@
 #include "grid/cell_bins.hpp"
 #include "grid/cell_curve.hpp"
 #include "grid/cell_layout.hpp"
+#include "grid/rounded_particles.hpp"
 #include "leaves/labelled_leaves.hpp"
 #include "simd/list_kernels.hpp"
 
@@ -57,6 +58,8 @@ class CellLayer {
   /// Rounds the coordinates, and the radii if cutoffs go by them.
   void quantize(Span<const Vec3> positions, const Box& box, const CellRounding& rounding,
                 const ParticleLabels& labels, Executor* executor);
+  /// The same from particles that have been rounded for all layers.
+  void quantize(const RoundedParticles& rounded, Executor* executor);
   /// Notes which cells hold none but ghosts.
   void find_ghosts(std::int32_t first_ghost);
 

@@ -21,10 +21,26 @@ void CellLayer::quantize(Span<const Vec3> positions, const Box& box, const CellR
     rounding_ = rounding;
   }
   tag_.resize(labels.by == CutoffBy::one_cutoff ? 0 : static_cast<std::size_t>(size_) + kChunk);
-  for (std::int32_t place = 0; place < size_ && labels.by == CutoffBy::radii; ++place)
-    tag_[place] = rounded(labels.radii[id_[place]] / rounding.unit);
-  for (std::int32_t place = 0; place < size_ && labels.by == CutoffBy::types; ++place)
-    tag_[place] = static_cast<std::int16_t>(labels.types[id_[place]] % kKernelTypes);
+  const double per_unit = 1 / rounding.unit;
+  for (std::int32_t place = 0; place < size_ && !tag_.empty(); ++place)
+    tag_[place] = tag_of(labels, static_cast<std::size_t>(id_[place]), per_unit);
+}
+
+void CellLayer::quantize(const RoundedParticles& rounded, Executor* executor) {
+  rounding_ = rounded.rounding();
+  tag_.resize(rounded.have_tags() ? static_cast<std::size_t>(size_) + kChunk : 0);
+  for_ranges(executor, size_, [&](std::int32_t begin, std::int32_t end) {
+    std::int16_t *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
+    std::int16_t* const tag = tag_.empty() ? nullptr : tag_.data();
+    const std::int32_t* const id = id_.data();
+    for (std::int32_t place = begin; place < end; ++place) {
+      const RoundedParticle particle = rounded[id[place]];
+      x[place] = particle.at[0];
+      y[place] = particle.at[1];
+      z[place] = particle.at[2];
+      if (tag != nullptr) tag[place] = particle.tag;
+    }
+  });
 }
 
 void CellLayer::round_coordinates(Span<const Vec3> positions, const Box& box, const CellRounding& rounding,

@@ -59,10 +59,8 @@ void GridRows::append(const GridScene& scene, const std::vector<const PairFilter
     cells.unit = finest_unit(widest);
     cells.per_unit = 1 / cells.unit;
     cells.has_ghosts = params.first_ghost >= 0;
-    for (std::size_t a = 0; a <= s; ++a) {
-      scene.layers[a]->quantize(scene.positions, scene.box, {origin, cells.unit}, labels, scene.executor);
-      scene.layers[a]->find_ghosts(params.first_ghost);
-    }
+    round_layers(scene, s, {origin, cells.unit}, labels);
+    for (std::size_t a = 0; a <= s; ++a) scene.layers[a]->find_ghosts(params.first_ghost);
     for (std::size_t r = 0; r < out.size(); ++r) {
       cells.requests.push_back({filters[r], ListLimits(*filters[r], cells.unit, farthest, scene.error)});
       if (filters[r]->params().superset)
@@ -81,6 +79,14 @@ void GridRows::append(const GridScene& scene, const std::vector<const PairFilter
                   }
                 });
   }
+}
+
+/// Those that the rows of a layer are made of.
+void GridRows::round_layers(const GridScene& scene, std::size_t rows, const CellRounding& rounding,
+                            const ParticleLabels& labels) {
+  if (rows == 0) return scene.layers[0]->quantize(scene.positions, scene.box, rounding, labels, scene.executor);
+  rounded_.round(scene.positions, scene.box, scene.layers[rows]->layout(), rounding, labels, scene.executor);
+  for (std::size_t a = 0; a <= rows; ++a) scene.layers[a]->quantize(rounded_, scene.executor);
 }
 
 }  // namespace dch::detail

@@ -12,6 +12,7 @@
 
 #include "grid/cell_candidates.hpp"
 #include "grid/cell_layer.hpp"
+#include "grid/rounded_particles.hpp"
 #include "lists/pair_filter.hpp"
 #include "lists/row_parts.hpp"
 #include "lists/row_request.hpp"
@@ -43,7 +44,7 @@ class GridRows {
   /// The same for one filter in pieces, each of which use() gets on the thread that found it.
   void find_in_pieces(const GridScene& scene, const PairFilter& filter,
                       const std::function<void(const NeighborList&)>& use);
-  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
+  std::size_t memory_bytes() const { return parts_.memory_bytes() + rounded_.memory_bytes(); }
 
  private:
   /// Called when the rows of a cell have been appended to lists, one for each request.
@@ -51,7 +52,11 @@ class GridRows {
   void append(const GridScene& scene, const std::vector<const PairFilter*>& filters,
               const std::vector<NeighborList*>& out, const Appended& appended);
 
+  void round_layers(const GridScene& scene, std::size_t rows, const CellRounding& rounding,
+                    const ParticleLabels& labels);
+
   RowParts<CellCandidates> parts_;
+  RoundedParticles rounded_;
 };
 
 }  // namespace dch::detail

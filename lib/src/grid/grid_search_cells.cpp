@@ -87,9 +87,9 @@ std::optional<CellBins> GridSearch::start_cells(Group& group, Span<const Vec3> p
                                       groups_.size() > 1 ? CellUse::with_finer
                                       : fine_            ? CellUse::alone_with_shell
                                                          : CellUse::alone);
-  // As GridRows rounds one layer alone; others are rounded for each layer that they meet.
+  // As GridRows rounds the first layer; others are rounded for each layer that they meet.
   CellRounding rounding;
-  if (groups_.size() == 1 && !positions.empty())
+  if (&group == &groups_[0] && !positions.empty())
     rounding = {box_.wrap(positions[0]), finest_unit(widest_in(layout, half_stencil(layout, own)))};
   const std::size_t n = groups_.size() > 1 ? group.particle.size() : positions.size();
   if (!group.layer.start(n, box_, layout, rounding)) return std::nullopt;
