@@ -27,7 +27,7 @@ void CellLayer::quantize(Span<const Vec3> positions, const Box& box, const CellR
 }
 
 void CellLayer::quantize(const RoundedParticles& rounded, Executor* executor) {
-  rounding_ = rounded.rounding();
+  rounding_ = {};
   tag_.resize(rounded.have_tags() ? static_cast<std::size_t>(size_) + kChunk : 0);
   for_ranges(executor, size_, [&](std::int32_t begin, std::int32_t end) {
     std::int16_t *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
@@ -41,6 +41,7 @@ void CellLayer::quantize(const RoundedParticles& rounded, Executor* executor) {
       if (tag != nullptr) tag[place] = particle.tag;
     }
   });
+  rounding_ = rounded.rounding();
 }
 
 void CellLayer::round_coordinates(Span<const Vec3> positions, const Box& box, const CellRounding& rounding,
