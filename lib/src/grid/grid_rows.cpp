@@ -84,7 +84,8 @@ void GridRows::append(const GridScene& scene, const std::vector<const PairFilter
 /// Those that the rows of a layer are made of.
 void GridRows::round_layers(const GridScene& scene, std::size_t rows, const CellRounding& rounding,
                             const ParticleLabels& labels) {
-  if (rows == 0) return scene.layers[0]->quantize(scene.positions, scene.box, rounding, labels, scene.executor);
+  if (rows == 0)
+    return scene.layers[0]->quantize(scene.positions, scene.box, rounding, labels, scene.executor);
   rounded_.round(scene.positions, scene.box, scene.layers[rows]->layout(), rounding, labels, scene.executor);
   for (std::size_t a = 0; a <= rows; ++a) scene.layers[a]->quantize(rounded_, scene.executor);
 }

@@ -12,8 +12,7 @@ constexpr std::size_t kAtOnce = 256;  ///< particles that are looked at together
 }  // namespace
 
 void RoundedParticles::round(Span<const Vec3> positions, const Box& box, const CellLayout& layout,
-                             const CellRounding& rounding, const ParticleLabels& labels,
-                             Executor* executor) {
+                             const CellRounding& rounding, const ParticleLabels& labels, Executor* executor) {
   const CellBins bins(box, layout, rounding);
   rounding_ = rounding;
   have_tags_ = labels.by != CutoffBy::one_cutoff;

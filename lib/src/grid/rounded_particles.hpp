@@ -42,8 +42,7 @@ class RoundedParticles {
 /// What kernels know of the cutoffs of a particle.
 inline std::int16_t tag_of(const ParticleLabels& labels, std::size_t particle, double per_unit) {
   if (labels.by == CutoffBy::radii) return rounded(labels.radii[particle] * per_unit);
-  if (labels.by == CutoffBy::types)
-    return static_cast<std::int16_t>(labels.types[particle] % kKernelTypes);
+  if (labels.by == CutoffBy::types) return static_cast<std::int16_t>(labels.types[particle] % kKernelTypes);
   return 0;
 }
 
