@@ -121,19 +121,23 @@ const NeighborList& AnchorSearch::find_all_touching() {
   return touching_;
 }
 
-void AnchorSearch::find_touching(std::int32_t id, std::vector<std::int32_t>& touching) const {
-  touching.clear();
+void AnchorSearch::find_touching(std::int32_t id, std::vector<std::int32_t>& touching) {
+  near_.clear();
   const Ball& self = ball(id);
+  const auto take = [&](std::int32_t other) {
+    if (other != id) near_.push_back(other);
+  };
   for (const auto& [exponent, octave] : octaves_) {
     const auto look_at = [&, &ids = octave.ids](std::int32_t k) {
       const std::int32_t other = ids[static_cast<std::size_t>(k)];
-      if (other != id && !is_stray_[static_cast<std::size_t>(other)] && touch(id, other))
-        touching.push_back(other);
+      if (!is_stray_[static_cast<std::size_t>(other)]) take(other);
     };
     for_each_near(*octave.view, self.center, self.radius + octave.largest, look_at);
   }
-  for (const std::int32_t other : strays_)
-    if (other != id && touch(id, other)) touching.push_back(other);
+  std::for_each(strays_.begin(), strays_.end(), take);
+  touching.resize(near_.size() + kMostLanes);
+  touching.resize(
+      kernels_.find_touching(balls_.data(), id, near_.data(), near_.size(), nearest_, touching.data()));
 }
 
 }  // namespace dch::kinetic

@@ -11,18 +11,16 @@
 #include <dch/geometry/box.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
 
-namespace dch::kinetic {
+#include "simd/sphere_kernels.hpp"
 
-struct Ball {
-  Vec3 center{};
-  double radius = 0;
-};
+namespace dch::kinetic {
 
 /// Which of many balls touch one: a hierarchy over the centers for each octave of radii. Balls that have
 /// changed since the hierarchies were made are looked at one by one. And all balls that touch, by one list.
 class AnchorSearch {
  public:
-  explicit AnchorSearch(const Box& box) : box_(box) {}
+  AnchorSearch(const Box& box, const SphereKernels& kernels, const NearestImages& nearest)
+      : box_(box), kernels_(kernels), nearest_(nearest) {}
 
   const Ball& ball(std::int32_t id) const { return balls_[static_cast<std::size_t>(id)]; }
   void set_all(const std::vector<Ball>& balls);
@@ -36,11 +34,7 @@ class AnchorSearch {
   /// The pairs of balls that touch, as a half list.
   const NeighborList& find_all_touching();
   /// Writes the other balls that touch that of `id`, in no order that counts.
-  void find_touching(std::int32_t id, std::vector<std::int32_t>& touching) const;
-  bool touch(std::int32_t a, std::int32_t b) const {
-    const double reach = ball(a).radius + ball(b).radius;
-    return box_.distance2(ball(a).center, ball(b).center) <= reach * reach;
-  }
+  void find_touching(std::int32_t id, std::vector<std::int32_t>& touching);
 
  private:
   struct Octave {
@@ -56,11 +50,14 @@ class AnchorSearch {
   int keep_or_choose_octave(std::size_t id);
 
   Box box_;
+  const SphereKernels& kernels_;
+  const NearestImages& nearest_;
   std::vector<Ball> balls_;
   std::vector<int> octave_of_;
   std::map<int, Octave> octaves_;
   std::vector<std::int32_t> strays_;  ///< whose balls have changed
   std::vector<char> is_stray_;
+  std::vector<std::int32_t> near_;      ///< that may touch a ball
   std::unique_ptr<PairSearch> search_;  ///< of all pairs
   double search_radius_ = 0;            ///< of its longest lists
   NeighborList touching_;

@@ -28,7 +28,8 @@ class MutualRows {
       }
     }
   }
-  /// Makes a row that of a point, and tells of the partners that it had not, and had, before.
+  /// Makes a row that of a point, and tells of the places of partners that it had not, and of those that it
+  /// had, before.
   template <class Added, class Dropped>
   void replace(std::int32_t id, const std::vector<std::int32_t>& row, const Added& added,
                const Dropped& dropped) {
@@ -43,11 +44,11 @@ class MutualRows {
       is_in_row = 0;
     }
     mine = row;
-    for (const std::int32_t other : row) {
-      char& is_new = is_new_[static_cast<std::size_t>(other)];
+    for (std::size_t place = 0; place < row.size(); ++place) {
+      char& is_new = is_new_[static_cast<std::size_t>(row[place])];
       if (is_new) {
-        rows_[static_cast<std::size_t>(other)].push_back(id);
-        added(other);
+        rows_[static_cast<std::size_t>(row[place])].push_back(id);
+        added(place);
       }
       is_new = 0;
     }

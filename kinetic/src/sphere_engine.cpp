@@ -8,7 +8,6 @@
 #include <dch/base/error.hpp>
 
 #include "base/describe.hpp"
-#include "sphere_motion.hpp"
 
 namespace dch::kinetic {
 namespace {
@@ -28,7 +27,9 @@ constexpr double kMinApproach = 1e-15;
 
 SphereEngine::SphereEngine(const HardSphereParams& params, Span<const Vec3> positions,
                            Span<const Vec3> velocities)
-    : images_(params.box),
+    : kernels_(sphere_kernels(instruction_set())),
+      images_(params.box),
+      nearest_(images_),
       restitution_(params.restitution),
       masses_(params.masses),
       homes_(positions.size()),
@@ -36,7 +37,7 @@ SphereEngine::SphereEngine(const HardSphereParams& params, Span<const Vec3> posi
       rooms_(positions.size()),
       rows_(positions.size()),
       candidates_(positions.size()),
-      anchors_(params.box),
+      anchors_(params.box, kernels_, nearest_),
       events_(positions.size()) {
   if (masses_.empty()) masses_.assign(positions.size(), 1.0);
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -48,7 +49,7 @@ SphereEngine::SphereEngine(const HardSphereParams& params, Span<const Vec3> posi
 }
 
 Vec3 SphereEngine::position(std::int32_t id) const {
-  const Sphere& s = sphere(id);
+  const Flight& s = sphere(id);
   return images_.box().wrap(s.position + (now_ - s.time) * s.velocity);
 }
 
@@ -60,7 +61,7 @@ bool SphereEngine::has_long_run() const {
 void SphereEngine::synchronize() {
   double speed2 = 0, size = 0;
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
-    Sphere& s = spheres_[i];
+    Flight& s = spheres_[i];
     s.position = position(static_cast<std::int32_t>(i));
     s.time = 0;
     rooms_[i].since -= now_;
@@ -80,7 +81,7 @@ void SphereEngine::set_growth(double rate) {
 }
 
 void SphereEngine::scale_velocities(double factor) {
-  for (Sphere& s : spheres_) s.velocity = factor * s.velocity;
+  for (Flight& s : spheres_) s.velocity = factor * s.velocity;
   predict_all();
 }
 
@@ -108,27 +109,22 @@ std::optional<Collision> SphereEngine::step(double limit) {
   return std::nullopt;
 }
 
-/// From the later of both plans on, so that the time does not depend on when it is asked for.
-SphereEngine::Contact SphereEngine::approach(std::int32_t a, std::int32_t b) const {
-  const Sphere &p = sphere(a), &q = sphere(b);
-  const double start = std::max(p.time, q.time);
-  const Vec3 velocity = q.velocity - p.velocity;
-  Vec3 apart = (q.position + (start - q.time) * q.velocity) - (p.position + (start - p.time) * p.velocity);
-  const Vec3 present = apart + (now_ - start) * velocity;
-  const Vec3 nearest = images_.box().nearest_image(present);
-  if (nearest != present) apart = apart + images_.to_image(present, nearest);
-  const double sum = p.radius + q.radius;
-  return {start, Approach(apart, velocity, sum * scale_at(start), sum * growth_), b};
-}
-
-double SphereEngine::time_of(const Contact& contact) const {
-  return std::max(now_, contact.start + contact.approach.time_to_contact());
-}
-
-double SphereEngine::contact_time(std::int32_t a, std::int32_t b) {
-  ++counters_.predictions;
-  const Contact contact = approach(a, b);
-  return contact.approach.meets() ? time_of(contact) : kNever;
+/// Looks at all first without branches: most are told nothing.
+void SphereEngine::tell_partners(std::int32_t id) {
+  const std::vector<std::int32_t>& row = rows_.of(id);
+  for (std::size_t first = 0; first < row.size(); first += 64) {
+    const std::size_t last = std::min(first + 64, row.size());
+    std::uint64_t told = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      const SphereEvent& known = events_.of(row[k]);
+      const int concerns = int{times_[k] <= known.time} | int{known.partner == id};
+      told |= static_cast<std::uint64_t>(concerns) << (k - first);
+    }
+    for (; told != 0; told &= told - 1) {
+      const std::size_t k = first + static_cast<std::size_t>(__builtin_ctzll(told));
+      tell_partner(row[k], id, times_[k]);
+    }
+  }
 }
 
 /// Has the flights of partners and what is next for them on their way before the first one is needed.
@@ -139,45 +135,37 @@ void SphereEngine::fetch_partners(std::int32_t id) const {
   }
 }
 
+/// Writes the times of contact with all partners, and returns the least.
+double SphereEngine::find_contacts(std::int32_t id) {
+  const std::vector<std::int32_t>& row = rows_.of(id);
+  times_.resize(row.size() + kMostLanes);
+  counters_.predictions += static_cast<std::int64_t>(row.size());
+  return kernels_.contact_times(spheres_.data(), id, row.data(), row.size(), nearest_,
+                                {now_, scale_, growth_}, times_.data());
+}
+
+/// The exit or the contact whose time is the least of those that were found.
+SphereEvent SphereEngine::next_of(std::int32_t id, double least) const {
+  SphereEvent next{exits_[static_cast<std::size_t>(id)]};
+  if (!(least < next.time)) return next;
+  next.time = least;
+  const std::vector<std::int32_t>& row = rows_.of(id);
+  for (std::size_t k = 0; k < row.size(); ++k)
+    if (times_[k] == least && (next.partner < 0 || row[k] < next.partner)) next.partner = row[k];
+  return next;
+}
+
 /// What is next for a sphere, with its tracked pairs as they are.
 void SphereEngine::predict(std::int32_t id) {
   fetch_partners(id);
-  find_contacts(id);
-  SphereEvent next{exits_[static_cast<std::size_t>(id)]};
-  for (const Contact& contact : contacts_) {
-    const SphereEvent event{time_of(contact), contact.partner};
-    if (event.is_before(next)) next = event;
-  }
-  events_.set(id, next);
+  events_.set(id, next_of(id, find_contacts(id)));
 }
 
 /// The same for a sphere with a new flight, which its partners are told.
 void SphereEngine::predict_changed(std::int32_t id) {
-  for (const std::int32_t other : rows_.of(id))
-    if (events_.of(other).partner == id) events_.doubt(other);
-  find_contacts(id);
-  SphereEvent next{exits_[static_cast<std::size_t>(id)]};
-  for (const Contact& contact : contacts_) {
-    const SphereEvent event{time_of(contact), contact.partner};
-    if (event.is_before(next)) next = event;
-    tell_partner(contact.partner, id, event.time);
-  }
+  const SphereEvent next = next_of(id, find_contacts(id));
+  tell_partners(id);
   events_.set(id, next);
-}
-
-/// Most pairs never touch, which no branch can foretell: so all are looked at by selects, and those that do
-/// are left.
-void SphereEngine::find_contacts(std::int32_t id) {
-  const std::vector<std::int32_t>& row = rows_.of(id);
-  contacts_.resize(row.size());
-  std::size_t found = 0;
-  for (const std::int32_t other : row) {
-    Contact& contact = contacts_[found];
-    contact = approach(id, other);
-    found += contact.approach.meets() ? 1 : 0;
-  }
-  contacts_.resize(found);
-  counters_.predictions += static_cast<std::int64_t>(row.size());
 }
 
 /// A partner whose next collision was with the sphere keeps its entry as a time before which nothing happens
@@ -193,7 +181,7 @@ void SphereEngine::tell_partner(std::int32_t partner, std::int32_t id, double ti
 }
 
 Collision SphereEngine::collide(std::int32_t a, std::int32_t b) {
-  Sphere &p = sphere(a), &q = sphere(b);
+  Flight &p = sphere(a), &q = sphere(b);
   fetch_partners(a);
   fetch_partners(b);
   for (const std::int32_t id : {a, b}) {

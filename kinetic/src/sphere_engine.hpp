@@ -11,7 +11,7 @@
 #include "anchor_search.hpp"
 #include "images.hpp"
 #include "mutual_rows.hpp"
-#include "sphere_motion.hpp"
+#include "simd/sphere_kernels.hpp"
 #include "sphere_queue.hpp"
 
 namespace dch::kinetic {
@@ -21,6 +21,8 @@ namespace dch::kinetic {
 class SphereEngine {
  public:
   SphereEngine(const HardSphereParams& params, Span<const Vec3> positions, Span<const Vec3> velocities);
+  SphereEngine(const SphereEngine&) = delete;  // members refer to each other
+  SphereEngine& operator=(const SphereEngine&) = delete;
 
   std::optional<Collision> step(double limit);
   /// Time of the clock becomes zero.
@@ -39,13 +41,6 @@ class SphereEngine {
   bool has_long_run() const;
 
  private:
-  /// The flight since a sphere's last collision.
-  struct alignas(64) Sphere {
-    Vec3 position{};
-    double time = 0;
-    Vec3 velocity{};
-    double radius = 0;  ///< as given at the start
-  };
   /// How far a sphere goes before it gets a new home or anchor, and what it did since it got one.
   struct Rooms {
     double home = 0, anchor = 0;  ///< [length]
@@ -54,26 +49,18 @@ class SphereEngine {
     std::int32_t hurried = 0;  ///< collisions since then
   };
 
-  /// Two spheres from a time on.
-  struct Contact {
-    double start;
-    Approach approach;
-    std::int32_t partner;
-  };
-
-  Sphere& sphere(std::int32_t id) { return spheres_[static_cast<std::size_t>(id)]; }
-  const Sphere& sphere(std::int32_t id) const { return spheres_[static_cast<std::size_t>(id)]; }
+  Flight& sphere(std::int32_t id) { return spheres_[static_cast<std::size_t>(id)]; }
+  const Flight& sphere(std::int32_t id) const { return spheres_[static_cast<std::size_t>(id)]; }
   double scale_at(double time) const { return scale_ + growth_ * time; }
-  double radius_at(const Sphere& sphere, double time) const { return sphere.radius * scale_at(time); }
+  double radius_at(const Flight& sphere, double time) const { return sphere.radius * scale_at(time); }
 
   void check_overlap(std::int32_t id) const;
-  Contact approach(std::int32_t a, std::int32_t b) const;
-  double time_of(const Contact& contact) const;
-  double contact_time(std::int32_t a, std::int32_t b);
-  void find_contacts(std::int32_t id);
+  double find_contacts(std::int32_t id);
+  SphereEvent next_of(std::int32_t id, double least) const;
   void fetch_partners(std::int32_t id) const;
   void predict(std::int32_t id);
   void predict_changed(std::int32_t id);
+  void tell_partners(std::int32_t id);
   void tell_partner(std::int32_t partner, std::int32_t id, double time);
   void predict_all();
   void set_exit(std::int32_t id);
@@ -88,11 +75,12 @@ class SphereEngine {
   void take_candidates(std::int32_t id);
   void set_ball(std::int32_t id);
   void join_near(std::int32_t id);
-  bool are_near(std::int32_t a, std::int32_t b) const;
   double room_at_anchor(std::int32_t id) const;
   double most_room() const;
 
+  const SphereKernels& kernels_;
   Images images_;
+  NearestImages nearest_;
   double restitution_;
   double scale_ = 1, growth_ = 0;  ///< of all radii, at time zero, and in a unit of time
   double largest_radius_ = 0;      ///< as given at the start
@@ -100,7 +88,7 @@ class SphereEngine {
   double usual_time_ = 0;  ///< in which spheres fly about their own size
   double virial_ = 0;
   std::int64_t collisions_at_zero_ = 0;
-  std::vector<Sphere> spheres_;
+  std::vector<Flight> spheres_;
   std::vector<double> masses_;
   std::vector<Ball> homes_;
   std::vector<double> exits_;
@@ -108,7 +96,8 @@ class SphereEngine {
   MutualRows rows_;                  ///< whose balls around homes touch: the tracked pairs
   MutualRows candidates_;            ///< whose balls around anchors touch
   std::vector<std::int32_t> found_;  ///< a row that is being made
-  std::vector<Contact> contacts_;    ///< of the sphere that is predicted
+  std::vector<std::size_t> added_;   ///< places in it of partners that are new
+  std::vector<double> times_;        ///< of contact with each of the row of the sphere that is predicted
   AnchorSearch anchors_;
   SphereQueue events_;
   HardSphereCounters counters_;

@@ -58,7 +58,7 @@ double SphereEngine::most_room() const {
 void SphereEngine::find_first_homes() {
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
-    const Sphere& s = spheres_[i];
+    const Flight& s = spheres_[i];
     rooms_[i].home = kHomeRoom * s.radius;
     rooms_[i].anchor = kAnchorRoom * s.radius;
     balls.push_back({s.position, s.radius + rooms_[i].anchor});
@@ -76,7 +76,7 @@ void SphereEngine::find_first_homes() {
 
 /// Before anything is made of the pair: of spheres on one spot each would have all others in its row.
 void SphereEngine::check_overlap(std::int32_t id) const {
-  const Sphere& self = sphere(id);
+  const Flight& self = sphere(id);
   std::int32_t first = -1;
   for (const std::int32_t other : found_) {
     const double distance = (self.radius + sphere(other).radius) * (1 - kTouching);
@@ -104,7 +104,10 @@ void SphereEngine::leave_home(std::int32_t id) {
   set_ball(id);
   join_near(id);
   set_exit(id);
-  predict(id);
+  fetch_partners(id);
+  const SphereEvent next = next_of(id, find_contacts(id));
+  for (const std::size_t place : added_) tell_partner(rows_.of(id)[place], id, times_[place]);
+  events_.set(id, next);
 }
 
 /// What is left around the sphere of the ball around its anchor.
@@ -170,30 +173,27 @@ void SphereEngine::search_for_anchor(std::int32_t id) {
 }
 
 void SphereEngine::take_candidates(std::int32_t id) {
-  const auto ignore = [](std::int32_t) {};
-  candidates_.replace(id, found_, ignore, ignore);
+  candidates_.replace(
+      id, found_, [](std::size_t) {}, [](std::int32_t) {});
 }
 
+/// Makes the row of those whose balls touch, and that of places in it whose partners are new.
 void SphereEngine::join_near(std::int32_t id) {
-  found_.clear();
-  for (const std::int32_t other : candidates_.of(id))
-    if (are_near(id, other)) found_.push_back(other);
+  const std::vector<std::int32_t>& candidates = candidates_.of(id);
+  found_.resize(candidates.size() + kMostLanes);
+  found_.resize(kernels_.find_touching(homes_.data(), id, candidates.data(), candidates.size(), nearest_,
+                                       found_.data()));
+  added_.clear();
   rows_.replace(
-      id, found_, [&](std::int32_t other) { tell_partner(other, id, contact_time(id, other)); },
+      id, found_, [&](std::size_t place) { added_.push_back(place); },
       [&](std::int32_t other) {
         if (events_.of(other).partner == id) events_.doubt(other);
       });
 }
 
-bool SphereEngine::are_near(std::int32_t a, std::int32_t b) const {
-  const Ball &p = homes_[static_cast<std::size_t>(a)], &q = homes_[static_cast<std::size_t>(b)];
-  const double reach = p.radius + q.radius;
-  return images_.box().distance2(p.center, q.center) <= reach * reach;
-}
-
 /// Later than now even where the time that the sphere takes is below the rounding of times.
 void SphereEngine::set_exit(std::int32_t id) {
-  const Sphere& s = sphere(id);
+  const Flight& s = sphere(id);
   const Ball& home = homes_[static_cast<std::size_t>(id)];
   const Vec3 off = images_.box().nearest_image(s.position + (now_ - s.time) * s.velocity - home.center);
   const double room = (home.radius - radius(id)) * (1 - kEarly);
