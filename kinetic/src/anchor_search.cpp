@@ -28,7 +28,7 @@ HierarchyParams hierarchy_for(double radius) {
 /// stray. Fewer where there are few points, since new anchors of all cost as much as those of so many.
 std::size_t AnchorSearch::most_strays() const {
   const std::size_t points = balls_.size();
-  return std::min(static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points))), 16 + points / 16);
+  return std::min(static_cast<std::size_t>(4 * std::sqrt(static_cast<double>(points))), 8 + points / 32);
 }
 
 AnchorSearch::Octave& AnchorSearch::octave(int exponent) {

@@ -29,7 +29,7 @@ constexpr double kShareOfList = 40;
 /// nobody is near.
 constexpr double kGain = 0.1, kMaxShare = 4, kLeap = 1.4;
 /// Balls that touch so many others are not widened.
-constexpr double kCrowd = 64, kCrowdOfAnchor = 160;
+constexpr double kCrowd = 64, kCrowdOfAnchor = 60;
 /// Exits are taken this share of the room early, which is far more than roots and distances round.
 constexpr double kEarly = 1e-6;
 
