@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
@@ -15,6 +16,8 @@ namespace {
 /// along three axes; with room to spare.
 constexpr double kRoundings = 16 * 0x1p-24;
 
+constexpr float kNowhere = std::numeric_limits<float>::infinity();
+
 /// Squared distance of the frame's origin from a box.
 double gap2_of(const MeasuredLeaves::Corners& corners, Vec3 shift) {
   Vec3 gap;
@@ -26,14 +29,21 @@ double gap2_of(const MeasuredLeaves::Corners& corners, Vec3 shift) {
 }  // namespace
 
 void NearLeaves::clear() {
-  for (int axis = 0; axis < 3; ++axis) {
-    low_[axis].clear();
-    high_[axis].clear();
-  }
-  coordinates_.clear();
-  count_.clear();
-  ids_.clear();
+  count_ = 0;
   widest_ = 0;
+}
+
+/// For so many more blocks.
+void NearLeaves::make_room(std::int32_t blocks) {
+  const auto wanted = static_cast<std::size_t>(count_) + static_cast<std::size_t>(blocks) + kChunk;
+  if (wanted <= source_.size()) return;
+  const std::size_t room = wanted + wanted / 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    low_[axis].resize(room);
+    high_[axis].resize(room);
+  }
+  coordinates_.resize(3 * kBlock * room);
+  source_.resize(room);
 }
 
 template <class Metric>
@@ -71,7 +81,6 @@ void NearLeaves::collect(const Metric& metric, std::int32_t leaf, double reach, 
     structure_.for_each_child(next.level, next.node,
                               [&](std::int32_t child) { look_at(next.level - 1, child); });
   }
-  make_readable();
   rounding_ = kRoundings * widest_;
 }
 
@@ -81,46 +90,46 @@ void NearLeaves::add_leaf(std::int32_t leaf, Vec3 shift, double within) {
   const MeasuredLeaves::Leaf& from = measured.leaves[leaf];
   const double size = from.extent + std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)});
   const double limit = within + kRoundings * size;
+  make_room(from.blocks);
   for (std::int32_t b = from.first_block; b < from.first_block + from.blocks; ++b) {
     if (gap2_of(measured.corners[b], shift) > limit * limit) continue;
     widest_ = std::max(widest_, size);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto by = static_cast<float>(shift[axis]);
-      low_[axis].push_back(measured.corners[b].low[axis] + by);
-      high_[axis].push_back(measured.corners[b].high[axis] + by);
-      for (const float offset : measured.offsets[b].axis[axis]) coordinates_.push_back(offset + by);
-    }
-    count_.push_back(measured.count[b]);
-    const std::int32_t* const ids = structure_.points.id.data() + measured.source[b] * std::size_t{kBlock};
-    ids_.insert(ids_.end(), ids, ids + kBlock);
+    add_block(b, shift);
   }
+}
+
+void NearLeaves::add_block(std::int32_t measured, Vec3 shift) {
+  const MeasuredLeaves& leaves = structure_.leaves;
+  const std::int32_t count = leaves.count[measured];
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto by = static_cast<float>(shift[axis]);
+    low_[axis][count_] = leaves.corners[measured].low[axis] + by;
+    high_[axis][count_] = leaves.corners[measured].high[axis] + by;
+    const float* const from = leaves.offsets[measured].axis[axis];
+    float* const to = coordinates_.data() + (3 * static_cast<std::ptrdiff_t>(count_) + axis) * kBlock;
+    for (std::int32_t lane = 0; lane < kBlock; ++lane) to[lane] = lane < count ? from[lane] + by : kNowhere;
+  }
+  source_[count_++] = leaves.source[measured];
 }
 
 /// A point that is in no leaf gets a block of its own.
 void NearLeaves::add_point(std::int32_t id, Vec3 at) {
+  make_room(1);
   widest_ = std::max({widest_, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
   for (int axis = 0; axis < 3; ++axis) {
     const auto coordinate = static_cast<float>(at[axis]);
-    low_[axis].push_back(coordinate);
-    high_[axis].push_back(coordinate);
-    coordinates_.insert(coordinates_.end(), kBlock, coordinate);
+    low_[axis][count_] = high_[axis][count_] = coordinate;
+    float* const to = coordinates_.data() + (3 * static_cast<std::ptrdiff_t>(count_) + axis) * kBlock;
+    std::fill_n(to, kBlock, kNowhere);
+    to[0] = coordinate;
   }
-  count_.push_back(1);
-  ids_.insert(ids_.end(), kBlock, id);
-}
-
-void NearLeaves::make_readable() {
-  for (int axis = 0; axis < 3; ++axis) {
-    low_[axis].resize(count_.size() + kChunk);
-    high_[axis].resize(count_.size() + kChunk);
-  }
+  source_[count_++] = id_of(id);
 }
 
 NearBlocks NearLeaves::blocks() const {
   return {{low_[0].data(), low_[1].data(), low_[2].data()},
           {high_[0].data(), high_[1].data(), high_[2].data()},
-          coordinates_.data(),
-          count_.data()};
+          coordinates_.data()};
 }
 
 template void NearLeaves::collect(const OpenMetric&, std::int32_t, double, NearestWork&);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,13 +43,22 @@ void check(const NearestParams& params) {
                            "; it must be finite, and 0 for the nearest ones or more");
 }
 
-/// Rows without neighbors.
+/// Rows to be filled, in the memory that there is if it is enough: new pages take long to come.
 void make_rows(std::size_t rows, std::int32_t k, NearestRows& out) {
-  NearestRows made;
-  made.k = k;
-  made.id.assign(rows * static_cast<std::size_t>(k), -1);
-  made.distance2.assign(made.id.size(), std::numeric_limits<double>::infinity());
-  out = std::move(made);
+  const std::size_t entries = rows * static_cast<std::size_t>(k);
+  if (out.id.capacity() < entries || out.distance2.capacity() < entries) out = NearestRows();
+  out.k = k;
+  out.id.resize(entries);
+  out.distance2.resize(entries);
+}
+
+/// Of ids that are not there.
+void clear_rows_of_none(const detail::Structure& structure, NearestRows& rows) {
+  const auto k = static_cast<std::ptrdiff_t>(rows.k);
+  for (const std::int32_t id : structure.free_ids) {
+    std::fill_n(rows.id.begin() + id * k, k, -1);
+    std::fill_n(rows.distance2.begin() + id * k, k, std::numeric_limits<double>::infinity());
+  }
 }
 
 /// One position after the other.
@@ -108,6 +119,7 @@ void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
   check(params);
   const detail::Structure& structure = impl_->structure;
   make_rows(structure.slot_of_id.size(), params.k, rows);
+  clear_rows_of_none(structure, rows);
   const std::vector<std::int32_t> alone = structure.singleton_ids();
   const std::int32_t leaves = structure.levels[1].size();
   detail::with_metric(structure.box, [&](const auto& metric) {

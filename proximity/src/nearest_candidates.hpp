@@ -19,8 +19,11 @@ class NearestCandidates {
   void add(double distance2, std::int32_t id) {
     const Entry entry{distance2, id};
     if (is_full() && !(entry < entries_.back())) return;
-    if (is_full()) entries_.pop_back();
-    entries_.insert(std::upper_bound(entries_.begin(), entries_.end(), entry), entry);
+    if (!is_full()) entries_.push_back(entry);
+    // From the end: most come in the order of their distances.
+    std::size_t place = entries_.size() - 1;
+    for (; place > 0 && entry < entries_[place - 1]; --place) entries_[place] = entries_[place - 1];
+    entries_[place] = entry;
   }
   bool is_full() const { return entries_.size() == k_; }
   /// What a point's squared distance may be at most for it to be taken.
@@ -28,10 +31,12 @@ class NearestCandidates {
     return is_full() ? entries_.back().distance2 : std::numeric_limits<double>::infinity();
   }
   void write(std::int32_t* id, double* distance2) const {
-    for (std::size_t j = 0; j < k_; ++j) {
-      id[j] = j < entries_.size() ? entries_[j].id : -1;
-      distance2[j] = j < entries_.size() ? entries_[j].distance2 : std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < entries_.size(); ++j) {
+      id[j] = entries_[j].id;
+      distance2[j] = entries_[j].distance2;
     }
+    std::fill(id + entries_.size(), id + k_, -1);
+    std::fill(distance2 + entries_.size(), distance2 + k_, std::numeric_limits<double>::infinity());
   }
 
  private:

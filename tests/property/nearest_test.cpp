@@ -220,17 +220,6 @@ TEST(Nearest, WorkOfAQueryStaysWherePointsComeAndGo) {
   EXPECT_LE(last.points, 9 * first.points);
 }
 
-TEST(Nearest, PointsAskedForTogetherLookAtAFewDozenOthers) {
-  const double side = 30;
-  const std::vector<Vec3> points = scenes::uniform(27000, {side, side, side}, 3);
-  Hierarchy hierarchy = hierarchy_of(points, 1.5);
-  const NearestWork work = Nearest(hierarchy.view()).of_points({12}).work;
-  const auto n = static_cast<std::int64_t>(points.size());
-  EXPECT_LE(work.nodes, n);
-  EXPECT_LE(work.blocks, 56 * n);
-  EXPECT_LE(work.points, 86 * n);
-}
-
 TEST(Nearest, BadInputIsNamed) {
   Hierarchy hierarchy = hierarchy_of({{0, 0, 0}, {1, 0, 0}}, 1);
   const Nearest nearest(hierarchy.view());

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "simd/list_kernels_loops.hpp"
 #include "simd/list_kernels_sets.hpp"
+#include "simd/pack_table.hpp"
 #include "simd/x86_blocks.hpp"
 
 namespace dch::detail {
 namespace {
 
-/// By a mask of 8 lanes: the chosen lanes, first come first.
-struct PackTable {
-  alignas(32) unsigned char lanes[256][8]{};
-  constexpr PackTable() {
-    for (int mask = 0; mask < 256; ++mask) {
-      int to = 0;
-      for (int lane = 0; lane < 8; ++lane)
-        if ((mask >> lane & 1) != 0) lanes[mask][to++] = static_cast<unsigned char>(lane);
-    }
-  }
-};
-constexpr PackTable kPack;
 constexpr PackTable16 kPack16;
 
 struct Avx2 : X86Blocks {

@@ -10,11 +10,11 @@
 namespace dch::detail {
 
 /// Blocks of points near a leaf, in its frame: boxes in one array for each of their sides, and coordinates,
-/// kBlock an axis, block after block. Each array of boxes can be read up to kChunk entries beyond its end.
+/// kBlock an axis, block after block, infinite in lanes without a point. Each array of boxes can be read up
+/// to kChunk entries beyond its end.
 struct NearBlocks {
   const float *low[3], *high[3];
   const float* coordinates;
-  const std::uint8_t* count;  ///< points in a block
 };
 
 /// A box and how far others may be from it.
@@ -23,29 +23,25 @@ struct BoxAndReach {
   float reach2;
 };
 
-/// One point, and the blocks to look for its neighbors in.
-struct NearestTask {
-  float at[3];
-  std::int32_t own_slot;      ///< of the point itself, which is no neighbor; kBlock a block
-  const std::int32_t* block;  ///< in ascending order of their gaps
-  const float* gap2;          ///< squared distance of each from a box that the point is in
-  std::int32_t blocks;
-  std::int32_t k;
-  std::int32_t room;  ///< for candidates, more than k
-  float reach2;       ///< no farther ones
-  /// Squared distances that may be equal differ by less than kBlur times the larger one, plus this.
-  float blur;
+/// The points of some blocks side by side: their coordinates, and their slots, kBlock a block. There is room
+/// for kChunk more than their blocks have lanes.
+struct NearPoints {
+  float* at[3];
+  std::int32_t* slot;
 };
 
-inline constexpr float kBlur = 1e-3f;
+/// Whose neighbors are looked for, and how far.
+struct NearestTask {
+  float at[3];
+  std::int32_t own_slot;  ///< of the point itself, which is no neighbor
+  float reach2;           ///< finite
+};
 
-/// Candidates for the k nearest, ascending: all that may be among them, given the blur.
+/// What was found. Up to kChunk entries beyond `room` are overwritten.
 struct NearestFound {
   float* distance2;
   std::int32_t* slot;
-  std::int32_t count;
-  bool is_full;  ///< there was no room for all; what was found is of no use then
-  std::int32_t blocks_seen, points_seen;
+  std::int32_t count, room;
 };
 
 struct NearestKernels {
@@ -53,7 +49,20 @@ struct NearestKernels {
   /// kChunk more is needed.
   std::int32_t (*select)(const BoxAndReach& box, const NearBlocks& blocks, std::int32_t count,
                          std::int32_t* block, float* gap2);
-  void (*search)(const NearestTask& task, const NearBlocks& blocks, NearestFound& found);
+
+  /// Puts the points of some blocks side by side, and after them as many infinitely far away as make the
+  /// number a multiple of kChunk. Returns that number.
+  std::int32_t (*gather)(const std::int32_t* block, std::int32_t count, const NearBlocks& blocks,
+                         const NearPoints& to);
+
+  /// Appends those of the points from `first` to before `last`, both multiples of kChunk, that are within
+  /// reach, in order. Returns where it stopped: before `last` if there may be no room for what is found next.
+  std::int32_t (*search)(const NearestTask& task, const NearPoints& points, std::int32_t first,
+                         std::int32_t last, NearestFound& found);
+
+  /// Says of each of some keys how many are smaller. Arrays are read and overwritten up to kChunk entries
+  /// beyond `count`.
+  void (*rank)(const std::int32_t* key, std::int32_t count, std::int32_t* rank);
 };
 
 /// The kernels of a set that is supported.

@@ -1,107 +1,113 @@
 // SPDX-License-Identifier: MIT
 //
-// The loops of nearest_kernels.hpp, for the compiler to vectorize: included once for each instruction set. No
-// function of a library is called, since one compiled for a wider set could then be linked into all.
+// The loops of nearest_kernels.hpp, made once for each instruction set, which says how wide its vectors are
+// and moves chosen lanes to the front. No function of a library is called, since one compiled for a wider set
+// could then be linked into all.
 #pragma once
+
+#include <limits>
 
 #include "simd/nearest_kernels.hpp"
 
 namespace dch::detail {
 namespace {
 
-using FloatLanes __attribute__((vector_size(kBlock * sizeof(float)))) = float;
-using LaneMask __attribute__((vector_size(kBlock * sizeof(std::int32_t)))) = std::int32_t;
+/// The loops with the vectors of a set:
+///   Floats, Ints            of kLanes numbers
+///   at_most(a, b)           a bit for each lane
+///   equal(a, b)             the same
+///   append(bits, a, b, to_a, to_b)
+///                           moves the chosen lanes of two vectors to the front of what is stored, of which
+///                           kLanes are overwritten; returns how many there are
+template <class Set>
+struct NearestLoops {
+  using Floats = typename Set::Floats;
+  using Ints = typename Set::Ints;
+  static constexpr std::int32_t kLanes = Set::kLanes;
+  static_assert(kChunk % kLanes == 0);
 
-// Vectors are handed on by reference: how they are returned depends on the set.
-inline void load(const float* from, FloatLanes& to) { __builtin_memcpy(&to, from, sizeof to); }
-inline void subtract(const float* from, float what, FloatLanes& to) {
-  load(from, to);
-  to -= what;
-}
-inline bool any(const LaneMask& mask) {
-  std::uint64_t words[kBlock / 2];
-  __builtin_memcpy(words, &mask, sizeof words);
-  return (words[0] | words[1] | words[2] | words[3]) != 0;
-}
+  template <class Vector, class Number>
+  static Vector load(const Number* from) {
+    Vector loaded;
+    __builtin_memcpy(&loaded, from, sizeof loaded);
+    return loaded;
+  }
+  template <class Vector, class Number>
+  static Vector all(Number number) {
+    return Vector{} + number;
+  }
+  static Ints numbers_from(std::int32_t first) {
+    Ints numbers;
+    for (std::int32_t lane = 0; lane < kLanes; ++lane) numbers[lane] = first + lane;
+    return numbers;
+  }
 
-inline std::int32_t select_blocks(const BoxAndReach& box, const NearBlocks& blocks, std::int32_t count,
-                                  std::int32_t* block, float* gap2) {
-  std::int32_t found = 0;
-  for (std::int32_t first = 0; first < count; first += kBlock) {
-    FloatLanes sum{};
-    for (int axis = 0; axis < 3; ++axis) {
-      FloatLanes below, above;
-      subtract(blocks.low[axis] + first, box.high[axis], below);
-      subtract(blocks.high[axis] + first, box.low[axis], above);
-      const FloatLanes zero{}, outside = below > -above ? below : -above;
-      const FloatLanes gap = outside > zero ? outside : zero;
-      sum += gap * gap;
+  static std::int32_t select(const BoxAndReach& box, const NearBlocks& blocks, std::int32_t count,
+                             std::int32_t* block, float* gap2) {
+    const Floats reach2 = all<Floats>(box.reach2);
+    Ints number = numbers_from(0);
+    std::int32_t found = 0;
+    for (std::int32_t first = 0; first < count; first += kLanes, number += kLanes) {
+      Floats sum{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats below = load<Floats>(blocks.low[axis] + first) - box.high[axis],
+                     above = box.low[axis] - load<Floats>(blocks.high[axis] + first);
+        const Floats zero{}, outside = below > above ? below : above;
+        const Floats gap = outside > zero ? outside : zero;
+        sum += gap * gap;
+      }
+      std::uint32_t lanes = Set::at_most(sum, reach2);
+      if (count - first < kLanes) lanes &= (1u << (count - first)) - 1;
+      found += Set::append(lanes, sum, number, gap2 + found, block + found);
     }
-    if (!any(sum <= box.reach2)) continue;
-    for (std::int32_t lane = 0; lane < kBlock; ++lane) {
-      block[found] = first + lane;
-      gap2[found] = sum[lane];
-      found += (sum[lane] <= box.reach2) & (first + lane < count);
+    return found;
+  }
+
+  static std::int32_t gather(const std::int32_t* block, std::int32_t count, const NearBlocks& blocks,
+                             const NearPoints& to) {
+    std::int32_t points = 0;
+    for (std::int32_t n = 0; n < count; ++n, points += kBlock) {
+      const float* const from = blocks.coordinates + 3 * kBlock * static_cast<std::int64_t>(block[n]);
+      for (int axis = 0; axis < 3; ++axis)
+        __builtin_memcpy(to.at[axis] + points, from + axis * kBlock, kBlock * sizeof(float));
+      for (std::int32_t lane = 0; lane < kBlock; ++lane) to.slot[points + lane] = block[n] * kBlock + lane;
+    }
+    for (; points % kChunk != 0; ++points) {
+      for (float* const axis : to.at) axis[points] = std::numeric_limits<float>::infinity();
+      to.slot[points] = -1;
+    }
+    return points;
+  }
+
+  static std::int32_t search(const NearestTask& task, const NearPoints& points, std::int32_t first,
+                             std::int32_t last, NearestFound& found) {
+    const Floats x = all<Floats>(task.at[0]), y = all<Floats>(task.at[1]), z = all<Floats>(task.at[2]);
+    const Floats reach2 = all<Floats>(task.reach2);
+    const Ints own = all<Ints>(task.own_slot);
+    std::int32_t count = found.count;
+    for (; first < last && count <= found.room - kLanes; first += kLanes) {
+      const Floats dx = load<Floats>(points.at[0] + first) - x, dy = load<Floats>(points.at[1] + first) - y,
+                   dz = load<Floats>(points.at[2] + first) - z;
+      const Floats distance2 = dx * dx + dy * dy + dz * dz;
+      const Ints slot = load<Ints>(points.slot + first);
+      const std::uint32_t lanes = Set::at_most(distance2, reach2) & ~Set::equal(slot, own);
+      count += Set::append(lanes, distance2, slot, found.distance2 + count, found.slot + count);
+    }
+    found.count = count;
+    return first;
+  }
+
+  static void rank(const std::int32_t* key, std::int32_t count, std::int32_t* rank) {
+    for (std::int32_t first = 0; first < count; first += kLanes) {
+      const Ints keys = load<Ints>(key + first);
+      Ints smaller{};
+      for (std::int32_t n = 0; n < count; ++n) smaller -= all<Ints>(key[n]) < keys;
+      __builtin_memcpy(rank + first, &smaller, sizeof smaller);
     }
   }
-  return found;
-}
 
-/// Squared distance of a point from the box of a block.
-inline float gap2_of(const float at[3], const NearBlocks& blocks, std::int32_t block) {
-  float sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float below = blocks.low[axis][block] - at[axis], above = at[axis] - blocks.high[axis][block];
-    const float outside = below > above ? below : above, gap = outside > 0 ? outside : 0;
-    sum += gap * gap;
-  }
-  return sum;
-}
-
-/// Adds a candidate in its place. Returns the squared distance that others must have now at most.
-inline float take_candidate(const NearestTask& task, float distance2, std::int32_t slot, float limit,
-                            NearestFound& found) {
-  if (found.count == task.room) {
-    found.is_full = true;
-    return limit;
-  }
-  std::int32_t place = found.count++;
-  for (; place > 0 && found.distance2[place - 1] > distance2; --place) {
-    found.distance2[place] = found.distance2[place - 1];
-    found.slot[place] = found.slot[place - 1];
-  }
-  found.distance2[place] = distance2;
-  found.slot[place] = slot;
-  if (found.count < task.k) return limit;
-  const float of_last = found.distance2[task.k - 1] * (1 + kBlur) + task.blur;
-  if (of_last >= limit) return limit;
-  while (found.distance2[found.count - 1] > of_last) --found.count;
-  return of_last;
-}
-
-inline void search_blocks(const NearestTask& task, const NearBlocks& blocks, NearestFound& found) {
-  found.count = found.blocks_seen = found.points_seen = 0;
-  found.is_full = false;
-  float limit = task.reach2;
-  for (std::int32_t n = 0; n < task.blocks && task.gap2[n] <= limit && !found.is_full; ++n) {
-    const std::int32_t block = task.block[n];
-    ++found.blocks_seen;
-    if (gap2_of(task.at, blocks, block) > limit) continue;
-    const float* const points = blocks.coordinates + 3 * kBlock * static_cast<std::int64_t>(block);
-    FloatLanes x, y, z;
-    subtract(points, task.at[0], x);
-    subtract(points + kBlock, task.at[1], y);
-    subtract(points + 2 * kBlock, task.at[2], z);
-    const FloatLanes distance2 = x * x + y * y + z * z;
-    found.points_seen += blocks.count[block];
-    if (!any(distance2 <= limit)) continue;
-    for (std::int32_t lane = 0; lane < blocks.count[block]; ++lane) {
-      const std::int32_t slot = block * kBlock + lane;
-      if (distance2[lane] > limit || slot == task.own_slot || found.is_full) continue;
-      limit = take_candidate(task, distance2[lane], slot, limit, found);
-    }
-  }
-}
+  static constexpr NearestKernels kKernels{select, gather, search, rank};
+};
 
 }  // namespace
 }  // namespace dch::detail

@@ -29,7 +29,7 @@ inline constexpr std::int32_t kMaxNearest = 1 << 20;
 struct NearestWork {
   std::int64_t nodes = 0;   ///< balls of subtrees compared with a query
   std::int64_t blocks = 0;  ///< boxes of eight points compared with a query, or with another box
-  std::int64_t points = 0;  ///< points whose distance was computed
+  std::int64_t points = 0;  ///< points whose distance was computed, or places for them in blocks
 };
 
 /// The nearest neighbors of some points, k entries a row, nearest first; of points equally near, the one with
@@ -69,7 +69,7 @@ class Nearest {
 
   /// The nearest other points of each point; row i is that of id i, and rows of ids that were removed hold
   /// nothing. Whole blocks of points are asked for at once, O(k) a point where density varies little; of a
-  /// kept_view() one point after the other.
+  /// kept_view() one point after the other. The memory of `rows` is taken again where it is enough.
   /// @throws InvalidParameter for a k or an epsilon out of range; `rows` is as it was then.
   void of_points(const NearestParams& params, NearestRows& rows) const;
   NearestRows of_points(const NearestParams& params) const {
