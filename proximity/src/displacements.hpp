@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -24,7 +26,22 @@ class Displacements {
     return start_of(bucket);
   }
 
+  /// From which squared displacement on a point asks for itself; 0 if all that have moved do. The others lose
+  /// twice the motion that is left, and rounding, of the distances that they know.
+  /// @param points how many there are
+  /// @param closest2 squared distance of the closest pair before
+  double jump2(std::size_t points, double rounding, double closest2) const {
+    if (size() * kShareOfJumps < points) return 0;
+    const double least2 = std::min(reached_by(0), kJump * kJump * reached_by(size() / kShareOfJumps));
+    const double shrinks = 2 * std::sqrt(least2) + 4 * rounding;
+    return size() > points / 4 || shrinks * shrinks < closest2 ? least2 : 0;
+  }
+
  private:
+  /// Points jump that move this many times as far as all but a share of those that move.
+  static constexpr double kJump = 1.5;
+  static constexpr std::size_t kShareOfJumps = 64;
+
   // Of the bits of a double: the exponent and two of the fraction. Squares have no sign.
   static constexpr int kBits = 13, kShift = 63 - kBits;
 

@@ -12,6 +12,7 @@
 #include <dch/base/error.hpp>
 #include <dch/proximity/kept_closest_pair.hpp>
 
+#include "close_grid.hpp"
 #include "closest_bounds.hpp"
 #include "closest_candidate.hpp"
 #include "displacements.hpp"
@@ -37,9 +38,8 @@ constexpr double kReach = 4;
 constexpr double kSteps = 16;
 /// Of all points, the share of those that are asked when all at once take no longer.
 constexpr std::size_t kShareOfAll = 8;
-/// Points jump that move this many times as far as all but a share of those that move.
-constexpr double kJump = 1.5;
-constexpr std::size_t kShareOfJumps = 64;
+/// A grid is made when as many points as this share of all have asked by descent: these took longer.
+constexpr std::int64_t kShareOfDescents = 32;
 
 }  // namespace
 
@@ -49,7 +49,6 @@ struct KeptClosestPair::Impl {
   void compare_all(const Structure& structure);
   void look_at(const Structure& structure, std::int32_t id);
   void grow(const Structure& structure);
-  double choose_jump2(const detail::Displacements& moved, double rounding) const;
   bool must_take_all(const Structure& structure) const {
     return !is_whole || structure.box != box || structure.slot_of_id.size() < seen.size();
   }
@@ -59,8 +58,14 @@ struct KeptClosestPair::Impl {
   void ask_all(const HierarchyView& view, Executor* executor);
   template <class Ask>
   void settle(const Ask& ask);
+  bool ask_grid(const Structure& structure, std::int32_t id, double reach, detail::ClosestCandidate& nearest);
   double known_distance(const Structure& structure) const;
 
+  void add_work(const NearestWork& more) {
+    work.nearest.nodes += more.nodes;
+    work.nearest.blocks += more.blocks;
+    work.nearest.points += more.points;
+  }
   bool is_there(std::int32_t id) const { return were_there[static_cast<std::size_t>(id)] != 0; }
 
   KeptClosestWork work;
@@ -72,7 +77,9 @@ struct KeptClosestPair::Impl {
   std::vector<std::int32_t> changed;  ///< in this call: they ask first
   ClosestBounds bounds;
   ClosestBounds::Pair last;
-  double motion = 0;  ///< by how much distances may have shrunk since the call before [length]
+  detail::CloseGrid grid;     ///< of `seen`, or empty
+  std::int64_t descents = 0;  ///< since it was made, or tried to
+  double motion = 0;          ///< by how much distances may have shrunk since the call before [length]
 };
 
 void KeptClosestPair::Impl::take_all(const Structure& structure) {
@@ -83,6 +90,7 @@ void KeptClosestPair::Impl::take_all(const Structure& structure) {
     were_there[k] = structure.contains(static_cast<std::int32_t>(k));
   bounds.forget_all(were_there);
   changed.clear();
+  grid.clear();
   last = {};
   motion = 0;
 }
@@ -92,6 +100,7 @@ void KeptClosestPair::Impl::grow(const Structure& structure) {
   seen.resize(ids);
   were_there.resize(ids, 0);
   bounds.grow(ids);
+  if (!grid.empty()) grid.grow(ids);
 }
 
 /// A point that is where it was has nothing to ask.
@@ -100,8 +109,10 @@ void KeptClosestPair::Impl::look_at(const Structure& structure, std::int32_t id)
   const auto k = static_cast<std::size_t>(id);
   const bool is_there_now = structure.contains(id);
   if (is_there_now == is_there(id) && (!is_there_now || seen[k] == structure.raw[k])) return;
+  if (!grid.empty() && is_there(id)) grid.remove(id);
   were_there[k] = is_there_now;
   seen[k] = structure.raw[k];
+  if (!grid.empty() && is_there_now) grid.insert(id, seen[k]);
   if (is_there_now) {
     bounds.note_change(id, now);
     changed.push_back(id);
@@ -128,11 +139,12 @@ void KeptClosestPair::Impl::compare_all(const Structure& structure) {
     }
   }
   const double rounding = detail::WrapError(box).bound(structure.largest_reach);
-  const double jump2 = choose_jump2(displacements, rounding);
+  const double jump2 = displacements.jump2(seen.size(), rounding, last.distance2);
   motion = 0;
   if (jump2 > 0) {
     motion = (2 * std::sqrt(jump2) + 4 * rounding) * detail::kInflate;
     bounds.shrink_all(motion);
+    grid.clear();
   }
   for (const auto& [id, square] : moved) {
     if (square >= jump2) {
@@ -142,16 +154,6 @@ void KeptClosestPair::Impl::compare_all(const Structure& structure) {
       seen[static_cast<std::size_t>(id)] = structure.raw[static_cast<std::size_t>(id)];
     }
   }
-}
-
-/// From which squared displacement on a point asks; 0 if all that have moved do.
-double KeptClosestPair::Impl::choose_jump2(const detail::Displacements& moved, double rounding) const {
-  if (moved.size() * kShareOfJumps < seen.size()) return 0;
-  const double jump2 =
-      std::min(moved.reached_by(0), kJump * kJump * moved.reached_by(moved.size() / kShareOfJumps));
-  const double shrinks = 2 * std::sqrt(jump2) + 4 * rounding;
-  const bool pays = moved.size() > seen.size() / 4 || shrinks * shrinks < last.distance2;
-  return pays ? jump2 : 0;
 }
 
 /// An upper bound, if there is one without a search.
@@ -173,9 +175,7 @@ void KeptClosestPair::Impl::ask_all(const HierarchyView& view, Executor* executo
   }
   bounds.set_all(std::move(pairs), now);
   changed.clear();
-  work.nearest.nodes += rows.work.nodes;
-  work.nearest.blocks += rows.work.blocks;
-  work.nearest.points += rows.work.points;
+  add_work(rows.work);
 }
 
 /// Has points ask until none may have a pair that comes before the closest one known. Where points coincide,
@@ -194,6 +194,24 @@ void KeptClosestPair::Impl::settle(const Ask& ask) {
     if (is_there(id)) ask(id, 0.0);
 }
 
+/// Asks a grid, after it has been made where that pays. Returns false if there is none for that reach.
+bool KeptClosestPair::Impl::ask_grid(const Structure& structure, std::int32_t id, double reach,
+                                     detail::ClosestCandidate& nearest) {
+  if (!grid.serves(reach)) {
+    if (!std::isfinite(reach) || descents * kShareOfDescents < static_cast<std::int64_t>(seen.size()))
+      return false;
+    descents = 0;
+    grid.make(box, seen, were_there, reach, detail::WrapError(box).bound(structure.largest_reach));
+    if (!grid.serves(reach)) return false;
+  }
+  const Vec3 at = seen[static_cast<std::size_t>(id)];
+  grid.for_each_near(at, reach, [&](std::int32_t other) {
+    ++work.nearest.points;
+    if (other != id) nearest.add(box.distance2(at, seen[static_cast<std::size_t>(other)]), other);
+  });
+  return true;
+}
+
 ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_ask_all, Executor* executor) {
   const Structure& structure = view.structure();
   const NearestWork before = work.nearest;
@@ -201,24 +219,28 @@ ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_
   if (may_ask_all && !structure.balls && bounds.count_below(known) > structure.count() / kShareOfAll)
     ask_all(view, executor);  // those that changed too
   std::optional<detail::SubtreeBalls> measured;
-  if (!structure.balls) measured.emplace(structure);
   detail::with_metric(structure.box, [&](const auto& metric) {
-    detail::NearestDescent<std::decay_t<decltype(metric)>, detail::ClosestCandidate> descent(
-        metric, structure, measured ? *measured : *structure.balls);
+    std::optional<detail::NearestDescent<std::decay_t<decltype(metric)>, detail::ClosestCandidate>> descent;
+    const auto descend = [&](std::int32_t id, detail::ClosestCandidate& best) {
+      if (!descent) {
+        if (!structure.balls) measured.emplace(structure);
+        descent.emplace(metric, structure, measured ? *measured : *structure.balls);
+      }
+      ++descents;
+      descent->search(seen[static_cast<std::size_t>(id)], id, 0, best);
+    };
     detail::ClosestCandidate nearest;
     settle([&](std::int32_t id, double closest2) {
       ++work.asked;
       const double distance = std::min(known, std::sqrt(closest2));
       const double reach = distance > 0 ? kReach * distance + kSteps * motion : kFar;
       nearest.clear(reach * reach);
-      descent.search(seen[static_cast<std::size_t>(id)], id, 0, nearest);
+      if (!ask_grid(structure, id, reach, nearest)) descend(id, nearest);
       if (nearest.id() < 0) return bounds.set_none_within(id, reach);
       const auto [a, b] = std::minmax({id, nearest.id()});
       bounds.set_nearest(id, {nearest.limit2(), a, b}, now);
     });
-    work.nearest.nodes += descent.work.nodes;
-    work.nearest.blocks += descent.work.blocks;
-    work.nearest.points += descent.work.points;
+    if (descent) add_work(descent->work);
   });
   last = bounds.closest();
   is_whole = true;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
 #include "geometry/tolerance.hpp"
+#include "rank_found.hpp"
 
 namespace dch::detail {
 namespace {
@@ -22,9 +22,6 @@ constexpr float kBlur = 1e-3f;
 constexpr std::int32_t kSpareRoom = 64;
 /// Points of selected blocks that are looked at before those that are too far by then are left out.
 constexpr std::int32_t kAtOnce = 32 * kChunk;
-/// Up to so many, what was found is put in order by counting what is nearer: by keys that hold the bits of a
-/// squared distance and, in place of the last ones, where it was found.
-constexpr std::int32_t kMostRanked = 128;
 /// By how much squared distances in that order may descend.
 constexpr float kDisorder = 0x1p-15f;
 /// Squared distances in float up to this share of what is known to be within reach are as exact as they
@@ -220,7 +217,7 @@ template <class Metric>
 float LeafNearest<Metric>::last_found() {
   const std::int32_t count = found_.count;
   if (count <= kMostRanked) {
-    rank_found();
+    rank_found(kernels_, found_, sorted_);
   } else {
     order_.resize(static_cast<std::size_t>(count));
     std::iota(order_.begin(), order_.end(), 0);
@@ -235,22 +232,6 @@ float LeafNearest<Metric>::last_found() {
   sorted_.count = count;
   std::swap(found_, sorted_);
   return found_.distance2[k_ - 1];
-}
-
-/// Few are put in order by counting, for each, those before it.
-template <class Metric>
-void LeafNearest<Metric>::rank_found() {
-  std::int32_t key[kMostRanked + kChunk], rank[kMostRanked + kChunk];
-  for (std::int32_t n = 0; n < found_.count; ++n) {
-    std::int32_t bits = 0;
-    std::memcpy(&bits, &found_.distance2[n], sizeof bits);
-    key[n] = (bits & ~(kMostRanked - 1)) | n;
-  }
-  kernels_.rank(key, found_.count, rank);
-  for (std::int32_t n = 0; n < found_.count; ++n) {
-    sorted_.distance2[rank[n]] = found_.distance2[n];
-    sorted_.slot[rank[n]] = found_.slot[n];
-  }
 }
 
 /// Has what settle() needs fetched from memory: points and rows lie there anywhere.

@@ -41,7 +41,6 @@ class LeafNearest {
   bool shrink(NearestTask& task);
   float least_found() const;
   float last_found();
-  void rank_found();
   void fetch(std::int32_t slot, const NearestRows& rows) const;
   bool settle(std::int32_t slot, std::int32_t first, std::int32_t last, double reach, NearestRows& rows);
   double distance2(std::int32_t slot, std::int32_t other) const;

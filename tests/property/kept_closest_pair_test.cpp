@@ -18,6 +18,7 @@
 #include <dch/base/error.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
 #include <dch/proximity/kept_closest_pair.hpp>
+#include <dch/proximity/point_tree.hpp>
 
 #include "effort.hpp"
 #include "error_message.hpp"
@@ -207,6 +208,29 @@ TEST(KeptClosestPairs, LookAtWhatHasChangedAlone) {
     EXPECT_LE(work.nearest.blocks, 1000);
     EXPECT_LE(work.nearest.points, 300);
   }
+}
+
+/// After so many changes a grid answers, without nodes and blocks, wherever the points that change go.
+TEST(KeptClosestPairs, ManyThatChangeLookAtFewOthers) {
+  Uniform scene(20000);
+  KeptClosestPair kept;
+  kept.find(scene.hierarchy->kept_view());
+  NearestWork before;
+  for (int step = 0; step < 60; ++step) {
+    std::vector<std::int32_t> changed;
+    for (int k = 0; k < 200; ++k) {
+      changed.push_back(static_cast<std::int32_t>(scene.random.below(20000)));
+      scene.hierarchy->remove(changed.back());
+      scene.hierarchy->insert(scene.somewhere());
+    }
+    const ClosestPoints found = kept.find(scene.hierarchy->kept_view(), changed);
+    if (step % 20 == 19) {
+      EXPECT_EQ(of(found), of(closest_pair(PointTree(scene.hierarchy->view()))));
+    }
+    if (step == 9) before = kept.work().nearest;
+  }
+  EXPECT_LE(kept.work().nearest.nodes - before.nodes, 10000 * 20);
+  EXPECT_LE(kept.work().nearest.points - before.points, 10000 * 20);
 }
 
 /// All on one spot: each is as close to each. The points of a few are compared, not those of all.

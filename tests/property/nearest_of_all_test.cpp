@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The nearest others of all points at once, against all pairs, where density varies within a leaf, where many
-// points are as near as each other, with lengths at the ends of what float holds, and for as many neighbors as
-// take all the ways to put what was found in order: with every instruction set.
+// points are as near as each other, with lengths at the ends of what float holds, and for as many neighbors
+// as take all the ways to put what was found in order: with every instruction set.
 #include <algorithm>
 #include <array>
 #include <cmath>
