@@ -110,6 +110,22 @@ Request parse_order(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_expiry(const std::vector<std::string>& words) {
+  Request request;
+  request.action = Request::Action::expiry;
+  const std::string remedy = "; give 'dch expiry auto', 'dch expiry exact' or 'dch expiry half'";
+  if (words.size() == 1) refuse("'dch expiry' lacks its value" + remedy);
+  if (words[1] == "exact") {
+    request.expiry = ExpiryRule::exact;
+  } else if (words[1] == "half") {
+    request.expiry = ExpiryRule::half;
+  } else if (words[1] != "auto") {
+    refuse("'dch expiry' does not know '" + words[1] + "'" + remedy);
+  }
+  expect_no_more(words, 2);
+  return request;
+}
+
 Request parse_precision(const std::vector<std::string>& words) {
   Request request;
   request.action = Request::Action::precision;
@@ -128,13 +144,16 @@ Request parse_precision(const std::vector<std::string>& words) {
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
       "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
-      "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
+      "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' "
+      "or "
+      "'dch skin auto|fixed'";
   if (words.empty()) refuse("no argument" + remedy);
   if (words[0] == "on") return parse_on(words);
   if (words[0] == "verify") return parse_verify(words);
   if (words[0] == "skin") return parse_skin(words);
   if (words[0] == "threads") return parse_threads(words);
   if (words[0] == "order") return parse_order(words);
+  if (words[0] == "expiry") return parse_expiry(words);
   if (words[0] == "precision") return parse_precision(words);
   if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);
   expect_no_more(words, 1);

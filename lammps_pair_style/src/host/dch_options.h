@@ -13,9 +13,14 @@ namespace dch::lammps {
 /// would be another trajectory.
 enum class OrderAtoms { automatic, always, never };
 
+/// When lists expire. `exact`: when a pair within its cutoff is missing. `half`: when an atom has moved half
+/// the skin, LAMMPS's rule. `automatic`: exact, unless a fix is in use that may draw random numbers atom by
+/// atom, and builds at other steps would be another trajectory.
+enum class ExpiryRule { automatic, exact, half };
+
 /// What one `dch ...` line of an input script asks for.
 struct Request {
-  enum class Action { on, off, stats, verify, precision, threads, skin, order };
+  enum class Action { on, off, stats, verify, precision, threads, skin, order, expiry };
   Action action = Action::on;
   std::string engine = "dch";  ///< `on`: what fills lists, see dch::make_search
   bool has_c = false;          ///< `on c`, which has no effect any more
@@ -23,6 +28,7 @@ struct Request {
   ForcePrecision precision = ForcePrecision::double_precision;  ///< `precision`: of force styles of ours
   bool tunes_skin = false;                                      ///< `skin`: auto, not fixed
   OrderAtoms order_atoms = OrderAtoms::automatic;               ///< `order`
+  ExpiryRule expiry = ExpiryRule::automatic;                    ///< `expiry`
   int threads = 1;                                              ///< `threads`: of each process
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run_report.h"
 
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 
@@ -48,6 +49,28 @@ std::string engine_line(const RunReport& r) {
   return text + "\n";
 }
 
+/// Why lists were given up, in the order of ExpiryVerdict from the second one on.
+constexpr std::array<const char*, kExpiryVerdicts - 1> kReasons{
+    "for what cannot be told", "for an atom that moved more than the skin", "for many fast atoms",
+    "for an atom near the last ghosts", "for a missing pair"};
+
+std::string expiry_lines(const RunReport& r) {
+  if (!r.expiry_obstacle.empty())
+    return "  expiry                  half the skin: " + r.expiry_obstacle + "\n";
+  const auto& verdicts = r.counters.verdicts;
+  std::string text = line(
+      "  expiry                  exact: about %.3g builds saved; lists kept beyond half the skin at %lld "
+      "steps, %.3g "
+      "ms each",
+      r.counters.builds_saved, static_cast<long long>(verdicts[0]),
+      per(1e3 * r.counters.expiry_seconds, verdicts[0]));
+  std::string reasons;
+  for (std::size_t k = 1; k < verdicts.size(); ++k)
+    if (verdicts[k] > 0)
+      reasons += (reasons.empty() ? "" : ", ") + std::to_string(verdicts[k]) + " " + kReasons[k - 1];
+  return reasons.empty() ? text : text + "                          given up " + reasons + "\n";
+}
+
 std::string work_table(const RunReport& r) {
   const RunCounters& n = r.counters;
   std::string text;
@@ -64,6 +87,7 @@ std::string work_table(const RunReport& r) {
           (r.order_obstacle.empty() ? "in the order of the structure"
                                     : "in LAMMPS's order: " + r.order_obstacle) +
           "\n";
+  text += expiry_lines(r);
   text += "  instructions            " + r.instructions + "\n";
   if (r.skin > 0)
     text += line("  skin                    %g, %s", r.skin,

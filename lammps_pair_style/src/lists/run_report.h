@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,19 +20,33 @@ struct ListNote {
   }
 };
 
+/// What is said of lists that half the skin would end. The largest of all processes counts.
+enum class ExpiryVerdict {
+  kept,          ///< they hold every pair within its cutoff
+  cannot_tell,   ///< the engine cannot tell, or something else than positions has changed
+  too_far,       ///< an atom has moved farther than the skin
+  too_many,      ///< more atoms than are asked about have moved half the skin
+  near_end,      ///< an atom is so near the last ghosts, or so far out, that this process cannot tell
+  pair_missing,  ///< a pair within its cutoff is not in them
+};
+inline constexpr std::size_t kExpiryVerdicts = 6;
+
 /// What one process counts during a run. Times in seconds of wall clock.
 struct RunCounters {
   std::int64_t builds = 0;   ///< builds of our lists
   std::int64_t entries = 0;  ///< in our lists, at the last build
   std::int64_t verified_builds = 0;
   std::int64_t verified_entries = 0;
-  double points_seconds = 0;           ///< taking positions, naming points
-  double structure_seconds = 0;        ///< building and repairing the hierarchy
-  double rows_seconds = 0;             ///< candidate rows from it
-  double fill_seconds = 0;             ///< LAMMPS's lists from those
-  double clusters_seconds = 0;         ///< cluster pairs
-  double verified_native_seconds = 0;  ///< native builds of our lists, at verified builds
-  double verified_dch_seconds = 0;     ///< our builds at the same times
+  std::array<std::int64_t, kExpiryVerdicts> verdicts{};  ///< by ExpiryVerdict, how often
+  double builds_saved = 0;                               ///< that half the skin would have asked for, about
+  double expiry_seconds = 0;                             ///< asking whether lists have expired
+  double points_seconds = 0;                             ///< taking positions, naming points
+  double structure_seconds = 0;                          ///< building and repairing the hierarchy
+  double rows_seconds = 0;                               ///< candidate rows from it
+  double fill_seconds = 0;                               ///< LAMMPS's lists from those
+  double clusters_seconds = 0;                           ///< cluster pairs
+  double verified_native_seconds = 0;                    ///< native builds of our lists, at verified builds
+  double verified_dch_seconds = 0;                       ///< our builds at the same times
 
   double seconds() const {
     return points_seconds + structure_seconds + rows_seconds + fill_seconds + clusters_seconds;
@@ -50,9 +66,10 @@ struct RunReport {
   bool skin_settled = false;
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
-  std::string instructions;    ///< name of the instruction set that the search uses
-  RunCounters counters;        ///< entries summed, builds and times the largest of any process
-  std::string order_obstacle;  ///< why atoms are not in the order of the structure; empty if they are
+  std::string instructions;     ///< name of the instruction set that the search uses
+  RunCounters counters;         ///< entries summed, builds and times the largest of any process
+  std::string order_obstacle;   ///< why atoms are not in the order of the structure; empty if they are
+  std::string expiry_obstacle;  ///< why half the skin ends lists; empty if missing pairs do
   std::int64_t atoms = 0;
   std::int64_t structures_built = 0, repairs = 0, refreshes = 0;          ///< the largest of any process
   std::int64_t promotions = 0, demotions = 0, inserted = 0, removed = 0;  ///< summed

@@ -11,71 +11,13 @@
 #include <utility>
 
 #include "fix_dch_order.h"
+#include "known_fixes.h"
 
 namespace LAMMPS_NS {
 
 using dch::lammps::OrderAtoms;
 
 namespace {
-
-constexpr const char* kHistory = "NEIGH_HISTORY";
-
-// Fixes, each with all whose names go on with a slash, that draw no random numbers atom by atom. Names in
-// capitals are LAMMPS's own and ours.
-constexpr const char* kWithoutRandomNumbers[] = {"nve",
-                                                 "nvt",
-                                                 "npt",
-                                                 "nph",
-                                                 "addforce",
-                                                 "adapt",
-                                                 "ave",
-                                                 "aveforce",
-                                                 "balance",
-                                                 "box/relax",
-                                                 "cmap",
-                                                 "deform",
-                                                 "drag",
-                                                 "dt/reset",
-                                                 "efield",
-                                                 "enforce2d",
-                                                 "freeze",
-                                                 "gravity",
-                                                 "halt",
-                                                 "indent",
-                                                 "lineforce",
-                                                 "momentum",
-                                                 "move",
-                                                 "planeforce",
-                                                 "press/berendsen",
-                                                 "print",
-                                                 "property/atom",
-                                                 "qeq",
-                                                 "rattle",
-                                                 "recenter",
-                                                 "restrain",
-                                                 "setforce",
-                                                 "shake",
-                                                 "spring",
-                                                 "store",
-                                                 "temp/berendsen",
-                                                 "temp/rescale",
-                                                 "tune/kspace",
-                                                 "vector",
-                                                 "viscous",
-                                                 "wall",
-                                                 "STORE",
-                                                 kHistory,
-                                                 "DUMMY",
-                                                 "GROUP",
-                                                 FixDCHOrder::kStyle};
-
-bool draws_no_random_numbers(const char* style) {
-  return std::any_of(
-      std::begin(kWithoutRandomNumbers), std::end(kWithoutRandomNumbers), [&](const char* name) {
-        const std::size_t length = std::strlen(name);
-        return std::strncmp(style, name, length) == 0 && (style[length] == '\0' || style[length] == '/');
-      });
-}
 
 /// Atom::sort() puts atoms into bins by coordinate and then in the order of the bins. While this lives, bins
 /// are a row of cells one long, and the coordinates are those that are given to it. AtomVec, which moves what
@@ -148,7 +90,7 @@ void AtomOrder::begin_run() {
   const int ours = FixDCHOrder::index_in(*modify);
   for (int k = 0; k < modify->nfix; ++k) {
     const char* const style = modify->fix[k]->style;
-    if (ours >= 0 && k > ours && std::strcmp(style, kHistory) == 0)
+    if (ours >= 0 && k > ours && std::strcmp(style, kHistoryFix) == 0)
       obstacle_ = "contacts are saved after the time for it";
     if (when_ == OrderAtoms::automatic && !draws_no_random_numbers(style))
       obstacle_ =

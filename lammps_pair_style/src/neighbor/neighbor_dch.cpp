@@ -40,6 +40,8 @@ NeighborDCH::NeighborDCH(Neighbor* retired, const NeighborParts& parts)
       order_(lmp),
       images_(lmp),
       parts_(parts),
+      expiry_(lmp),
+      stock_builds_(lmp),
       special_(lmp),
       rules_(lmp),
       filler_(lmp, special_, rules_),
@@ -80,6 +82,7 @@ void NeighborDCH::enable(const std::string& engine) {
 
 void NeighborDCH::disable() {
   enabled_ = false;
+  expiry_obstacle_ = "'dch off' was given";
   show_bins();
 }
 
@@ -97,6 +100,8 @@ void NeighborDCH::init() {
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};
   before_run_ = {};
+  expiry_obstacle_ = "no DCH list is in use";
+  stock_builds_.begin_run(false);
   clusters_ = std::exchange(requested_clusters_, {});
   notes_ = std::exchange(requested_notes_, {});
   if (!enabled_ && clusters_.empty()) {
@@ -117,6 +122,7 @@ void NeighborDCH::init() {
   prepare_skin();
   before_run_ = search_stats();
   order_.begin_run();
+  prepare_expiry();
   if (order_.obstacle().empty()) FixDCHOrder::install(lmp);
   hide_bins();
 }

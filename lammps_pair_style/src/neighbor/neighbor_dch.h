@@ -17,10 +17,12 @@
 #include "cluster_list.h"
 #include "cluster_verifier.h"
 #include "ghost_images.h"
+#include "list_expiry.h"
 #include "list_filler.h"
 #include "list_verifier.h"
 #include "run_report.h"
 #include "skin_tuner.h"
+#include "stock_builds.h"
 
 namespace dch::lammps {
 
@@ -51,9 +53,10 @@ struct NeighborParts {
 /// It takes the place of the stock object, so every pair style, fix and compute finds its list where it
 /// always was. Of the perpetual lists it fills those that LAMMPS would build by searching space for a pair
 /// style; LAMMPS goes on to derive skip, copy and half-from-full lists from them, and builds all others
-/// itself. Force styles of ours ask for cluster pairs in place of a list. The displacement test, the topology
-/// lists and all settings stay the base class's. Each process keeps a hierarchy of its own; atoms are named
-/// by PointKeys, so that it is repaired, not built anew, when atoms are re-sorted, migrate or cross the box.
+/// itself. Force styles of ours ask for cluster pairs in place of a list. Topology lists and all settings
+/// stay the base class's, and so does the displacement test, except that lists that lack no pair are kept.
+/// Each process keeps a hierarchy of its own; atoms are named by PointKeys, so that it is repaired, not built
+/// anew, when atoms are re-sorted, migrate or cross the box.
 class NeighborDCH : public Neighbor {
  public:
   /// Takes over the state of `retired`, which is kept, emptied, until this object goes: parts of LAMMPS point
@@ -81,6 +84,8 @@ class NeighborDCH : public Neighbor {
   dch::Executor* executor() const { return pool_.get(); }
   /// Whether runs from now on look for the skin with the least time a step, up to that of the script.
   void set_skin_tuning(bool on) { tunes_skin_ = on; }
+  /// When lists expire, from the next run on.
+  void set_expiry(dch::lammps::ExpiryRule rule) { expiry_rule_ = rule; }
   void set_precision(dch::ForcePrecision precision) { precision_ = precision; }
   dch::ForcePrecision precision() const { return precision_; }  ///< of force styles of ours
 
@@ -131,6 +136,17 @@ class NeighborDCH : public Neighbor {
   void prepare_skin();
   void choose_skin();
   void apply_skin();
+  void prepare_expiry();
+  std::string settings_against_expiry() const;
+  std::string fix_against_expiry() const;
+  std::string uncertain_list() const;
+  bool is_as_complete(const NeighList& list) const;
+  bool keeps_order() const;
+  bool moved_half_skin();
+  bool lists_hold_all();
+  ListExpiry::Wanted wanted_pairs() const;
+  void note_expiry();
+  double builds_saved() const;
   bool sizes_differ_much() const;
   bool fills_lists() const { return enabled_ && !served_.empty(); }
   void build_ours();
@@ -180,6 +196,13 @@ class NeighborDCH : public Neighbor {
   std::vector<double> script_cutoffs_;  ///< neighbor cutoffs by types with the skin of the script [length]
   double last_build_time_ = 0;
   bigint last_build_step_ = 0;
+  dch::lammps::ExpiryRule expiry_rule_ = dch::lammps::ExpiryRule::automatic;
+  std::string expiry_obstacle_ =
+      "no DCH list is in use";  ///< why half the skin decides; empty if it does not
+  ListExpiry expiry_;
+  StockBuilds stock_builds_;
+  bool stays_near_ = false;  ///< see ListExpiry::Wanted
+  int half_life_ = 0;        ///< steps after which half the skin would have ended these lists; 0 if not yet
   std::unique_ptr<dch::Executor> pool_;  ///< null for one thread
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;

@@ -29,6 +29,7 @@ double seconds_since(double& start) {
 }  // namespace
 
 void NeighborDCH::build(int topoflag) {
+  note_expiry();
   if (tuner_) choose_skin();
   if (!fills_lists() && clusters_.empty()) {
     Neighbor::build(topoflag);
@@ -50,6 +51,7 @@ void NeighborDCH::build_ours() {
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
     run_.structure_seconds += seconds_since(clock);
+    expiry_.remember(points_, wanted_pairs().by_radii);
     run_.entries = 0;
     if (fills_lists()) fill_lists();
     fill_clusters();

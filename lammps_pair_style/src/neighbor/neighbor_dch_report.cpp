@@ -15,9 +15,9 @@ namespace {
 void take_longest_times(dch::lammps::RunCounters& counters, MPI_Comm world) {
   using Counters = dch::lammps::RunCounters;
   constexpr std::array members{
-      &Counters::points_seconds,  &Counters::structure_seconds,       &Counters::rows_seconds,
-      &Counters::fill_seconds,    &Counters::verified_native_seconds, &Counters::verified_dch_seconds,
-      &Counters::clusters_seconds};
+      &Counters::points_seconds,   &Counters::structure_seconds,       &Counters::rows_seconds,
+      &Counters::fill_seconds,     &Counters::verified_native_seconds, &Counters::verified_dch_seconds,
+      &Counters::clusters_seconds, &Counters::expiry_seconds};
   std::array<double, members.size()> times{};
   for (std::size_t k = 0; k < members.size(); ++k) times[k] = counters.*members[k];
   MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_DOUBLE, MPI_MAX, world);
@@ -63,8 +63,10 @@ dch::lammps::RunReport NeighborDCH::report() const {
   report.processes_on_grid = static_cast<int>(sums[8]);
   report.in_box = points_.in_box();
   report.order_obstacle = order_.obstacle();
+  report.expiry_obstacle = expiry_obstacle_;
   report.instructions = dch::name(dch::instruction_set());
   report.counters = run_;
+  report.counters.builds_saved = builds_saved();
   report.counters.entries = sums[0];
   report.counters.verified_entries = sums[1];
   take_longest_times(report.counters, world);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <comm.h>
 #include <update.h>
-#include <utility>
 
 #include "neighbor_dch.h"
 
@@ -62,15 +61,6 @@ void NeighborDCH::apply_skin() {
       if (cutoff > 0) cutneighsq[a][b] = (cutoff - less) * (cutoff - less);
     }
   }
-}
-
-// The base class takes what the box has changed by from `skin`.
-int NeighborDCH::check_distance() {
-  if (!tuner_) return Neighbor::check_distance();
-  const double of_script = std::exchange(skin, tuner_->skin());
-  const int moved = Neighbor::check_distance();
-  skin = of_script;
-  return moved;
 }
 
 }  // namespace LAMMPS_NS

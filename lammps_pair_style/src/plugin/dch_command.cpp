@@ -47,6 +47,9 @@ void DchCommand::command(int narg, char** arg) {
     case Request::Action::order:
       neighbor_dch->set_order(request.order_atoms);
       break;
+    case Request::Action::expiry:
+      neighbor_dch->set_expiry(request.expiry);
+      break;
     case Request::Action::threads:
       neighbor_dch->set_threads(request.threads);
       break;

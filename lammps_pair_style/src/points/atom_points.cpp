@@ -101,6 +101,11 @@ void AtomPoints::take_positions() {
   positions_ = gathered_;
 }
 
+dch::Span<const dch::Vec3> AtomPoints::present_positions() {
+  take_positions();
+  return positions_;
+}
+
 void AtomPoints::name_in_box() {
   own_keys_.resize(static_cast<std::size_t>(count_));
   for (int p = 0; p < count_; ++p)

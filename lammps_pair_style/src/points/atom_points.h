@@ -35,6 +35,8 @@ class AtomPoints : protected Pointers {
   bool in_box() const { return in_box_; }
   dch::Box box() const;  ///< none in open space
   dch::Span<const dch::Vec3> positions() const { return positions_; }
+  /// Where the same points are by now: ghosts are where LAMMPS has last sent them.
+  dch::Span<const dch::Vec3> present_positions();
   dch::Span<const std::uint64_t> keys() const { return keys_; }  ///< empty if the points have no names
   dch::Span<const std::int32_t> types();                         ///< from 0
   dch::Span<const double> radii();                               ///< of spheres [length]

@@ -64,6 +64,13 @@ TEST(DchOptions, Order) {
   EXPECT_EQ(parse_request({"order", "auto"}).order_atoms, OrderAtoms::automatic);
 }
 
+TEST(DchOptions, Expiry) {
+  EXPECT_EQ(parse_request({"expiry", "exact"}).action, Request::Action::expiry);
+  EXPECT_EQ(parse_request({"expiry", "exact"}).expiry, ExpiryRule::exact);
+  EXPECT_EQ(parse_request({"expiry", "half"}).expiry, ExpiryRule::half);
+  EXPECT_EQ(parse_request({"expiry", "auto"}).expiry, ExpiryRule::automatic);
+}
+
 TEST(DchOptions, Threads) {
   EXPECT_EQ(parse_request({"threads", "3"}).action, Request::Action::threads);
   EXPECT_EQ(parse_request({"threads", "3"}).threads, 3);
@@ -73,7 +80,7 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
       "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
       "'dch precision double|mixed', "
-      "'dch threads N', 'dch order auto|yes|no' or 'dch skin auto|fixed'";
+      "'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{
       {{}, grammar},
       {{""}, grammar},
@@ -95,6 +102,10 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
       {{"verify", "every", "0"}, "the interval is '0' but has to be a whole number from 1 up"},
       {{"verify", "every", "2.5"}, "the interval is '2.5'"},
       {{"verify", "every", "99999999999999999999"}, "the interval is '99999999999999999999'"},
+      {{"expiry"},
+       "'dch expiry' lacks its value; give 'dch expiry auto', 'dch expiry exact' or 'dch expiry half'"},
+      {{"expiry", "never"}, "'dch expiry' does not know 'never'; give 'dch expiry auto'"},
+      {{"expiry", "half", "on"}, "'on' after"},
       {{"skin"}, "lacks its value; give 'dch skin auto' or 'dch skin fixed'"},
       {{"skin", "0.3"}, "does not know '0.3'"},
       {{"skin", "auto", "on"}, "'on' after"},

@@ -77,6 +77,21 @@ TEST(RunReport, SaysInWhichOrderAtomsAre) {
   EXPECT_THAT(format_report(report), HasSubstr("in LAMMPS's order: 'atom_modify sort' is off\n"));
 }
 
+TEST(RunReport, SaysWhichRuleEndsListsAndWhatItSaved) {
+  dch::lammps::RunReport report = example();
+  report.expiry_obstacle = "the box changes";
+  EXPECT_THAT(format_report(report), HasSubstr("expiry                  half the skin: the box changes\n"));
+  report.expiry_obstacle.clear();
+  EXPECT_THAT(format_report(report), Not(HasSubstr("given up")));
+  report.counters.builds_saved = 2.4;
+  report.counters.expiry_seconds = 0.01;
+  report.counters.verdicts = {20, 0, 0, 3, 0, 1};
+  EXPECT_THAT(
+      format_report(report),
+      HasSubstr("exact: about 2.4 builds saved; lists kept beyond half the skin at 20 steps, 0.5 ms each\n"
+                "                          given up 3 for many fast atoms, 1 for a missing pair\n"));
+}
+
 TEST(RunReport, GivesTheRatioToNativeWhereBuildsWereVerified) {
   RunReport r = example();
   EXPECT_THAT(format_report(r), HasSubstr("no build of the last run; see 'dch verify'"));
