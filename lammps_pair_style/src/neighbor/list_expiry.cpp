@@ -21,8 +21,8 @@ double distance2(const double* a, const double* b) {
   return norm2(dch::Vec3{a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
-/// Lengths in the coordinates of the cell: the height of the cell along an axis is the inverse of the length of
-/// that row of the inverse matrix.
+/// Lengths in the coordinates of the cell: the height of the cell along an axis is the inverse of the length
+/// of that row of the inverse matrix.
 double scale_along(const Domain& domain, int axis) {
   if (!domain.triclinic) return 1;
   const double* h = domain.h_inv;
@@ -79,8 +79,8 @@ bool ListExpiry::is_open(int axis, bool high) const {
   return high ? domain->subhi[axis] == domain->boxhi[axis] : domain->sublo[axis] == domain->boxlo[axis];
 }
 
-/// Whether a place is in this process's part of the box, or beyond it by that at most, and all within `reach` of
-/// it; beyond faces where there are no atoms anyway.
+/// Whether a place is in this process's part of the box, or beyond it by that at most, and all within `reach`
+/// of it; beyond faces where there are no atoms anyway.
 bool ListExpiry::is_inside(const double* at, double reach, const double* beyond) const {
   const bool skewed = domain->triclinic != 0;
   double here[3] = {at[0], at[1], at[2]}, place[3] = {at[0], at[1], at[2]};

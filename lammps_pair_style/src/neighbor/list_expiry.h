@@ -30,8 +30,8 @@ class ListExpiry : protected Pointers {
   struct Wanted {
     double skin;              ///< that lists were made with [length]
     bool by_types, by_radii;  ///< whose sums are cutoffs: which lists there are
-    bool stays_near;          ///< no atom may be farther from its process's part of the box than half the skin
-    double rounding;          ///< of distances [length]
+    bool stays_near;  ///< no atom may be farther from its process's part of the box than half the skin
+    double rounding;  ///< of distances [length]
   };
 
   explicit ListExpiry(LAMMPS* lammps) : Pointers(lammps) {}

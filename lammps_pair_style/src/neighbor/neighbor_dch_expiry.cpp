@@ -42,7 +42,9 @@ bool NeighborDCH::is_as_complete(const NeighList& list) const {
   // From the versions on that cut lists of others by distance, derived ones may have a cutoff of their own.
   if (of_other && dch::lammps::kHasTrim<Pair>) return false;
   if (of_pair && dch::lammps::wants_own_cutoff(*static_cast<const Pair*>(list.requestor))) return false;
-  const NeighList* const parent = list.listcopy ? list.listcopy : list.listskip ? list.listskip : list.listfull;
+  const NeighList* const parent = list.listcopy   ? list.listcopy
+                                  : list.listskip ? list.listskip
+                                                  : list.listfull;
   return parent != nullptr && is_as_complete(*parent);
 }
 
@@ -115,15 +117,16 @@ int NeighborDCH::check_distance() {
   return builds ? 1 : 0;
 }
 
-/// Whether lists that half the skin would end hold every pair within its cutoff; all processes agree. Not asked
-/// where steps have passed without a look: LAMMPS counts such builds as dangerous.
+/// Whether lists that half the skin would end hold every pair within its cutoff; all processes agree. Not
+/// asked where steps have passed without a look: LAMMPS counts such builds as dangerous.
 bool NeighborDCH::lists_hold_all() {
   if (ago == std::max(every, delay)) return false;
   if (half_life_ == 0) half_life_ = ago;
   const double begin = MPI_Wtime();
   int verdict = static_cast<int>(ListExpiry::Verdict::cannot_tell);
   if (!points_.in_box()) comm->forward_comm();
-  if (!expiry_.any_outside()) verdict = static_cast<int>(expiry_.judge(points_, *search_, xhold, wanted_pairs()));
+  if (!expiry_.any_outside())
+    verdict = static_cast<int>(expiry_.judge(points_, *search_, xhold, wanted_pairs()));
   MPI_Allreduce(MPI_IN_PLACE, &verdict, 1, MPI_INT, MPI_MAX, world);
   ++run_.verdicts[static_cast<std::size_t>(verdict)];
   run_.expiry_seconds += MPI_Wtime() - begin;
@@ -148,8 +151,8 @@ void NeighborDCH::note_expiry() {
   half_life_ = 0;
 }
 
-/// Builds that half the skin would have asked for beside those that there were: lists have lived so many times
-/// as long as until they were first asked.
+/// Builds that half the skin would have asked for beside those that there were: lists have lived so many
+/// times as long as until they were first asked.
 double NeighborDCH::builds_saved() const {
   return run_.builds_saved + (half_life_ > 0 ? static_cast<double>(ago) / half_life_ - 1 : 0);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs a script in lmp-dch, then steps one by one, and after each of them looks at all pairs of atoms: whoever is
-// within the cutoff has to be in a list, and forces have to be those of all pairs.
+// Runs a script in lmp-dch, then steps one by one, and after each of them looks at all pairs of atoms:
+// whoever is within the cutoff has to be in a list, and forces have to be those of all pairs.
 //     expiry_oracle none|blind lists|forces|both STEPS SCRIPT [LAMMPS options]
-// blind: the search says of every list that it lacks no pair. Forces are Lennard-Jones ones, with epsilon and sigma 1,
-// cut off where the pair style cuts them off. Prints how many steps were looked at, how many builds there were, how
-// many pairs were missing and by how much forces were wrong; status 1 if any was.
+// blind: the search says of every list that it lacks no pair. Forces are Lennard-Jones ones, with epsilon and
+// sigma 1, cut off where the pair style cuts them off. Prints how many steps were looked at, how many builds
+// there were, how many pairs were missing and by how much forces were wrong; status 1 if any was.
 #include <algorithm>
 #include <array>
 #include <atom.h>
@@ -146,7 +146,8 @@ std::vector<Key> listed_pairs(LAMMPS_NS::LAMMPS& lammps, const Scene& scene) {
   }
   const std::vector<int> all = gather(std::move(numbers));
   std::vector<Key> keys;
-  for (std::size_t k = 0; k < all.size(); k += 5) keys.push_back({all[k], all[k + 1], all[k + 2], all[k + 3], all[k + 4]});
+  for (std::size_t k = 0; k < all.size(); k += 5)
+    keys.push_back({all[k], all[k + 1], all[k + 2], all[k + 3], all[k + 4]});
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -167,8 +168,8 @@ std::vector<std::pair<int, int>> bonded_pairs(LAMMPS_NS::LAMMPS& lammps) {
   return pairs;
 }
 
-/// Calls use(i, j, image, displacement) for all pairs within their cutoffs. Box vectors have no coordinate beyond
-/// their own, so a sum of some that is too far along the last axes stays so.
+/// Calls use(i, j, image, displacement) for all pairs within their cutoffs. Box vectors have no coordinate
+/// beyond their own, so a sum of some that is too far along the last axes stays so.
 template <class Use>
 void for_images(const Scene& scene, int i, int j, double cut2, const Use& use) {
   const auto is_beyond = [&](double length) { return length * length > cut2; };
@@ -251,8 +252,8 @@ int main(int argc, char** argv) {
   const int steps = std::atoi(argv[3]);
   std::vector<char*> options{argv[0]};
   options.insert(options.end(), argv + 5, argv + argc);
-  auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(options.size()), options.data(),
-                                                    MPI_COMM_WORLD);
+  auto lammps =
+      std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(options.size()), options.data(), MPI_COMM_WORLD);
   if (dch_register(lammps.get()) != 0) return 1;
   if (is_blind) LAMMPS_NS::NeighborDCH::install(lammps.get(), {make_blind});
   lammps->input->file(argv[4]);
