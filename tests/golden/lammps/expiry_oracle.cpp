@@ -223,9 +223,9 @@ void check_forces(const Scene& scene, Found& found) {
   double largest = 1, error = 0;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     largest = std::max(largest, std::abs(sums[k]));
-    error = std::max(error, std::abs(sums[k] - scene.forces[k]));
+    if (const double e = std::abs(sums[k] - scene.forces[k]); !(e <= error)) error = e;
   }
-  found.force_error = std::max(found.force_error, error / largest);
+  if (!(error / largest <= found.force_error)) found.force_error = error / largest;  // a NaN stays
 }
 
 /// Steps on the lists of the run before.
