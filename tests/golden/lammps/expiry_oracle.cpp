@@ -210,6 +210,9 @@ void check_lists(LAMMPS_NS::LAMMPS& lammps, const Scene& scene, Found& found) {
   });
 }
 
+/// Of a number and a NaN, the NaN.
+double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
 void check_forces(const Scene& scene, Found& found) {
   std::vector<double> sums(scene.forces.size(), 0);
   for_near_pairs(scene, [&](int i, int j, const std::array<int, 3>&, const Vec& d) {
@@ -223,9 +226,9 @@ void check_forces(const Scene& scene, Found& found) {
   double largest = 1, error = 0;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     largest = std::max(largest, std::abs(sums[k]));
-    if (const double e = std::abs(sums[k] - scene.forces[k]); !(e <= error)) error = e;
+    error = larger(error, std::abs(sums[k] - scene.forces[k]));
   }
-  if (!(error / largest <= found.force_error)) found.force_error = error / largest;  // a NaN stays
+  found.force_error = larger(found.force_error, error / largest);
 }
 
 /// Steps on the lists of the run before.
