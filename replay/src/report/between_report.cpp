@@ -22,10 +22,7 @@ void BetweenReport::add(IntervalRecord record, const std::vector<BetweenContact>
     count(durations, contact.leaves - contact.enters);
     record.closest = std::min(record.closest.value_or(contact.closest), contact.closest);
     if (closest && closest->closest <= contact.closest) continue;
-    closest.emplace();
-    static_cast<BetweenContact&>(*closest) = contact;
-    closest->frame = record.frame;
-    closest->next_frame = record.next_frame;
+    closest = Closest{contact, record.frame, record.next_frame};
   }
   intervals.push_back(std::move(record));
 }

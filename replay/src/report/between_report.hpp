@@ -30,7 +30,7 @@ struct IntervalRecord {
 /// All that --continuous found.
 struct BetweenReport {
   struct Closest : BetweenContact {
-    std::int64_t frame = 0, next_frame = 0;
+    std::int64_t frame, next_frame;
   };
   /// Hidden contacts by percent: k <= value < k + 1.
   using Histogram = std::array<std::int64_t, 100>;

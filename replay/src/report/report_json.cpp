@@ -96,7 +96,7 @@ Json between_json(const BetweenReport& between) {
   json["unmatched_atoms"] = totals.unmatched_atoms;
   const auto& closest = between.closest;
   const auto known = [&](const auto& value) { return closest ? Json(value) : Json(nullptr); };
-  const BetweenReport::Closest none, &contact = closest ? *closest : none;
+  const BetweenReport::Closest none{}, &contact = closest ? *closest : none;
   json["closest"] = {{"distance", known(contact.closest)},
                      {"frame", known(contact.frame)},
                      {"next_frame", known(contact.next_frame)},
