@@ -49,7 +49,8 @@ std::size_t CloseGrid::place_of(std::array<std::int64_t, 3> cell) const {
     cell[axis] %= cells;
     if (cell[axis] < 0) cell[axis] += cells;
   }
-  // Odd numbers without a pattern, and the upper half of the bits, which all of the lower ones have a part in.
+  // Odd numbers without a pattern, and the upper half of the bits, which all of the lower ones have a part
+  // in.
   const std::uint64_t mixed = static_cast<std::uint64_t>(cell[0]) * 0x9E3779B97F4A7C15u ^
                               static_cast<std::uint64_t>(cell[1]) * 0xC2B2AE3D27D4EB4Fu ^
                               static_cast<std::uint64_t>(cell[2]) * 0x165667B19E3779F9u;

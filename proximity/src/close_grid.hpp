@@ -54,11 +54,11 @@ class CloseGrid {
   /// Of the list of a cell, or of an image of one.
   std::size_t place_of(std::array<std::int64_t, 3> cell) const;
 
-  double width_ = 0;        ///< of a cell, or less [length]
-  double slack_ = 0;        ///< [length]
-  Vec3 origin_;             ///< of the grid [length]
-  Vec3 per_length_;         ///< cells a length
-  std::int64_t cells_[3]{};  ///< along a periodic axis; 0 along others
+  double width_ = 0;                 ///< of a cell, or less [length]
+  double slack_ = 0;                 ///< [length]
+  Vec3 origin_;                      ///< of the grid [length]
+  Vec3 per_length_;                  ///< cells a length
+  std::int64_t cells_[3]{};          ///< along a periodic axis; 0 along others
   std::vector<std::int32_t> first_;  ///< the table, a power of two: a point of each list
   std::vector<Link> links_;          ///< by id
 };
