@@ -3,11 +3,11 @@
 // LennardJones over cluster pairs, on one thread or several.
 #include <algorithm>
 #include <string>
-#include <type_traits>
 
 #include <dch/base/error.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
+#include "cluster_tasks.hpp"
 #include "lj_sums.hpp"
 #include "simd/force_kernels.hpp"
 #include "turns.hpp"
@@ -32,32 +32,6 @@ struct Kernels<float> {
   static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
 };
 
-/// Clusters that worker `worker` of `workers` prepares.
-ClusterPairs::Range share(std::int32_t clusters, int worker, int workers) {
-  return {share_begin(clusters, worker, workers), share_begin(clusters, worker + 1, workers)};
-}
-
-template <class Real>
-void add(const ClusterOfFour<Real>& force, ClusterOfFour<Real>& to) {
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-    to.x[slot] += force.x[slot];
-    to.y[slot] += force.y[slot];
-    to.z[slot] += force.z[slot];
-  }
-}
-
-/// Adds what a task has found for clusters of later tasks to what earlier ones have.
-template <class Real>
-void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<ClusterOfFour<Real>>& found,
-                   std::vector<ClusterOfFour<Real>>& later) {
-  for (const ClusterPairs::Range& range : ranges) {
-    for (auto c = static_cast<std::size_t>(range.first); c < static_cast<std::size_t>(range.last); ++c) {
-      add(found[c], later[c]);
-      found[c] = {};
-    }
-  }
-}
-
 /// Gives particles the forces on their clusters: what their task has found and what earlier ones have. A
 /// particle stands in one slot at most.
 template <class Real>
@@ -67,7 +41,7 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
     ClusterOfFour<Real> force = found[c];
     found[c] = {};
     if (pairs.has_earlier_contributions[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {
-      add(earlier[c], force);
+      detail::add(earlier[c], force);
       earlier[c] = {};
     }
     for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
@@ -75,21 +49,6 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
       if (i < 0) continue;
       Vec3& to = forces[static_cast<std::size_t>(i)];
       to = to + Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
-    }
-  }
-}
-
-/// Numbers of particles, times a unit, by slot; 0 for padding.
-template <class FourNumbers>
-void sort_by_slot(const ClusterPairs& pairs, Span<const double> numbers, double unit,
-                  ClusterPairs::Range clusters, std::vector<FourNumbers>& slots) {
-  for (auto c = static_cast<std::size_t>(clusters.first); c < static_cast<std::size_t>(clusters.last); ++c) {
-    for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-      const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
-      auto& number = slots[c].slot[slot];
-      number = i < 0
-                   ? 0
-                   : static_cast<std::decay_t<decltype(number)>>(unit * numbers[static_cast<std::size_t>(i)]);
     }
   }
 }
@@ -111,12 +70,12 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
   if (has_charges_) scratch.charge.resize(clusters);
   if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
   detail::run_parts(executor_, workers, [&](int worker) {
-    const ClusterPairs::Range own = share(pairs.clusters(), worker, workers);
+    const ClusterPairs::Range own = detail::share(pairs.clusters(), worker, workers);
     scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
     if (functions.wants_lanes) scratch.lanes[static_cast<std::size_t>(worker)].resize(clusters);
-    if (has_charges_) sort_by_slot(pairs, charges, charge_unit_, own, scratch.charge);
-    if (mixes_) sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
-    if (mixes_) sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
+    if (has_charges_) detail::sort_by_slot(pairs, charges, charge_unit_, own, scratch.charge);
+    if (mixes_) detail::sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
+    if (mixes_) detail::sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
   detail::Turns turns(tasks);
   detail::run_parts(executor_, workers, [&](int worker) {
@@ -148,7 +107,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
       detail::LjSums found;
       function(kernel_task, found);
       turns.in_turn(task, [&] {
-        add_for_later(ranges, force, scratch.earlier);
+        detail::add_for_later(ranges, force, scratch.earlier);
         if (sums) detail::give(found, *sums);
       });
       hand_out(pairs, {own.first_cluster, next.first_cluster}, force, scratch.earlier, forces);

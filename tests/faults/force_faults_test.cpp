@@ -3,6 +3,7 @@
 // What forces are made from: pairs that memory did not suffice for are empty or can be taken once more, and
 // forces are added whole or not at all.
 #include <dch/clusters/cluster_pairs.hpp>
+#include <dch/forces/generalized_born.hpp>
 #include <dch/forces/lennard_jones.hpp>
 #include <dch/lists/pair_list.hpp>
 
@@ -156,6 +157,50 @@ TEST(ForceFaults, APotentialIsMadeOrNot) {
   expect_sound(sweep([] { return 0; }, [](int) { Forces::potential(nullptr); },
                      [](int, Ending) { return std::string(); }),
                20);
+}
+
+/// Integrals, energies and the chain of generalized Born sums, each on its own.
+struct Born {
+  BornSums sums;
+  std::vector<double> integrals = std::vector<double>(512), slopes = std::vector<double>(512);
+  std::vector<Vec3> forces = std::vector<Vec3>(512);
+
+  explicit Born(Executor* executor) : sums(1.5, std::vector<BornParticle>(512, {0.3, 0.2}), true) {
+    sums.set_executor(executor);
+  }
+  void add(const Forces& given, int pass) {
+    const std::vector<double> born(512, 0.4);
+    if (pass == 0) sums.add_integrals(given.pairs, integrals);
+    if (pass == 1) sums.add_energies(given.pairs, {}, given.charges, born, forces, slopes, true);
+    if (pass == 2) sums.add_chain(given.pairs, born, forces);
+  }
+  bool equals(const Born& other) const {
+    return integrals == other.integrals && slopes == other.slopes && forces == other.forces;
+  }
+};
+
+void sweep_born_sums(Executor* executor) {
+  const Forces given;
+  for (int pass = 0; pass < 3; ++pass) {
+    const Born untouched(nullptr);
+    Born expected(nullptr);
+    expected.add(given, pass);
+    expect_sound(sweep([&] { return Born(executor); }, [&](Born& subject) { subject.add(given, pass); },
+                       [&](Born& subject, Ending ending) -> std::string {
+                         if (!subject.equals(ending == Ending::threw ? untouched : expected))
+                           return after(ending, "the sums are neither as before nor right");
+                         if (ending != Ending::threw) return "";
+                         subject.add(given, pass);
+                         return subject.equals(expected) ? "" : "the sums are wrong the next time";
+                       }),
+                 4);
+  }
+}
+
+TEST(ForceFaults, BornSumsAreAddedWholeOrNot) { sweep_born_sums(nullptr); }
+TEST(ForceFaults, BornSumsOnThreadsAreAddedWholeOrNot) {
+  const auto pool = make_thread_pool(2);
+  sweep_born_sums(pool.get());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <dch/base/instruction_set.hpp>
 #include <dch/forces/fene.hpp>
 
+#include "simd/born_task.hpp"
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
 
@@ -28,6 +29,7 @@ struct ForceKernels {
   LjFunctions<LjTask<double>> full;
   LjFunctions<LjPairTask> pairs;
   MeshKernels mesh;
+  BornKernels born;
 
   /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
   /// be room for all. Returns how many.

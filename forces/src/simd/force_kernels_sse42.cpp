@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_sse42.hpp"
+#include "simd/born_loops.hpp"
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
@@ -8,8 +9,9 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
-  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>, lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>, mesh_kernels, fene<SseDouble>};
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,       lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>, mesh_kernels,
+                                         born_kernels<SseFloat>,          fene<SseDouble>};
   return kKernels;
 }
 

@@ -8,8 +8,9 @@
 
 namespace OpenMMDCH {
 
-/// The drop-in: while it is enabled, the NonbondedForces of each Context that is made are computed on DCH's
-/// lists, on the platforms Reference and CPU, without a change to the System. What is not covered keeps
+/// The drop-in: while it is enabled, the NonbondedForces of each Context that is made, its GBSAOBCForces and
+/// the CustomGBForces that openmm.app writes are computed on DCH's lists, on the platforms Reference and CPU,
+/// without a change to the System. What is not covered keeps
 /// OpenMM's own kernel, and the reason is written to standard error, once each.
 ///
 /// It is enabled from the start if the environment variable OPENMM_DCH is 1. Contexts that are made already
@@ -21,7 +22,8 @@ void enableDropIn();
 void disableDropIn();
 bool isDropInEnabled();
 
-/// Who computes a nonbonded force of a Context: "DCH", "OpenMM", or "" for a part that the force has not.
+/// Who computes a nonbonded force or one of implicit solvent: "DCH", "OpenMM", or "" for a part that the
+/// force has not.
 struct NonbondedStatus {
   int force;               ///< its index in the System
   std::string name;        ///< that the force has
@@ -30,10 +32,11 @@ struct NonbondedStatus {
   std::string reason;      ///< why OpenMM computes pairs, "" if it does not
 };
 
-/// Of each NonbondedForce and DCHNonbondedForce of the Context's System, in order.
+/// Of each NonbondedForce, DCHNonbondedForce, GBSAOBCForce and CustomGBForce of the Context's System, in
+/// order.
 std::vector<NonbondedStatus> nonbondedStatus(const OpenMM::Context& context);
 
-/// How many NonbondedForces have been given to OpenMM's own kernels because the drop-in has not been enabled
+/// How many of these forces have been given to OpenMM's own kernels because the drop-in has not been enabled
 /// yet; 0 once it has been.
 int countOfForcesBeforeDropIn();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "DropIn.h"
 
+#include <openmm/CustomGBForce.h>
+#include <openmm/GBSAOBCForce.h>
 #include <openmm/NonbondedForce.h>
 #include <openmm/OpenMMException.h>
 #include <openmm/Platform.h>
@@ -18,7 +20,12 @@ bool hasPlatformOfOpenMM(const std::string& name) {
   return false;
 }
 
-/// Of a NonbondedForce for which no kernel of ours was asked.
+bool isImplicitSolvent(const OpenMM::Force& force) {
+  return dynamic_cast<const OpenMM::GBSAOBCForce*>(&force) ||
+         dynamic_cast<const OpenMM::CustomGBForce*>(&force);
+}
+
+/// Of a force for which no kernel of ours was asked.
 std::string reasonWithoutKernel(const std::string& platform) {
   if (!DropInRegistry::get().hasPlatform(platform))
     return "there are no kernels of openmm_dch for the platform " + platform;
@@ -54,9 +61,10 @@ std::vector<NonbondedStatus> nonbondedStatus(const OpenMM::Context& context) {
   for (int k = 0; k < system.getNumForces(); ++k) {
     const OpenMM::Force& force = system.getForce(k);
     NonbondedStatus status{k, force.getName(), "DCH", "", ""};
-    if (const auto* const own = dynamic_cast<const OpenMM::NonbondedForce*>(&force)) {
+    const auto* const own = dynamic_cast<const OpenMM::NonbondedForce*>(&force);
+    if (own || isImplicitSolvent(force)) {
       if (!DropInRegistry::get().find(context, force, status)) {
-        const bool hasLatticeSum = own->getNonbondedMethod() > OpenMM::NonbondedForce::CutoffPeriodic;
+        const bool hasLatticeSum = own && own->getNonbondedMethod() > OpenMM::NonbondedForce::CutoffPeriodic;
         status.direct = "OpenMM";
         status.reciprocal = hasLatticeSum ? "OpenMM" : "";
         status.reason = reasonWithoutKernel(context.getPlatform().getName());

@@ -75,10 +75,10 @@ bool DropInRegistry::find(const OpenMM::Context& context, const OpenMM::Force& f
   return found != statusOf.end();
 }
 
-void DropInRegistry::sayOnce(const std::string& reason) {
+void DropInRegistry::sayOnce(const std::string& force, const std::string& reason) {
   const Lock lock(mutex);
-  if (said.insert(reason).second)
-    std::cerr << "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: " << reason << std::endl;
+  if (said.insert(force + ": " + reason).second)
+    std::cerr << "openmm_dch: a " << force << " keeps OpenMM's own kernel: " << reason << std::endl;
 }
 
 }  // namespace OpenMMDCH

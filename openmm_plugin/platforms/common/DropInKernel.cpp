@@ -78,7 +78,7 @@ void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce
     sums.pairs->initialize(system, force, sums.reciprocal ? sums.reciprocal->splitting() : 0);
   } else {
     giveToNative(system, force);
-    DropInRegistry::get().sayOnce(reason);
+    DropInRegistry::get().sayOnce("NonbondedForce", reason);
   }
   owner = &force;
   rememberStatus(reason);

@@ -10,6 +10,8 @@
 #include <openmm/PluginInitializer.h>
 #include <openmm/kernels.h>
 
+#include "BornKernel.h"
+#include "CpuBornSum.h"
 #include "CpuNonbondedSum.h"
 #include "CpuReciprocalSum.h"
 #include "DCHNonbondedKernel.h"
@@ -33,6 +35,12 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
                                             {std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads),
                                              std::make_unique<OpenMMDCH::CpuReciprocalSum>(threads)},
                                             native);
+    if (name == OpenMM::CalcGBSAOBCForceKernel::Name())
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::GBSAOBCKernel>(
+          name, platform, context, std::make_unique<OpenMMDCH::CpuBornSum>(threads), native);
+    if (name == OpenMM::CalcCustomGBForceKernel::Name())
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::CustomGBKernel>(
+          name, platform, context, std::make_unique<OpenMMDCH::CpuBornSum>(threads), native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
       return new OpenMMDCH::NecklaceContactKernel(name, platform,
                                                   std::make_unique<OpenMMDCH::PoolExecutor>(threads));
@@ -55,7 +63,8 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
     auto* const factory = new CpuDCHKernelFactory();
     for (const std::string& name :
          {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name(),
-          OpenMM::CalcNonbondedForceKernel::Name()})
+          OpenMM::CalcNonbondedForceKernel::Name(), OpenMM::CalcGBSAOBCForceKernel::Name(),
+          OpenMM::CalcCustomGBForceKernel::Name()})
       platform.registerKernelFactory(name, factory);
     OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
   }

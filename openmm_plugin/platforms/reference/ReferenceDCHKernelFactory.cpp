@@ -9,6 +9,7 @@
 #include <openmm/kernels.h>
 #include <openmm/reference/ReferenceKernelFactory.h>
 
+#include "BornKernel.h"
 #include "DCHNonbondedKernel.h"
 #include "DropInKernel.h"
 #include "NecklaceContactKernel.h"
@@ -30,6 +31,12 @@ class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
                                             {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(),
                                              std::make_unique<OpenMMDCH::ReferenceReciprocalSum>()},
                                             native);
+    if (name == OpenMM::CalcGBSAOBCForceKernel::Name())
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::GBSAOBCKernel>(
+          name, platform, context, std::make_unique<OpenMMDCH::BornSum>(), native);
+    if (name == OpenMM::CalcCustomGBForceKernel::Name())
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::CustomGBKernel>(
+          name, platform, context, std::make_unique<OpenMMDCH::BornSum>(), native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
       return new OpenMMDCH::NecklaceContactKernel(name, platform);
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
@@ -52,7 +59,8 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
     auto* const factory = new ReferenceDCHKernelFactory();
     for (const std::string& name :
          {OpenMMDCH::CalcDCHNonbondedForceKernel::Name(), OpenMMDCH::CalcNecklaceContactForceKernel::Name(),
-          OpenMM::CalcNonbondedForceKernel::Name()})
+          OpenMM::CalcNonbondedForceKernel::Name(), OpenMM::CalcGBSAOBCForceKernel::Name(),
+          OpenMM::CalcCustomGBForceKernel::Name()})
       platform.registerKernelFactory(name, factory);
     OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in: OpenMM's own NonbondedForce on DCH's lists."""
+"""The drop-in: OpenMM's own NonbondedForce and its forces of implicit solvent on DCH's lists."""
 
 import warnings
 
@@ -7,7 +7,8 @@ from . import force as _force
 
 
 def enable():
-    """Has the NonbondedForces of all Contexts that are made from now on computed on DCH's lists.
+    """Has the NonbondedForces of all Contexts that are made from now on computed on DCH's lists, and their
+    GBSAOBCForces and CustomGBForces as openmm.app writes them.
 
     Systems and scripts stay as they are. This holds on the platforms Reference and CPU; what is not covered keeps
     OpenMM's own kernel, and the reason is written to standard error, once. The environment variable OPENMM_DCH=1 does
@@ -28,7 +29,7 @@ def disable():
 
 
 def status(context):
-    """Who computes the nonbonded forces of a Context: a list with a dict for each, in the order of the System.
+    """Who computes the nonbonded forces of a Context and those of implicit solvent: a list with a dict for each, in the order of the System.
 
     force: its index in the System; name: its name; direct: who computes pairs, "DCH" or "OpenMM"; reciprocal: who
     computes the sum in reciprocal space, the same, or "" where there is none; reason: why OpenMM computes pairs, or "".

@@ -35,8 +35,8 @@ class DropInRegistry {
   void forget(const OpenMM::Context& context, const OpenMM::Force& force);
   /// False if nobody said so.
   bool find(const OpenMM::Context& context, const OpenMM::Force& force, NonbondedStatus& status);
-  /// Writes a reason to standard error unless that was done before.
-  void sayOnce(const std::string& reason);
+  /// Writes why a kind of force keeps OpenMM's kernel to standard error, unless that was done before.
+  void sayOnce(const std::string& force, const std::string& reason);
 
  private:
   DropInRegistry();
