@@ -22,7 +22,7 @@ def protein():
     folder = os.path.join(os.path.dirname(app.__file__), "data")
     file = app.PDBFile(os.path.join(folder, "test.pdb"))
     modeller = app.Modeller(file.topology, file.positions)
-    modeller.delete([r for r in modeller.topology.residues() if r.name in ("HOH", "CL", "NA")])
+    modeller.delete([r for r in modeller.topology.residues() if r.name in ("HOH", "Cl", "Na")])
     return modeller.topology, modeller.positions
 
 

@@ -108,7 +108,8 @@ detail::BornConstants BornSums::constants() const {
   detail::BornConstants all;
   all.cutoff2 = static_cast<float>(cutoff_ * cutoff_);
   const double touch = largest_radius_ + largest_scaled_;
-  all.far2 = static_cast<float>(std::max(touch * touch, 5 * largest_scaled_ * largest_scaled_));
+  all.far2 =
+      static_cast<float>(std::max(touch * touch, largest_scaled_ * largest_scaled_ / detail::kBornFarRatio2));
   all.counts_inside = counts_inside_ ? 1 : 0;
   all.neck_scale = static_cast<float>(necks_.scale);
   all.neck_reach = static_cast<float>(necks_.reach);

@@ -24,7 +24,8 @@ constexpr std::size_t kSolutes = 500;
 
 /// Particles anywhere, that may overlap, and some at the same place.
 struct Solute {
-  Box box = Box::orthorhombic({2.9, 3.1, 3.3});
+  std::size_t count;
+  Box box;
   std::vector<Vec3> points;
   std::vector<BornParticle> particles;
   std::vector<double> charges, born, slopes;
@@ -33,8 +34,9 @@ struct Solute {
   BornEnergy energy;
   ClusterPairs pairs;
 
-  Solute(std::uint64_t seed, bool inside, bool with_necks, double kappa)
-      : counts_inside(inside), has_necks(with_necks) {
+  Solute(std::uint64_t seed, bool inside, bool with_necks, double kappa,
+         std::size_t particle_count = kSolutes)
+      : count(particle_count), box(box_of(particle_count)), counts_inside(inside), has_necks(with_necks) {
     scenes::Random random(seed);
     energy = {1.5, 0.8, 0.03, kappa, 1 / kBornCutoff};
     necks.kinds = with_necks ? 5 : 0;
@@ -44,7 +46,7 @@ struct Solute {
       necks.at.push_back(random.uniform(0.2, 0.4));
       necks.height.push_back(random.uniform(0.1, 0.6));
     }
-    for (std::size_t i = 0; i < kSolutes; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       points.push_back(scenes::from_fractional(box, {random.uniform(), random.uniform(), random.uniform()}));
       particles.push_back({random.uniform(0.08, 0.2), random.uniform(-0.05, 0.22)});
       charges.push_back(random.uniform(-1, 1));
@@ -61,6 +63,10 @@ struct Solute {
     ListedHierarchy hierarchy(params);
     hierarchy.build(points, box);
     hierarchy.cluster_pairs(request, pairs);
+  }
+  static Box box_of(std::size_t count) {
+    const double scale = std::cbrt(static_cast<double>(count) / kSolutes);
+    return Box::orthorhombic(scale * Vec3{2.9, 3.1, 3.3});
   }
   BornSums sums() const {
     BornSums made(kBornCutoff, particles, counts_inside);
@@ -100,15 +106,17 @@ double slope_of(const std::function<long double(long double)>& value, long doubl
 }
 
 struct BornResult {
-  std::vector<double> integrals = std::vector<double>(kSolutes), slopes = std::vector<double>(kSolutes);
+  explicit BornResult(std::size_t count)
+      : integrals(count), slopes(count), of_energies(count), of_chain(count) {}
+  std::vector<double> integrals, slopes;
   double energy = 0;
-  std::vector<Vec3> of_energies = std::vector<Vec3>(kSolutes), of_chain = std::vector<Vec3>(kSolutes);
+  std::vector<Vec3> of_energies, of_chain;
 };
 
 BornResult all_pairs_of(const Solute& of) {
-  BornResult result;
-  for (std::size_t i = 0; i < kSolutes; ++i)
-    for (std::size_t j = 0; j < kSolutes; ++j) {
+  BornResult result(of.count);
+  for (std::size_t i = 0; i < of.count; ++i)
+    for (std::size_t j = 0; j < of.count; ++j) {
       const Vec3 d = of.box.nearest_image(of.points[j] - of.points[i]);
       const double r = std::sqrt(norm2(d));
       if (i == j || r >= kBornCutoff) continue;
@@ -128,7 +136,7 @@ BornResult all_pairs_of(const Solute& of) {
 }
 
 BornResult sums_of(const Solute& of, Executor* executor) {
-  BornResult result;
+  BornResult result(of.count);
   BornSums sums = of.sums();
   EXPECT_TRUE(sums.fits_single());
   sums.set_executor(executor);
@@ -136,7 +144,7 @@ BornResult sums_of(const Solute& of, Executor* executor) {
   result.energy =
       sums.add_energies(of.pairs, of.energy, of.charges, of.born, result.of_energies, result.slopes, true);
   sums.add_chain(of.pairs, of.slopes, result.of_chain);
-  BornResult again;
+  BornResult again(of.count);
   EXPECT_EQ(
       sums.add_energies(of.pairs, of.energy, of.charges, of.born, again.of_energies, again.slopes, false), 0);
   EXPECT_EQ(again.slopes, result.slopes);
@@ -181,8 +189,26 @@ TEST(GeneralizedBorn, SumsEqualThoseOfAllPairs) {
 }
 
 TEST(GeneralizedBorn, SumsAreTheSameOnAnyNumberOfThreads) {
-  const Solute solute(9, true, true, 0);
+  const Solute solute(9, true, true, 0, 20000);
+  ASSERT_GT(solute.pairs.tasks.size(), 3U);
   const BornResult expected = sums_of(solute, nullptr);
+  for (std::size_t i = 0; i < solute.count; i += 400) {  // nothing is lost from one task to another
+    double integral = 0;
+    for (std::size_t j = 0; j < solute.count; ++j)
+      if (const double r = std::sqrt(norm2(solute.box.nearest_image(solute.points[j] - solute.points[i])));
+          i != j && r < kBornCutoff)
+        integral += static_cast<double>(integral_of(solute, i, j, std::max(r, 1e-6)));
+    EXPECT_NEAR(expected.integrals[i], integral, 1e-5 * (1 + std::abs(integral))) << i;
+  }
+  for (const auto* const forces : {&expected.of_energies, &expected.of_chain}) {
+    Vec3 sum{0, 0, 0};
+    double size = 0;
+    for (const Vec3 f : *forces) {
+      sum = sum + f;
+      size += std::sqrt(norm2(f));
+    }
+    EXPECT_LT(std::sqrt(norm2(sum)), 1e-7 * size);
+  }
   for (const int threads : {2, 3}) {
     const auto pool = make_thread_pool(threads);
     const BornResult found = sums_of(solute, pool.get());

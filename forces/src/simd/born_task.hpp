@@ -41,6 +41,9 @@ struct BornTask {
   Span<const ClusterPairs::Range> later;  ///< others that the rows name
 };
 
+/// The largest s^2/r^2 that series serve for.
+inline constexpr double kBornFarRatio2 = 0.2;
+
 /// Numbers of the 16 pairs of two clusters, not yet summed up to those of a cluster's four slots: forces
 /// along x, y and z, and the scalars.
 inline constexpr std::ptrdiff_t kBornLanes = 64;

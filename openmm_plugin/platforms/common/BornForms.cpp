@@ -205,12 +205,15 @@ bool readNecks(const CustomGBForce& force, const Form& form, BornModel& model) {
          readTable(force, 1, "getm0", model.necks.kinds, model.necks.height);
 }
 
-const Form* formOf(const CustomGBForce& force, BornModel& model) {
-  for (const Form& form : forms())
+/// Which of the forms it is, -1 if it is none.
+int formOf(const CustomGBForce& force, BornModel& model) {
+  for (std::size_t k = 0; k < forms().size(); ++k) {
+    const Form& form = forms()[k];
     if (hasParameters(force, form) && hasValues(force, form) && readNecks(force, form, model) &&
         readEnergy(force, form, model))
-      return &form;
-  return nullptr;
+      return static_cast<int>(k);
+  }
+  return -1;
 }
 
 BornModel::Particle particleOf(const std::vector<double>& parameters, const Form& form) {
@@ -258,23 +261,22 @@ void readParticles(const GBSAOBCForce& force, BornModel& model) {
 }
 
 std::string readModel(const CustomGBForce& force, BornModel& model) {
-  const Form* const form = formOf(force, model);
-  if (!form) return "a CustomGBForce other than those that openmm.app writes is not covered";
+  model.form = formOf(force, model);
+  if (model.form < 0) return "a CustomGBForce other than those that openmm.app writes is not covered";
   const std::string reason = readMethod(force, model);
   if (!reason.empty()) return reason;
-  model.hct = form->hct;
+  model.hct = forms()[static_cast<std::size_t>(model.form)].hct;
   readParticles(force, model);
   return faultOf(model);
 }
 
 void readParticles(const CustomGBForce& force, BornModel& model) {
-  BornModel same;
-  const Form* const form = formOf(force, same);
+  const Form& form = forms()[static_cast<std::size_t>(model.form)];
   model.particles.clear();
   std::vector<double> parameters;
-  for (int i = 0; form && i < force.getNumParticles(); ++i) {
+  for (int i = 0; i < force.getNumParticles(); ++i) {
     force.getParticleParameters(i, parameters);
-    model.particles.push_back(particleOf(parameters, *form));
+    model.particles.push_back(particleOf(parameters, form));
   }
 }
 

@@ -23,6 +23,7 @@ struct BornModel {
     int kind = 0;  ///< of necks
   };
 
+  int form = 0;       ///< of those that openmm.app writes
   double cutoff = 0;  ///< 0 without one [nm]
   bool isPeriodic = false;
   bool hct = false;
