@@ -47,6 +47,12 @@ void for_each_particle(const ClusterPairs& pairs, std::size_t cluster, const Act
   }
 }
 
+/// Null where a pass has none.
+template <class Slots>
+const float* numbers_of(const Slots& slots) {
+  return slots.empty() ? nullptr : slots.data()->slot;
+}
+
 /// What a cluster's own task and those before it have found for it; leaves both 0.
 ClusterOfFour<float> taken(ClusterOfFour<float>& found, ClusterOfFour<float>& earlier, bool has_earlier) {
   ClusterOfFour<float> all = std::exchange(found, {});
@@ -148,12 +154,12 @@ detail::BornTask BornSums::task_of(const ClusterPairs& pairs, const detail::Born
   task.entries = pairs.entries.data();
   task.at = pairs.at_float.data();
   task.shift = pairs.shift_vector_float.data();
-  task.radius = radius_slots_.data()->slot;
-  task.scaled = scaled_slots_.data()->slot;
-  task.charge = charge_slots_.data()->slot;
-  task.born = born_slots_.data()->slot;
-  task.half_over = half_slots_.data()->slot;
-  task.slope = slope_slots_.data()->slot;
+  task.radius = numbers_of(radius_slots_);
+  task.scaled = numbers_of(scaled_slots_);
+  task.charge = numbers_of(charge_slots_);
+  task.born = numbers_of(born_slots_);
+  task.half_over = numbers_of(half_slots_);
+  task.slope = numbers_of(slope_slots_);
   task.kind = kind_slots_.data();
   task.kinds = necks_.kinds;
   task.neck_at = neck_tables_[0].data();
@@ -213,7 +219,7 @@ double BornSums::run(const ClusterPairs& pairs, const detail::BornConstants& con
       task.row_count = static_cast<std::int64_t>(pairs.first_row(next) - first_row);
       task.force = found.force.data();
       task.scalar = found.scalar.data();
-      task.lanes = found.lanes.data()->numbers;
+      task.lanes = found.lanes.empty() ? nullptr : found.lanes.front().numbers;
       task.own = {own.first_cluster, next.first_cluster};
       task.later = {pairs.ranges.data() + own.first_range,
                     static_cast<std::size_t>(next.first_range - own.first_range)};
