@@ -75,9 +75,10 @@ struct IntegralPass {
     const V near = S::keep(S::less(r2, S::set1(task.constants.cutoff2), entry.mask, p),
                            S::add(radii, S::set1(task.constants.neck_reach)));
     const auto acts = S::less(d.r, near, entry.mask, p);
-    const V scale = S::keep(acts, S::set1(task.constants.neck_scale));
-    of_i = S::madd(scale, necks.of_i(task, d, p).value, of_i);
-    of_j = S::madd(scale, necks.of_j(task, d, p).value, of_j);
+    const V scale = S::set1(task.constants.neck_scale);
+    // What is not kept may be no number: far away the denominators overflow.
+    of_i = S::madd(scale, S::keep(acts, necks.of_i(task, d, p).value), of_i);
+    of_j = S::madd(scale, S::keep(acts, necks.of_j(task, d, p).value), of_j);
   }
 
   const BornTask& task;
@@ -170,10 +171,10 @@ struct ChainPass {
     const Distance<S> d(r2);
     const V near = S::keep(S::less(r2, S::set1(task.constants.cutoff2), entry.mask, p),
                            S::add(radii, S::set1(task.constants.neck_reach)));
-    const V scale = S::keep(S::less(d.r, near, entry.mask, p), S::set1(task.constants.neck_scale));
     const V sum =
         S::madd(slope_i[p], necks.of_i(task, d, p).slope, S::mul(slope_j, necks.of_j(task, d, p).slope));
-    force = S::madd(scale, sum, force);
+    force =
+        S::madd(S::set1(task.constants.neck_scale), S::keep(S::less(d.r, near, entry.mask, p), sum), force);
   }
 
   const BornTask& task;

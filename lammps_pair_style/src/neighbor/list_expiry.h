@@ -50,6 +50,7 @@ class ListExpiry : protected Pointers {
   bool is_inside(const double* at, double reach, const double* beyond) const;
   bool is_open(int axis, bool high) const;
   bool has_changed(AtomPoints& points, bool by_radii) const;
+  bool keeps_images(const AtomPoints& points, const Wanted& wanted) const;
   bool all_see(const AtomPoints& points, const Wanted& wanted) const;
   std::array<double, 9> box_now() const;
   dch::TypeCutoffs force_cutoffs(const Wanted& wanted) const;

@@ -100,6 +100,7 @@ void NeighborDCH::init() {
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};
   before_run_ = {};
+  half_life_ = 0;
   expiry_obstacle_ = "no DCH list is in use";
   stock_builds_.begin_run(false);
   clusters_ = std::exchange(requested_clusters_, {});

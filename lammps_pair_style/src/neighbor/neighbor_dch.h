@@ -143,6 +143,7 @@ class NeighborDCH : public Neighbor {
   bool is_as_complete(const NeighList& list) const;
   bool keeps_order() const;
   bool moved_half_skin();
+  ListExpiry::Verdict own_verdict();
   bool lists_hold_all();
   ListExpiry::Wanted wanted_pairs() const;
   void note_expiry();

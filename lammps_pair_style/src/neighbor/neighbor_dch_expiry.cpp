@@ -5,6 +5,7 @@
 #include <comm.h>
 #include <cstring>
 #include <domain.h>
+#include <exception>
 #include <fix.h>
 #include <force.h>
 #include <modify.h>
@@ -27,6 +28,14 @@ bool is_called_at_builds(int mask) {
   using namespace FixConst;
   return (mask & (PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_PRE_EXCHANGE | MIN_PRE_NEIGHBOR |
                   MIN_POST_NEIGHBOR)) != 0;
+}
+
+/// Atoms that have left through a fixed boundary are lost at builds, and others take their places in memory.
+bool can_lose_atoms(const Domain& domain) {
+  constexpr int kFixed = 1;
+  for (const auto& sides : domain.boundary)
+    if (sides[0] == kFixed || sides[1] == kFixed) return true;
+  return false;
 }
 
 }  // namespace
@@ -60,7 +69,8 @@ std::string NeighborDCH::uncertain_list() const {
 
 /// Whether atoms keep the order in which LAMMPS would have them, though builds are fewer.
 bool NeighborDCH::keeps_order() const {
-  return comm->nprocs == 1 && (atom->sortfreq <= 0 || delay <= 1 || order_.obstacle().empty());
+  return comm->nprocs == 1 && !can_lose_atoms(*domain) &&
+         (atom->sortfreq <= 0 || delay <= 1 || order_.obstacle().empty());
 }
 
 std::string NeighborDCH::fix_against_expiry() const {
@@ -92,7 +102,8 @@ void NeighborDCH::prepare_expiry() {
   if (expiry_obstacle_.empty()) expiry_obstacle_ = uncertain_list();
   if (expiry_obstacle_.empty()) expiry_obstacle_ = fix_against_expiry();
   half_life_ = 0;
-  stays_near_ = force->kspace != nullptr;
+  // Atoms migrate to the next process, which a thin part of the box may not be.
+  stays_near_ = force->kspace != nullptr || comm->nprocs > 1;
   for (int k = 0; k < modify->nfix; ++k)
     if (!draws_no_random_numbers(modify->fix[k]->style)) stays_near_ = true;
   const bool sorts = comm->nprocs == 1 && atom->sortfreq > 0 && !order_.obstacle().empty();
@@ -117,16 +128,23 @@ int NeighborDCH::check_distance() {
   return builds ? 1 : 0;
 }
 
+ListExpiry::Verdict NeighborDCH::own_verdict() {
+  if (!points_.in_box()) comm->forward_comm();
+  if (expiry_.any_outside()) return ListExpiry::Verdict::cannot_tell;
+  try {
+    return expiry_.judge(points_, *search_, xhold, wanted_pairs());
+  } catch (const std::exception&) {  // other processes wait; the build that follows says what is wrong
+    return ListExpiry::Verdict::cannot_tell;
+  }
+}
+
 /// Whether lists that half the skin would end hold every pair within its cutoff; all processes agree. Not
 /// asked where steps have passed without a look: LAMMPS counts such builds as dangerous.
 bool NeighborDCH::lists_hold_all() {
   if (ago == std::max(every, delay)) return false;
   if (half_life_ == 0) half_life_ = ago;
   const double begin = MPI_Wtime();
-  int verdict = static_cast<int>(ListExpiry::Verdict::cannot_tell);
-  if (!points_.in_box()) comm->forward_comm();
-  if (!expiry_.any_outside())
-    verdict = static_cast<int>(expiry_.judge(points_, *search_, xhold, wanted_pairs()));
+  int verdict = static_cast<int>(own_verdict());
   MPI_Allreduce(MPI_IN_PLACE, &verdict, 1, MPI_INT, MPI_MAX, world);
   ++run_.verdicts[static_cast<std::size_t>(verdict)];
   run_.expiry_seconds += MPI_Wtime() - begin;

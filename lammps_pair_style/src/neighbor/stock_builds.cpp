@@ -45,6 +45,8 @@ void StockBuilds::note_build() {
   differs_ = std::exchange(defers_, false);
   if (!differs_) return;
   atom->nextsort = next_sort_;
+  differs_ = hold_.size() == static_cast<std::size_t>(owned());  // lost atoms have changed the order anyway
+  if (!differs_) return;
   for (std::size_t i = 0; i < hold_.size(); ++i) hold_[i] = place(static_cast<int>(i)) - hold_[i];
 }
 

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <openmm/OpenMMException.h>
 #include <openmm/TabulatedFunction.h>
 #include <openmm/reference/SimTKOpenMMRealType.h>
 #include <optional>
+#include <string>
 
 namespace OpenMMDCH {
 namespace {
@@ -233,7 +235,7 @@ std::string readMethod(const Force& force, BornModel& model) {
     return "without a cutoff (NoCutoff) there are no lists to gain by";
   model.cutoff = force.getCutoffDistance();
   model.isPeriodic = force.usesPeriodicBoundaryConditions();
-  return model.cutoff > 0 ? "" : "the cutoff is not positive";
+  return std::isfinite(model.cutoff) && model.cutoff > 0 ? "" : "the cutoff is not positive and finite";
 }
 
 }  // namespace
@@ -246,11 +248,11 @@ std::string readModel(const GBSAOBCForce& force, BornModel& model) {
   const bool hasField = solute != 0 && solvent != 0;
   model.energy = {ONE_4PI_EPS0, hasField ? 1 / solute : 0, hasField ? 1 / solvent : 0, 0, 1 / model.cutoff};
   model.surface = 4 * M_PI * force.getSurfaceAreaEnergy();
-  readParticles(force, model);
+  readChanges(force, model);
   return faultOf(model);
 }
 
-void readParticles(const GBSAOBCForce& force, BornModel& model) {
+void readChanges(const GBSAOBCForce& force, BornModel& model) {
   model.particles.clear();
   for (int i = 0; i < force.getNumParticles(); ++i) {
     double charge, radius, scale;
@@ -266,16 +268,22 @@ std::string readModel(const CustomGBForce& force, BornModel& model) {
   const std::string reason = readMethod(force, model);
   if (!reason.empty()) return reason;
   model.hct = forms()[static_cast<std::size_t>(model.form)].hct;
-  readParticles(force, model);
+  readChanges(force, model);
   return faultOf(model);
 }
 
-void readParticles(const CustomGBForce& force, BornModel& model) {
+void readChanges(const CustomGBForce& force, BornModel& model) {
   const Form& form = forms()[static_cast<std::size_t>(model.form)];
   model.particles.clear();
+  if (!readNecks(force, form, model))
+    throw OpenMM::OpenMMException("updateParametersInContext: a tabulated function has another shape");
   std::vector<double> parameters;
   for (int i = 0; i < force.getNumParticles(); ++i) {
     force.getParticleParameters(i, parameters);
+    if (parameters.size() != parametersOf(form).size())
+      throw OpenMM::OpenMMException("updateParametersInContext: particle " + std::to_string(i) + " has " +
+                                    std::to_string(parameters.size()) + " parameters, not " +
+                                    std::to_string(parametersOf(form).size()));
     model.particles.push_back(particleOf(parameters, form));
   }
 }

@@ -16,9 +16,11 @@ std::string readModel(const OpenMM::GBSAOBCForce& force, BornModel& model);
 /// GBSAOBC2Force, GBSAGBnForce, GBSAGBn2Force), recognised by their expressions letter by letter.
 std::string readModel(const OpenMM::CustomGBForce& force, BornModel& model);
 
-/// Parameters of particles, into a model that has been read from the same force before.
-void readParticles(const OpenMM::GBSAOBCForce& force, BornModel& model);
-void readParticles(const OpenMM::CustomGBForce& force, BornModel& model);
+/// What an update may have changed, parameters of particles and tables, into a model that has been read from
+/// the same force before.
+/// @throws OpenMM::OpenMMException for a table of another shape, or a wrong number of parameters
+void readChanges(const OpenMM::GBSAOBCForce& force, BornModel& model);
+void readChanges(const OpenMM::CustomGBForce& force, BornModel& model);
 
 }  // namespace OpenMMDCH
 

@@ -61,7 +61,7 @@ class BornKernel : public Base {
     BornModel model = sum->taken();
     if (static_cast<std::size_t>(force.getNumParticles()) != model.particles.size())
       throw OpenMM::OpenMMException("updateParametersInContext: The number of particles has changed");
-    readParticles(force, model);
+    readChanges(force, model);
     if (const std::string fault = faultOf(model); !fault.empty())
       throw OpenMM::OpenMMException("openmm_dch: " + fault);
     sum->take(model);

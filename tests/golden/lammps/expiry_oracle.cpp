@@ -269,5 +269,6 @@ int main(int argc, char** argv) {
                 static_cast<int>(lammps->neighbor->ncalls), found.pairs, found.missing, found.force_error);
   lammps.reset();
   MPI_Finalize();
-  return found.missing > 0 || !(found.force_error <= kForceError) ? 1 : 0;
+  if (found.missing > 0) return 3;
+  return found.force_error <= kForceError ? 0 : 4;
 }
