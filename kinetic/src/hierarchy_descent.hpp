@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include <dch/base/vec3.hpp>
 #include <dch/hierarchy/hierarchy.hpp>
@@ -46,29 +46,18 @@ class HierarchyDescent {
   /// @param off of the position from the center of the leaf
   void look_at_leaf(std::int32_t node, Vec3 off, double extent) {
     const detail::LeafBlocks& points = structure_.points;
-    // Corners are rounded to float. They say nothing where another image of the box may be as near.
-    const double within = reach_ + kFloatError * extent;
-    const bool has_one_image = (within + extent) * detail::kInflate < structure_.box.max_cutoff();
-    for (std::int32_t block = structure_.levels[1].first_child[node]; block != detail::kNone;
-         block = points.next[block]) {
-      if (has_one_image && gap2(off, structure_.balls->corners(block)) > within * within) continue;
+    // Boxes say nothing where another image of one may be as near.
+    const bool has_one_image = (reach_ + extent) * detail::kInflate < structure_.box.max_cutoff();
+    const float most2 = has_one_image ? detail::BlockBoxes::most_gap2(off, extent, reach_)
+                                      : std::numeric_limits<float>::infinity();
+    structure_.balls->boxes().for_each_within(node, off, most2, [&](std::int32_t block, float) {
       const std::int32_t first = block * detail::kBlock, last = first + points.count[block];
       for (std::int32_t slot = first; slot < last; ++slot) look_at(points.id[slot], points.position[slot]);
-    }
-  }
-  static double gap2(Vec3 at, const detail::MeasuredLeaves::Corners& corners) {
-    Vec3 gap;
-    for (int axis = 0; axis < 3; ++axis)
-      gap[axis] =
-          std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
-    return norm2(gap);
+    });
   }
   void look_at(std::int32_t id, Vec3 position) {
     if (metric_.distance2(at_, position) <= reach_ * reach_) f_(id);
   }
-
-  /// More than what rounding to float changes of an extent.
-  static constexpr double kFloatError = 0x1p-23;
 
   const Metric& metric_;
   const detail::Structure& structure_;

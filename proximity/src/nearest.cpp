@@ -83,28 +83,27 @@ class PositionNearest {
   detail::NearestCandidates best_;
 };
 
+void add(const NearestWork& more, NearestWork& sum) {
+  sum.nodes += more.nodes;
+  sum.blocks += more.blocks;
+  sum.points += more.points;
+}
+
 /// Shares queries among the threads of an executor, each with tools of its own, and adds up the work.
 template <class Tool, class Make, class Search>
 NearestWork share_queries(Executor* executor, std::int32_t count, const Make& make, const Search& search) {
   const int parts = executor ? executor->threads() : 1;
-  std::vector<NearestWork> work(static_cast<std::size_t>(parts));
   const auto do_part = [&](int part) {
     Tool tool = make();
     for (std::int32_t q = share_begin(count, part, parts); q < share_begin(count, part + 1, parts); ++q)
       search(tool, q);
-    work[static_cast<std::size_t>(part)] = tool.work();
+    return tool.work();
   };
-  if (parts == 1) {
-    do_part(0);
-  } else {
-    executor->run(parts, do_part);
-  }
+  if (parts == 1) return do_part(0);
+  std::vector<NearestWork> work(static_cast<std::size_t>(parts));
+  executor->run(parts, [&](int part) { work[static_cast<std::size_t>(part)] = do_part(part); });
   NearestWork sum;
-  for (const NearestWork& of_part : work) {
-    sum.nodes += of_part.nodes;
-    sum.blocks += of_part.blocks;
-    sum.points += of_part.points;
-  }
+  for (const NearestWork& of_part : work) add(of_part, sum);
   return sum;
 }
 
@@ -140,8 +139,9 @@ void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& para
   detail::check_positions(positions, structure.box);
   make_rows(positions.size(), params.k, rows);
   // Queries near each other look at the same subtrees, which are in the cache then.
-  const std::vector<std::int32_t> order =
-      detail::space_filling_order(positions, structure.box, structure.base_radius);
+  std::vector<std::int32_t> order{0};
+  if (positions.size() != 1)
+    order = detail::space_filling_order(positions, structure.box, structure.base_radius);
   detail::with_metric(structure.box, [&](const auto& metric) {
     using Tool = PositionNearest<std::decay_t<decltype(metric)>>;
     rows.work = share_queries<Tool>(

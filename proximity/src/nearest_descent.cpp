@@ -12,18 +12,7 @@
 namespace dch::detail {
 namespace {
 
-/// Offsets and corners of blocks are rounded to float: by less than this share of the extent of their leaf.
-constexpr double kFloatError = 0x1p-23;
-
 constexpr std::ptrdiff_t kDivers = 3;  ///< subtrees of a level
-
-/// Squared distance of a point from a block's box, both relative to the center of a leaf.
-double gap2_between(Vec3 at, const MeasuredLeaves::Corners& corners) {
-  Vec3 gap;
-  for (int axis = 0; axis < 3; ++axis)
-    gap[axis] = std::max({double{corners.low[axis]} - at[axis], at[axis] - double{corners.high[axis]}, 0.0});
-  return norm2(gap);
-}
 
 }  // namespace
 
@@ -105,23 +94,23 @@ void NearestDescent<Metric, Candidates>::open(Query& query, const Subtree& subtr
 template <class Metric, class Candidates>
 void NearestDescent<Metric, Candidates>::look_at_leaf(Query& query, std::int32_t node) {
   const Vec3 at = metric_.displacement(structure_.levels[1].position[node], query.wrapped);
+  const double extent = balls_.radius(1, node);
+  // The box says how near the points are where no other image of it can be as near.
+  const auto most_gap2 = [&] {
+    const bool has_one_image = (query.limit + extent) * kInflate < structure_.box.max_cutoff();
+    return has_one_image ? BlockBoxes::most_gap2(at, extent, query.limit)
+                         : std::numeric_limits<float>::infinity();
+  };
   near_blocks_.clear();
   std::size_t nearest = 0;
-  for (std::int32_t block = structure_.levels[1].first_child[node]; block != kNone;
-       block = structure_.points.next[block]) {
-    near_blocks_.push_back({gap2_between(at, balls_.corners(block)), block});
-    if (near_blocks_.back().gap2 < near_blocks_[nearest].gap2) nearest = near_blocks_.size() - 1;
-  }
-  work.blocks += static_cast<std::int64_t>(near_blocks_.size());
+  work.blocks += balls_.boxes().for_each_within(node, at, most_gap2(), [&](std::int32_t block, float gap2) {
+    near_blocks_.push_back({gap2, block});
+    if (gap2 < near_blocks_[nearest].gap2) nearest = near_blocks_.size() - 1;
+  });
   if (near_blocks_.empty()) return;
   std::swap(near_blocks_[0], near_blocks_[nearest]);
-  const double extent = balls_.radius(1, node);
-  for (const NearBlock& block : near_blocks_) {
-    // The box says how near the points are where no other image of it can be as near.
-    const double within = query.limit + kFloatError * extent;
-    const bool has_one_image = (within + extent) * kInflate < structure_.box.max_cutoff();
-    if (!has_one_image || block.gap2 <= within * within) look_at_block(query, block.block);
-  }
+  for (const NearBlock& block : near_blocks_)
+    if (!(block.gap2 > most_gap2())) look_at_block(query, block.block);
 }
 
 template <class Metric, class Candidates>

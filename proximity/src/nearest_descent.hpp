@@ -24,7 +24,10 @@ template <class Metric, class Candidates = NearestCandidates>
 class NearestDescent {
  public:
   NearestDescent(const Metric& metric, const Structure& structure, const SubtreeBalls& balls)
-      : metric_(metric), structure_(structure), balls_(balls), wrap_error_(structure.box) {}
+      : metric_(metric), structure_(structure), balls_(balls), wrap_error_(structure.box) {
+    waiting_.reserve(kUsual);
+    near_blocks_.reserve(kUsual);
+  }
 
   /// @param position as given
   /// @param self id of a point that is no neighbor; -1 for none
@@ -39,7 +42,7 @@ class NearestDescent {
     std::int32_t level, node;
   };
   struct NearBlock {
-    double gap2;  ///< squared distance from its box
+    float gap2;  ///< squared distance from its box
     std::int32_t block;
   };
   struct Query {
@@ -50,6 +53,7 @@ class NearestDescent {
     double limit;   ///< how far off a point may be at most to be taken, by its wrapped image
     double shrink;  ///< of that: how far off a subtree may be to be opened
   };
+  static constexpr std::size_t kUsual = 256;  ///< more than wait in most queries: no memory is asked for then
   static bool is_nearer(const Subtree& a, const Subtree& b) { return a.distance2 < b.distance2; }
   void push_roots(const Query& query);
   void dive(Query& query);

@@ -24,13 +24,14 @@ SubtreeBalls::SubtreeBalls(const Structure& structure) : levels_(structure.level
 
 void SubtreeBalls::measure_leaves(const Structure& structure) {
   const MeasuredLeaves& measured = structure.leaves;
-  corners_.resize(structure.points.leaf.size());
-  for (std::int32_t b = 0; b < measured.blocks; ++b) corners_[measured.source[b]] = measured.corners[b];
   for (std::int32_t k = 0; k < structure.levels[1].size(); ++k) {
     const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
     levels_[1].radius[k] = leaf.extent * kInflate;
-    for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b)
+    boxes_.add_leaf(k);
+    for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
       levels_[1].count[k] += measured.count[b];
+      boxes_.add(k, measured.source[b], measured.corners[b]);
+    }
   }
 }
 
@@ -63,20 +64,21 @@ void SubtreeBalls::add_node(int level, std::int32_t node) {
   levels_.resize(std::max(levels_.size(), at + 1));
   levels_[at].radius.resize(std::max(levels_[at].radius.size(), k + 1));
   levels_[at].radius[k] = 0;
+  if (level == 1) boxes_.add_leaf(node);
 }
 
 void SubtreeBalls::add_point(const Structure& structure, std::int32_t slot) {
   const std::int32_t leaf = structure.points.parent(slot);
-  corners_.resize(std::max(corners_.size(), structure.points.leaf.size()));
   with_metric(structure.box, [&](const auto& metric) {
     const Vec3 at = structure.points.position[slot];
     const Vec3 offset = metric.displacement(structure.levels[1].position[leaf], at);
-    MeasuredLeaves::Corners& box = corners_[slot / kBlock];
-    const bool is_first = slot % kBlock == 0;  // of its block
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto coordinate = static_cast<float>(offset[axis]);
-      box.low[axis] = is_first ? coordinate : std::min(box.low[axis], coordinate);
-      box.high[axis] = is_first ? coordinate : std::max(box.high[axis], coordinate);
+    const float x = static_cast<float>(offset.x), y = static_cast<float>(offset.y),
+                z = static_cast<float>(offset.z);
+    const float corner[3] = {x, y, z};
+    if (slot % kBlock == 0) {  // the first one of a block
+      boxes_.add(leaf, slot / kBlock, {{x, y, z}, {x, y, z}});
+    } else {
+      boxes_.widen(slot / kBlock, corner);
     }
     widen_above(metric, structure, 1, leaf, at, 0);
   });
@@ -108,7 +110,7 @@ void SubtreeBalls::widen_above(const Metric& metric, const Structure& structure,
 }
 
 std::size_t SubtreeBalls::memory_bytes() const {
-  std::size_t bytes = corners_.capacity() * sizeof(MeasuredLeaves::Corners);
+  std::size_t bytes = boxes_.memory_bytes();
   for (const Balls& level : levels_)
     bytes += level.radius.capacity() * sizeof(double) + level.count.capacity() * sizeof(std::int64_t);
   return bytes;

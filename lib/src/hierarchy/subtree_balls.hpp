@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hierarchy/block_boxes.hpp"
 #include "hierarchy/level.hpp"
 #include "hierarchy/measured_leaves.hpp"
 
@@ -22,14 +23,17 @@ class SubtreeBalls {
   double radius(int level, std::int32_t node) const { return levels_[level].radius[node]; }
   /// How many points there are below a node, as measured: that is not kept up.
   std::int64_t count(int level, std::int32_t node) const { return levels_[level].count[node]; }
-  /// Of a block of LeafBlocks, relative to the center of its leaf.
-  const MeasuredLeaves::Corners& corners(std::int32_t block) const { return corners_[block]; }
+  /// Around the points of each block.
+  const BlockBoxes& boxes() const { return boxes_; }
 
   // To be called when something has got its place in a structure that is in order: O(levels) each.
   void add_node(int level, std::int32_t node);
   void add_point(const Structure& structure, std::int32_t slot);
   void add_block(const Structure& structure, std::int32_t block);
   void add_subtree(const Structure& structure, int level, std::int32_t node);
+  // To be called when it has lost its place.
+  void remove_block(std::int32_t leaf, std::int32_t block) { boxes_.remove(leaf, block); }
+  void remove_leaf(std::int32_t leaf) { boxes_.remove_all(leaf); }
 
   std::size_t memory_bytes() const;
 
@@ -46,7 +50,7 @@ class SubtreeBalls {
                    double radius);
 
   std::vector<Balls> levels_;
-  std::vector<MeasuredLeaves::Corners> corners_;  ///< by block
+  BlockBoxes boxes_;
 };
 
 }  // namespace dch::detail

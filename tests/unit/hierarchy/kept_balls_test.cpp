@@ -46,7 +46,7 @@ class KeptBalls : public testing::Test {
     for (std::int32_t slot = 0; slot < structure.points.size(); ++slot) {
       if (!structure.is_alive(0, slot)) continue;
       const Vec3 at = structure.points.position[static_cast<std::size_t>(slot)];
-      const detail::MeasuredLeaves::Corners& box = structure.balls->corners(slot / detail::kBlock);
+      const detail::MeasuredLeaves::Corners box = structure.balls->boxes().corners(slot / detail::kBlock);
       std::int32_t node = structure.parent(0, slot);
       const Vec3 offset = kBox.nearest_image(at - structure.levels[1].position[node]);
       for (int axis = 0; axis < 3; ++axis) {

@@ -88,6 +88,7 @@ void Hierarchy::Impl::remove_from_block(std::int32_t slot) {
   points.id[last] = kNone;
   --points.alive;
   if (points.count[block] > 0) return;
+  if (balls) balls->remove_block(points.leaf[block], block);
   points.unlink(levels[1].first_child[points.leaf[block]], block);
   points.free_block(block);
 }

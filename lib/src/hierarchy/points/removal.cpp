@@ -60,6 +60,7 @@ Hierarchy::Impl::Left Hierarchy::Impl::take_out(const Metric& metric, std::int32
     if (at.up[node] == kNone && at.parent[node] != kNone) left.hint[level + 1] = {level + 1, at.parent[node]};
     detach(level, node);
     disconnect(level, node);
+    if (balls && level == 1) balls->remove_leaf(node);
     at.retire(node);
     node = at.up[node];
   }
