@@ -37,17 +37,17 @@ def points(values: Any, name: str = "positions") -> Floats:
     return array
 
 
-def bonds(values: Any) -> npt.NDArray[np.int32]:
+def index_pairs(values: Any, name: str) -> npt.NDArray[np.int32]:
     """Pairs of particles; whether there are such particles is for the library to say."""
     array = np.asarray(values)
     if array.size == 0 and array.ndim <= 2:
         return np.zeros((0, 2), np.int32)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise InvalidParameter(f"bonds has the shape {array.shape} and the type {array.dtype}; give whole numbers in the "
-                               "shape (m, 2), the indices of two particles for each bond")
+        raise InvalidParameter(f"{name} has the shape {array.shape} and the type {array.dtype}; give whole numbers in the "
+                               "shape (m, 2), the indices of two particles in each row")
     least, most = int(array.min()), int(array.max())
     if least < 0 or most >= 2**31:
-        raise InvalidParameter(f"bonds has the index {least if least < 0 else most}; give indices of particles, from 0 on")
+        raise InvalidParameter(f"{name} has the index {least if least < 0 else most}; give indices of particles, from 0 on")
     return np.require(array, np.int32, ["C", "A"])
 
 
@@ -72,6 +72,23 @@ def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
         raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
     x, y, z = np.broadcast_to(flags, 3).tolist()
     return vectors, (bool(x), bool(y), bool(z))
+
+
+def typed_cutoffs(cutoff: Any, types: Any) -> tuple[Floats, npt.NDArray[np.int32]]:
+    """A symmetric matrix of cutoffs, and the type of each particle, a row of it."""
+    matrix = numbers(cutoff, "cutoff")
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
+        raise InvalidParameter(f"cutoff has the shape {matrix.shape}, and types are given; give a matrix with a row and a "
+                               "column for each type")
+    kinds = np.asarray(types)
+    if kinds.ndim != 1 or (kinds.size and kinds.dtype.kind not in "iu"):
+        raise InvalidParameter(f"types has the shape {kinds.shape} and the type {kinds.dtype}; give a whole number for each "
+                               "particle")
+    wrong = np.flatnonzero((kinds < 0) | (kinds >= len(matrix)))
+    if len(wrong):
+        raise InvalidParameter(f"types[{wrong[0]}] is {kinds[wrong[0]]}; give rows of the matrix of cutoffs, from 0 to "
+                               f"{len(matrix) - 1}")
+    return matrix.copy(), kinds.astype(np.int32)
 
 
 def length(value: Any, name: str) -> float:

@@ -81,7 +81,7 @@ class Crossings:
     """
 
     def __init__(self, particles: int, bonds: Any, thickness: float = 0, *, threads: int | None = None) -> None:
-        self._steps = _core.CrossingSteps(arguments.count(particles, "particles", 0, 2**31 - 1), arguments.bonds(bonds),
+        self._steps = _core.CrossingSteps(arguments.count(particles, "particles", 0, 2**31 - 1), arguments.index_pairs(bonds, "bonds"),
                                           arguments.length(thickness, "thickness"), arguments.threads(threads))
         self._frame = 0
 
@@ -109,4 +109,4 @@ class Crossings:
 
     @bonds.setter
     def bonds(self, bonds: Any) -> None:
-        self._steps.set_bonds(arguments.bonds(bonds))
+        self._steps.set_bonds(arguments.index_pairs(bonds, "bonds"))

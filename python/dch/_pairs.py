@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _arguments as arguments
 from . import _core
@@ -14,7 +15,8 @@ from ._core import InvalidParameter
 BELOW = 1 - 2.0**-51
 
 
-def request(cutoff: Any, kinds: Any, atoms: int, half: bool, factor: float = 1) -> _core.Request | None:
+def request(cutoff: Any, kinds: Any, atoms: int, half: bool, factor: float = 1, *,
+            exclusions: npt.NDArray[np.int32] | None = None) -> _core.Request | None:
     """What to find; None where every cutoff is 0, so that there are no pairs."""
     types = radii = None
     cutoffs = np.zeros((1, 1))
@@ -32,7 +34,27 @@ def request(cutoff: Any, kinds: Any, atoms: int, half: bool, factor: float = 1) 
             raise InvalidParameter(f"cutoff[{worst}] is {radii[worst]}; radii must be finite and not negative")
     if not (cutoffs if radii is None else radii).any():
         return None
-    return _core.Request(cutoffs * factor, types, None if radii is None else radii * factor, half)
+    return _core.Request(cutoffs * factor, types, None if radii is None else radii * factor, half, exclusions)
+
+
+def request_of_particles(cutoff: Any, types: Any, exclusions: Any, half: bool) -> _core.Request:
+    """By a number, radii, or a matrix with types; without some pairs."""
+    left_out = None if exclusions is None else arguments.index_pairs(exclusions, "exclusions").copy()
+    if types is not None:
+        return _core.Request(*arguments.typed_cutoffs(cutoff, types), None, half, left_out)
+    if np.ndim(cutoff) > 1:
+        raise InvalidParameter(f"cutoff has the shape {np.shape(cutoff)}; give types beside a matrix, or a number or radii")
+    wanted = request(cutoff, None, len(cutoff) if np.ndim(cutoff) == 1 else 0, half, exclusions=left_out)
+    if wanted is None:
+        raise InvalidParameter(f"cutoff is {cutoff!r}; give a number > 0, or radii of which one is")
+    return wanted
+
+
+def described(cutoff: Any) -> str:
+    """A number as it is, an array by its size."""
+    if np.ndim(cutoff) == 0:
+        return str(cutoff)
+    return f"<{len(cutoff)} radii>" if np.ndim(cutoff) == 1 else f"<{len(cutoff)} types>"
 
 
 def no_pairs(quantities: str) -> tuple[Any, ...]:
@@ -131,11 +153,15 @@ class VerletList:
     ----------
     cutoff
         A number, or an array of radii, one for each atom, whose sums are the cutoffs. Pairs as far apart as the cutoff
-        are in the list.
+        are in the list. With types: a symmetric matrix, where 0 leaves pairs out.
     skin
         Not negative; 0 for a list that is made anew whenever anything has changed.
     half
         Each pair once, i <= j.
+    types
+        A row of the matrix of cutoffs for each atom.
+    exclusions
+        (m, 2) pairs of atoms that are left out, in all their images; such as those joined by bonds.
     threads
         As neighbor_list has them.
 
@@ -152,15 +178,21 @@ class VerletList:
     [[0, 0, 0], [0, 0, 0]]
     >>> verlet
     VerletList(cutoff=1.0, skin=0.2: 3 particles, 3 pairs listed, 1 rebuilds)
+
+    Two types, of which the second has no pairs with itself, and a bond that makes no pair:
+
+    >>> verlet = VerletList([[1.0, 1.5], [1.5, 0]], 0.2, half=True, types=[0, 1, 1], exclusions=[[0, 1]])
+    >>> verlet.update([[0, 0, 0], [0.9, 0, 0], [0, 1.4, 0]])
+    True
+    >>> [k.tolist() for k in verlet.pairs("ij")]
+    [[0], [2]]
     """
 
-    def __init__(self, cutoff: Any, skin: float, *, half: bool = False, threads: int | None = None) -> None:
-        atoms = len(cutoff) if np.ndim(cutoff) == 1 else 0
-        wanted = request(cutoff, None, atoms, half)
-        if wanted is None:
-            raise InvalidParameter(f"cutoff is {cutoff!r}; give a number > 0, or radii of which one is")
+    def __init__(self, cutoff: Any, skin: float, *, half: bool = False, types: Any = None, exclusions: Any = None,
+                 threads: int | None = None) -> None:
+        wanted = request_of_particles(cutoff, types, exclusions, half)
         self._skin = arguments.length(skin, "skin")
-        self._cutoff = cutoff if np.ndim(cutoff) == 0 else f"<{atoms} radii>"
+        self._cutoff = described(cutoff)
         self._pairs = _core.VerletPairs(wanted, self._skin, arguments.threads(threads))
 
     def update(self, positions: Any, cell: Any = None, pbc: Any = None) -> bool:

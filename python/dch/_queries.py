@@ -10,15 +10,17 @@ import numpy.typing as npt
 from . import _arguments as arguments
 from . import _core
 from ._core import InvalidParameter
+from ._pairs import described, request_of_particles
 
 Rows = tuple[npt.NDArray[np.int64], npt.NDArray[np.int32]]
+UnsortedRows = tuple[npt.NDArray[np.int32], npt.NDArray[np.int64], npt.NDArray[np.int32]]
 
 
-def reach(cutoff: Any) -> float:
-    value = arguments.length(cutoff, "cutoff")
-    if value == 0:
-        raise InvalidParameter(f"cutoff is {cutoff!r}; give a number > 0")
-    return value
+def request(cutoff: Any, types: Any, exclusions: Any) -> _core.Request:
+    """By a number, or by a matrix with types."""
+    if types is None and np.ndim(cutoff) != 0:
+        raise InvalidParameter(f"cutoff has the shape {np.shape(cutoff)}; give a number > 0, or types beside a matrix")
+    return request_of_particles(cutoff, types, exclusions, half=True)
 
 
 class NeighborSearch:
@@ -28,6 +30,17 @@ class NeighborSearch:
     has no such limit. The search keeps a structure from update to update. One thread at a time may use an object;
     another one gets a RuntimeError.
 
+    Parameters
+    ----------
+    cutoff
+        A number; with types a symmetric matrix, where 0 leaves pairs out.
+    types
+        A row of the matrix of cutoffs for each atom.
+    exclusions
+        (m, 2) pairs of atoms that are left out, such as those joined by bonds.
+    threads
+        As neighbor_list has them.
+
     >>> search = NeighborSearch(cutoff=1.5)
     >>> search.update([[0, 0, 0], [1, 0, 0], [4.5, 0, 0]], cell=[5, 5, 5])
     >>> first, j = search.csr(full=True)
@@ -35,11 +48,18 @@ class NeighborSearch:
     [[1, 2], [0, 2], [0, 1]]
     >>> search
     NeighborSearch(cutoff=1.5: 3 particles)
+
+    Two types, of which the second has no pairs with itself, and a bond that makes no pair:
+
+    >>> search = NeighborSearch([[1.0, 1.5], [1.5, 0]], types=[0, 1, 1], exclusions=[[0, 1]])
+    >>> search.update([[0, 0, 0], [0.9, 0, 0], [0, 1.4, 0]])
+    >>> [array.tolist() for array in search.csr()]
+    [[0, 1, 1, 1], [2]]
     """
 
-    def __init__(self, cutoff: float, *, threads: int | None = None) -> None:
-        self._cutoff = reach(cutoff)
-        self._search = _core.Search(self._cutoff, arguments.threads(threads))
+    def __init__(self, cutoff: Any, *, types: Any = None, exclusions: Any = None, threads: int | None = None) -> None:
+        self._search = _core.Search(request(cutoff, types, exclusions), arguments.threads(threads))
+        self._cutoff = described(cutoff if np.ndim(cutoff) else float(cutoff))
 
     def update(self, positions: Any, cell: Any = None, pbc: Any = None) -> None:
         """Takes positions (n, 3), the cell and pbc as VerletList.update() does, however far they have moved.
@@ -52,6 +72,11 @@ class NeighborSearch:
         row of its smaller index; full: in both. The arrays are new at each call and live as long as someone has them."""
         return self._search.csr(bool(full))
 
+    def unsorted(self, full: bool = False) -> UnsortedRows:
+        """particle (n,) int32, first and j: row k is that of particle[k], and rows and neighbors stand as they lie in space;
+        each pair of a half list in the row of either. Faster to make than csr(), the same at each call."""
+        return self._search.unsorted(bool(full))
+
     def __len__(self) -> int:
         """The number of atoms."""
         return self._search.particles
@@ -60,7 +85,8 @@ class NeighborSearch:
         return f"NeighborSearch(cutoff={self._cutoff}: {len(self)} particles)"
 
 
-def all_pairs(positions: Any, cutoff: float, cell: Any = None, pbc: Any = None, full: bool = False) -> Rows:
+def all_pairs(positions: Any, cutoff: Any, cell: Any = None, pbc: Any = None, full: bool = False, *, types: Any = None,
+              exclusions: Any = None) -> Rows:
     """What NeighborSearch.csr() returns, by looking at every pair in plain code: the oracle of the library, O(n^2).
 
     >>> first, j = all_pairs([[0, 0, 0], [1, 0, 0], [4.5, 0, 0]], 0.7, cell=[5, 5, 5])
@@ -68,7 +94,8 @@ def all_pairs(positions: Any, cutoff: float, cell: Any = None, pbc: Any = None, 
     ([0, 1, 1, 1], [2])
     """
     vectors, periodic = arguments.box(cell, pbc)
-    return _core.all_pairs(arguments.points(positions), vectors, periodic, reach(cutoff), bool(full))
+    return _core.all_pairs(arguments.points(positions), vectors, periodic,
+                           request(cutoff, types, exclusions), bool(full))
 
 
 def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any = None, *, epsilon: float = 0,

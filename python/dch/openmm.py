@@ -10,8 +10,7 @@ from typing import Any, TextIO
 
 from openmm import unit
 
-from ._arguments import bonds as index_pairs
-from ._arguments import count, length
+from ._arguments import count, index_pairs, length
 from ._core import InvalidParameter
 from ._crossings import Crossings, CrossingStep
 
@@ -62,7 +61,7 @@ class CrossingReporter:
                  threads: int | None = None) -> None:
         self._interval = count(reportInterval, "reportInterval", 1, 2**31 - 1)
         self._thickness, self._threads = length(in_nanometers(thickness), "thickness"), threads
-        self._bonds = None if bonds is None else index_pairs(bonds)
+        self._bonds = None if bonds is None else index_pairs(bonds, "bonds")
         if self._bonds is not None:  # all that may be wrong with them but for particles that the System lacks
             self._follow(int(self._bonds.max(initial=-1)) + 1, self._bonds)
         self._following: Crossings | None = None

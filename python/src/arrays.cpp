@@ -79,6 +79,12 @@ Span<const Vec3> points_of(const Doubles& array) {
   return {reinterpret_cast<const Vec3*>(array.data()), static_cast<std::size_t>(array.shape(0))};
 }
 
+Span<const IndexPair> index_pairs_of(const Ints& array) {
+  if (array.ndim() != 2 || array.shape(1) != 2)
+    throw InvalidParameter("pairs are an array of another shape than (m, 2); give two particles each");
+  return {reinterpret_cast<const IndexPair*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
 Span<const double> numbers_of(const std::optional<Doubles>& array) {
   if (!array) return {};
   return {array->data(), static_cast<std::size_t>(array->size())};

@@ -16,6 +16,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/engines/neighbor_pairs.hpp>
 #include <dch/geometry/box.hpp>
+#include <dch/lists/exclusions.hpp>
 
 namespace dch::python {
 
@@ -27,6 +28,8 @@ using Ints = py::array_t<std::int32_t, py::array::c_style>;
 
 /// A view of an array of n x 3. @throws InvalidParameter for another shape.
 Span<const Vec3> points_of(const Doubles& array);
+/// A view of an array of m x 2. @throws InvalidParameter for another shape.
+Span<const IndexPair> index_pairs_of(const Ints& array);
 Span<const double> numbers_of(const std::optional<Doubles>& array);
 Span<const std::int32_t> numbers_of(const std::optional<Ints>& array);
 

@@ -17,13 +17,6 @@ using necklace::CrossingFinder;
 using necklace::StepCrossings;
 using necklace::UndeterminedBond;
 
-/// A view of an array of m x 2. @throws InvalidParameter for another shape.
-Span<const IndexPair> bonds_of(const Ints& array) {
-  if (array.ndim() != 2 || array.shape(1) != 2)
-    throw InvalidParameter("bonds are an array of another shape than (m, 2); give two particles each");
-  return {reinterpret_cast<const IndexPair*>(array.data()), static_cast<std::size_t>(array.shape(0))};
-}
-
 /// A number or several of each event, one row an event.
 template <class T, std::size_t kColumns, class Events, class Row>
 py::array rows_of(const Events& events, const Row& row) {
@@ -107,7 +100,7 @@ class PresentThreads final : public Executor {
 class CrossingSteps {
  public:
   CrossingSteps(std::size_t particles, const Ints& bonds, double thickness, int threads)
-      : threads_(threads), finder_(particles, bonds_of(bonds), {thickness, &threads_}) {}
+      : threads_(threads), finder_(particles, index_pairs_of(bonds), {thickness, &threads_}) {}
 
   void start(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
     const InUse in_use(used_, "Crossings");
@@ -133,7 +126,7 @@ class CrossingSteps {
 
   void set_bonds(const Ints& bonds) {
     const InUse in_use(used_, "Crossings");
-    finder_.set_bonds(bonds_of(bonds));
+    finder_.set_bonds(index_pairs_of(bonds));
   }
   py::array bonds() const {
     const Span<const IndexPair> all = finder_.bonds();

@@ -9,39 +9,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "request.hpp"
 #include "threads.hpp"
 
 namespace dch::python {
 namespace {
-
-/// Which pairs are asked for; the arrays are kept.
-struct Request {
-  Doubles cutoffs;
-  std::optional<Ints> types;
-  std::optional<Doubles> radii;
-  bool half = false;
-
-  NeighborPairsParams params(double skin) const {
-    NeighborPairsParams out;
-    if (!radii) out.cutoffs = cutoffs_of(cutoffs);
-    out.types = numbers_of(types);
-    out.radii = numbers_of(radii);
-    out.kind = half ? ListKind::half : ListKind::full;
-    out.skin = skin;
-    return out;
-  }
-
-  /// Which of n particles are within a cutoff of themselves: all whose cutoff is not 0.
-  std::vector<char> with_themselves(std::size_t n) const {
-    const NeighborPairsParams by = params(0);
-    std::vector<char> out(n, 1);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!by.radii.empty()) out[i] = static_cast<char>(by.radii[i] > 0);
-      if (!by.types.empty()) out[i] = static_cast<char>(by.cutoffs(by.types[i], by.types[i]) > 0);
-    }
-    return out;
-  }
-};
 
 /// Bytes that a pair takes in the list and beside it while they are found.
 constexpr double kListBytes = 24;
@@ -63,12 +35,11 @@ NeighborPairs find(Span<const Vec3> positions, const Box& box, NeighborPairsPara
 }
 
 py::tuple find_pairs(const std::string& quantities, const Doubles& positions, const Doubles& cell,
-                     std::array<bool, 3> periodic, const Request& request, bool self_interaction,
-                     int threads) {
+                     std::array<bool, 3> periodic, Request& request, bool self_interaction, int threads) {
   const Span<const Vec3> points = points_of(positions);
   const Box box = box_of(cell, periodic);
   Threads pool(threads);
-  NeighborPairsParams params = request.params(0);
+  NeighborPairsParams params = request.pairs_of(points.size(), 0);
   params.executor = pool.executor();
   NeighborPairs pairs;
   {
@@ -84,15 +55,13 @@ py::tuple find_pairs(const std::string& quantities, const Doubles& positions, co
 class VerletPairs {
  public:
   VerletPairs(Request request, double skin, int threads)
-      : request_(std::move(request)), skin_(skin), stale_test_(skin), threads_(threads) {
-    request_.params(skin);  // cutoffs are checked here
-  }
+      : request_(std::move(request)), skin_(skin), stale_test_(skin), threads_(threads) {}
 
   bool update(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
     const InUse in_use(used_, "VerletList");
     const Span<const Vec3> points = points_of(positions);
     const Box box = box_of(cell, periodic);
-    NeighborPairsParams params = request_.params(skin_);
+    NeighborPairsParams params = request_.pairs_of(points.size(), skin_);
     params.executor = threads_.executor();
     const py::gil_scoped_release release;
     const bool is_new = is_stale(points, box);
@@ -149,11 +118,9 @@ class VerletPairs {
 
 void bind_pairs(py::module_& m) {
   py::class_<Request>(m, "Request")
-      .def(py::init([](Doubles cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half) {
-             return Request{std::move(cutoffs), std::move(types), std::move(radii), half};
-           }),
+      .def(py::init<Doubles, std::optional<Ints>, std::optional<Doubles>, bool, std::optional<Ints>>(),
            py::arg("cutoffs").noconvert(), py::arg("types").noconvert(), py::arg("radii").noconvert(),
-           py::arg("half"));
+           py::arg("half"), py::arg("exclusions").noconvert() = py::none());
   m.def("find_pairs", &find_pairs, py::arg("quantities"), py::arg("positions").noconvert(),
         py::arg("cell").noconvert(), py::arg("pbc"), py::arg("request"), py::arg("self_interaction"),
         py::arg("threads"));

@@ -2,6 +2,7 @@
 // Lists in the form that the library has them, the oracle, and nearest neighbors.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <pybind11/stl.h>
 
 #include <dch/base/error.hpp>
@@ -13,29 +14,37 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "request.hpp"
 #include "threads.hpp"
 
 namespace dch::python {
 namespace {
 
-ListParams list_params(double cutoff, bool full) {
-  ListParams params;
-  params.cutoffs = TypeCutoffs(cutoff);
-  params.kind = full ? ListKind::full : ListKind::half;
-  return params;
-}
+ListKind kind_of(bool full) { return full ? ListKind::full : ListKind::half; }
 
 py::tuple csr_of(NeighborList list) {
   py::array first = array_of(std::move(list.first));
   return py::make_tuple(std::move(first), array_of(std::move(list.j)));
 }
 
+/// Rows as they lie in the structure, with the particle of each.
+py::tuple unsorted_of(NeighborList list) {
+  list.j.resize(static_cast<std::size_t>(list.first.back()));  // nothing behind the last row
+  if (list.particle.empty()) {
+    list.particle.resize(list.size());
+    std::iota(list.particle.begin(), list.particle.end(), 0);
+  }
+  py::array particle = array_of(std::move(list.particle));
+  py::tuple rows = csr_of(std::move(list));
+  return py::make_tuple(std::move(particle), rows[0], rows[1]);
+}
+
 /// An engine over positions that change.
 class Search {
  public:
-  Search(double cutoff, int threads) : cutoff_(cutoff), threads_(threads) {
-    list_params(cutoff, false);  // the cutoff is checked here
-    params_.radius = cutoff;
+  Search(Request request, int threads) : request_(std::move(request)), threads_(threads) {
+    params_.radius = request_.cutoffs().largest();
+    params_.size_classes = request_.has_types();
     params_.executor = threads_.executor();
     search_ = make_auto_search(params_);
   }
@@ -51,15 +60,20 @@ class Search {
     }
     particles_ = -1;
     const py::gil_scoped_release release;
+    const NeighborPairsParams pairs = request_.pairs_of(points.size(), 0);  // throws if it does not fit
     search_->update(points, box);
-    NeighborPairsParams pairs;
-    pairs.cutoffs = TypeCutoffs(cutoff_);
     constexpr std::size_t kFewParticles = 1000;
     expected_pairs_ = points.size() <= kFewParticles ? 0 : expected_pairs(points, box, pairs);
     particles_ = static_cast<std::int64_t>(points.size());
   }
 
-  py::tuple csr(bool full) {
+  py::tuple csr(bool full) { return csr_of(list(full, RowOrder::by_index)); }
+  py::tuple unsorted(bool full) { return unsorted_of(list(full, RowOrder::unsorted)); }
+
+  std::int64_t particles() const { return std::max<std::int64_t>(particles_, 0); }
+
+ private:
+  NeighborList list(bool full, RowOrder order) {
     const InUse in_use(used_, "NeighborSearch");
     if (particles_ < 0)
       throw InvalidParameter(
@@ -67,17 +81,14 @@ class Search {
     constexpr double kRowBytes = 12;  // of indices, and what rows are made of
     check_memory(full ? expected_pairs_ : 0.5 * expected_pairs_, kRowBytes, "pairs", "take a smaller cutoff");
     NeighborList list;
-    {
-      const py::gil_scoped_release release;
-      search_->list(list_params(cutoff_, full), list);
-    }
-    return csr_of(std::move(list));
+    const py::gil_scoped_release release;
+    ListParams params = request_.list_of(static_cast<std::size_t>(particles_), kind_of(full));
+    params.order = order;
+    search_->list(params, list);
+    return list;
   }
 
-  std::int64_t particles() const { return std::max<std::int64_t>(particles_, 0); }
-
- private:
-  double cutoff_;
+  Request request_;
   Threads threads_;
   HierarchyParams params_;
   std::unique_ptr<PairSearch> search_;
@@ -87,13 +98,13 @@ class Search {
 };
 
 py::tuple all_pairs_of(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic,
-                       double cutoff, bool full) {
+                       Request& request, bool full) {
   const Span<const Vec3> points = points_of(positions);
   const Box box = box_of(cell, periodic);
   NeighborList list;
   {
     const py::gil_scoped_release release;
-    list = all_pairs(points, box, list_params(cutoff, full));
+    list = all_pairs(points, box, request.list_of(points.size(), kind_of(full)));
   }
   return csr_of(std::move(list));
 }
@@ -149,13 +160,14 @@ py::tuple find_nearest(const Doubles& positions, const Doubles& cell, std::array
 
 void bind_queries(py::module_& m) {
   py::class_<Search>(m, "Search")
-      .def(py::init<double, int>(), py::arg("cutoff"), py::arg("threads"))
+      .def(py::init<Request, int>(), py::arg("request"), py::arg("threads"))
       .def("update", &Search::update, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
            py::arg("pbc"))
       .def("csr", &Search::csr, py::arg("full"))
+      .def("unsorted", &Search::unsorted, py::arg("full"))
       .def_property_readonly("particles", &Search::particles);
   m.def("all_pairs", &all_pairs_of, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
-        py::arg("pbc"), py::arg("cutoff"), py::arg("full"));
+        py::arg("pbc"), py::arg("request"), py::arg("full"));
   m.def("nearest", &find_nearest, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
         py::arg("pbc"), py::arg("queries").noconvert(), py::arg("k"), py::arg("epsilon"), py::arg("threads"));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tuple>
 #include <vector>
 
 #include <dch/base/error.hpp>
@@ -110,6 +111,30 @@ TEST_P(NeighborPairsInBoxes, HaveTheCutoffsOfTypesAndRadii) {
       }
       const NeighborPairs found = neighbor_pairs(scene.points, scene.box, scene.params);
       ASSERT_EQ(pairs_of(found, scene), brute_force(scene, cutoff)) << reach.heights << " heights";
+    }
+  }
+}
+
+TEST_P(NeighborPairsInBoxes, LeaveOutExcludedPairsInAllImages) {
+  scenes::Random random(4177);
+  for (const Reach& reach : kReaches) {
+    Scene scene{GetParam().box, some_points(GetParam().box, reach.particles, random), {}};
+    std::vector<IndexPair> excluded;
+    for (std::size_t i = 1; i < scene.points.size(); i += 2)
+      excluded.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i) - 1});
+    const Exclusions exclusions = Exclusions::from_pairs(scene.points.size(), excluded);
+    const double cutoff = reach.heights * height();
+    scene.params.cutoffs = TypeCutoffs(cutoff);
+    for (const ListKind kind : {ListKind::full, ListKind::half}) {
+      scene.params.kind = kind;
+      std::vector<Pair> expected = brute_force(scene, cutoff);
+      expected.erase(
+          std::remove_if(expected.begin(), expected.end(),
+                         [&](const Pair& p) { return exclusions.excluded(std::get<0>(p), std::get<1>(p)); }),
+          expected.end());
+      scene.params.exclusions = &exclusions;
+      EXPECT_EQ(pairs_of(neighbor_pairs(scene.points, scene.box, scene.params), scene), expected);
+      scene.params.exclusions = nullptr;
     }
   }
 }

@@ -48,6 +48,7 @@ ListParams request_of(const NeighborPairsParams& params) {
   request.radii = params.radii;
   request.types = params.types;
   request.kind = params.kind;
+  request.exclusions = params.exclusions;
   return request;
 }
 
@@ -155,6 +156,7 @@ class NeighborPairsMaker {
     if (ghosts_) {
       by_definition.emplace(*ghosts_);
       request.tie_breaker = &*by_definition;
+      request.exclusions = nullptr;  // is_wanted() knows of which particle a point is
       ghosts_->ask(request);
     }
     if (request.kind == ListKind::full) request.order = RowOrder::unsorted;
@@ -199,10 +201,12 @@ class NeighborPairsMaker {
   }
   bool is_at_home(std::int32_t i) const { return static_cast<std::size_t>(i) < given_.size(); }
 
-  /// Half lists are made of full ones where there are ghosts.
+  /// Half lists are made of full ones where there are ghosts, which exclusions do not name.
   bool is_wanted(std::int32_t i, std::int32_t point, const std::vector<NeighborPairs::Shift>& images) const {
-    if (!ghosts_ || params_.kind == ListKind::full) return true;
+    if (!ghosts_) return true;
     const std::int32_t j = ghosts_->particle_of(point);
+    if (params_.exclusions != nullptr && params_.exclusions->excluded(i, j)) return false;
+    if (params_.kind == ListKind::full) return true;
     return i != j ? i < j : images[ghosts_->image_of(point)] > NeighborPairs::Shift{};
   }
 

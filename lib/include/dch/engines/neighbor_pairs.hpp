@@ -12,6 +12,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
+#include <dch/lists/exclusions.hpp>
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
@@ -26,6 +27,8 @@ struct NeighborPairsParams {
   /// full: each pair in the rows of both particles. half: in the row of the smaller index; of the two pairs
   /// of a particle and its own images by S and -S, the one whose first non-zero number is positive.
   ListKind kind = ListKind::full;
+  /// Pairs left out, in every image; those of a particle and its own images stay. Not owned, may be null.
+  const Exclusions* exclusions = nullptr;
   Executor* executor = nullptr;  ///< threads; null for that of the caller alone. Results do not depend on it.
   /// More pairs, or images of particles, than this are refused before memory is taken for them.
   std::int64_t max_pairs = std::numeric_limits<std::int64_t>::max();
@@ -127,8 +130,8 @@ class NeighborPairs {
 /// near enough, as ghosts. O(n + pairs) at bounded density. Neighbors come in an order that is the same on
 /// any number of threads and any instruction set.
 /// @throws InvalidPosition, also for particles more than 2^29 periods away from the cell; TooManyPairs;
-///   InvalidParameter for a negative or non-finite skin, types or radii that do not fit, and a cutoff + skin
-///   outside kMinListRadius..kMaxListRadius. `out` is then empty or as it was.
+///   InvalidParameter for a negative or non-finite skin, types, radii or exclusions that do not fit, and a
+///   cutoff + skin outside kMinListRadius..kMaxListRadius. `out` is then empty or as it was.
 void neighbor_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params,
                     NeighborPairs& out);
 NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params);
