@@ -9,6 +9,7 @@
 #include "simd/born_task.hpp"
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
+#include "simd/motion_task.hpp"
 
 namespace dch::detail {
 
@@ -30,6 +31,7 @@ struct ForceKernels {
   LjFunctions<LjPairTask> pairs;
   MeshKernels mesh;
   BornKernels born;
+  MotionKernels motion;
 
   /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
   /// be room for all. Returns how many.

@@ -5,13 +5,18 @@
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
+#include "simd/motion_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx2() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,       lj_functions_of<Avx2Double>,
-                                         lj_pair_functions_of<Avx2Double>, mesh_kernels,
-                                         born_kernels<Avx2Float>,          fene<Avx2Double>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,
+                                         lj_functions_of<Avx2Double>,
+                                         lj_pair_functions_of<Avx2Double>,
+                                         mesh_kernels,
+                                         born_kernels<Avx2Float>,
+                                         motion_kernels,
+                                         fene<Avx2Double>};
   return kKernels;
 }
 

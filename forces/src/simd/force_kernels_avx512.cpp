@@ -5,13 +5,18 @@
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
+#include "simd/motion_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx512() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>,       lj_functions_of<Avx512Double>,
-                                         lj_pair_functions_of<Avx512Double>, mesh_kernels,
-                                         born_kernels<Avx512Float>,          fene<Avx512Double>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>,
+                                         lj_functions_of<Avx512Double>,
+                                         lj_pair_functions_of<Avx512Double>,
+                                         mesh_kernels,
+                                         born_kernels<Avx512Float>,
+                                         motion_kernels,
+                                         fene<Avx512Double>};
   return kKernels;
 }
 

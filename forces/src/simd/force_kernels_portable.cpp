@@ -5,14 +5,18 @@
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
+#include "simd/motion_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_portable() {
-  static constexpr ForceKernels kKernels{
-      lj_functions_of<Portable<float>>,       lj_functions_of<Portable<double>>,
-      lj_pair_functions_of<Portable<double>>, mesh_kernels,
-      born_kernels<Portable<float>>,          fene<Portable<double>>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Portable<float>>,
+                                         lj_functions_of<Portable<double>>,
+                                         lj_pair_functions_of<Portable<double>>,
+                                         mesh_kernels,
+                                         born_kernels<Portable<float>>,
+                                         motion_kernels,
+                                         fene<Portable<double>>};
   return kKernels;
 }
 

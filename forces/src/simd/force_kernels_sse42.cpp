@@ -5,13 +5,18 @@
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
+#include "simd/motion_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
-  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,       lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>, mesh_kernels,
-                                         born_kernels<SseFloat>,          fene<SseDouble>};
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,
+                                         lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>,
+                                         mesh_kernels,
+                                         born_kernels<SseFloat>,
+                                         motion_kernels,
+                                         fene<SseDouble>};
   return kKernels;
 }
 
