@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Steps of motion: plain loops, of which the compiler makes vectors of each instruction set. No product is fused
-// with a sum (-ffp-contract=off), so the bits are those of a plain loop.
+// Steps of motion: plain loops, of which the compiler makes vectors of each instruction set. No product is
+// fused with a sum (-ffp-contract=off), so the bits are those of a plain loop.
 #pragma once
 
 #include "simd/motion_task.hpp"

@@ -13,8 +13,8 @@ FixStyle(nve/dch,FixNVEDCH);
 
 namespace LAMMPS_NS {
 
-/// nve/dch: the operations of fix nve, in its order, by SIMD kernels: positions and velocities have its bits. It
-/// keeps an object of the plain style, which knows the steps of r-RESPA and computes there.
+/// nve/dch: the operations of fix nve, in its order, by SIMD kernels: positions and velocities have its bits.
+/// It keeps an object of the plain style, which knows the steps of r-RESPA and computes there.
 class FixNVEDCH : public Fix {
  public:
   FixNVEDCH(LAMMPS* lammps, int narg, char** arg);

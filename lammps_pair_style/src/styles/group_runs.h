@@ -7,8 +7,8 @@ namespace LAMMPS_NS {
 
 inline constexpr int kMostInRun = 128;  ///< atoms, whose numbers stay in the nearest cache
 
-/// Calls act(first, count) for the runs of atoms of a group, kMostInRun at most, that stand behind each other in
-/// memory from `begin` up to `end`.
+/// Calls act(first, count) for the runs of atoms of a group, kMostInRun at most, that stand behind each other
+/// in memory from `begin` up to `end`.
 template <class Act>
 void for_runs_of_group(const int* mask, int group_bit, int begin, int end, Act act) {
   for (int i = begin; i < end;) {

@@ -25,14 +25,14 @@ class BlockBoxes {
   /// Boxes relative to the center of their leaf [length]. Only the first group of a leaf may have room left.
   struct alignas(64) Group {
     float low[3][kBoxes], high[3][kBoxes];  ///< what is in free places does not matter
-    std::int32_t block[kBoxes];  ///< of LeafBlocks
+    std::int32_t block[kBoxes];             ///< of LeafBlocks
     std::int32_t count, next;
   };
 
-  /// The squared gap between a position and a box, both relative to the center of a leaf, as for_each_within()
-  /// computes it, is at most this if they are within a distance of each other: it allows for rounding, which
-  /// takes less than 2^-22 of the position and of the corners from a gap, and less than 2^-20 of it from its
-  /// square. Infinity where squares do not fit into float.
+  /// The squared gap between a position and a box, both relative to the center of a leaf, as
+  /// for_each_within() computes it, is at most this if they are within a distance of each other: it allows
+  /// for rounding, which takes less than 2^-22 of the position and of the corners from a gap, and less than
+  /// 2^-20 of it from its square. Infinity where squares do not fit into float.
   /// @param extent of the leaf: no corner is farther from its center along an axis
   static float most_gap2(Vec3 at, double extent, double within) {
     const double far = std::abs(at.x) + std::abs(at.y) + std::abs(at.z) + extent;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Boxes of blocks by leaf, as they come and go, against a map of them.
+#include "hierarchy/block_boxes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "hierarchy/block_boxes.hpp"
 #include "random.hpp"
 
 namespace dch::detail {
@@ -87,8 +88,7 @@ class BlockBoxesTest : public testing::TestWithParam<double> {
   /// rounding.
   void expect_those_within(std::int32_t leaf, Vec3 at, double within) {
     const double extent = kExtent * scale() * std::sqrt(3.0);
-    const std::set<std::int32_t> called =
-        called_for(leaf, at, BlockBoxes::most_gap2(at, extent, within));
+    const std::set<std::int32_t> called = called_for(leaf, at, BlockBoxes::most_gap2(at, extent, within));
     const double rounding = 1e-5 * (within + extent + std::sqrt(norm2(at)));
     for (const auto& [block, entry] : expected_) {
       if (entry.first != leaf) {

@@ -6,8 +6,9 @@
 
 namespace dch {
 
-/// The steps of velocity Verlet. Each product and each sum is rounded on its own, in the order of the formula:
-/// the bits are the same on every instruction set, and those of a plain loop without fused operations.
+/// The steps of velocity Verlet. Each product and each sum is rounded on its own, in the order of the
+/// formula: the bits are the same on every instruction set, and those of a plain loop without fused
+/// operations.
 ///
 /// velocity += dt_over_mass force, for each particle.
 /// @throws InvalidParameter if there are not as many numbers, forces and velocities.
