@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: MIT
-# cmake --install and find_package(dch). The trajectory library has an exported set of its own, since it alone needs
-# further packages: who links dch::core only has to have none of them.
+# cmake --install, find_package(dch) and pkg-config. The components are the packages of cmake/DchPackages.cmake. The libraries
+# of trajectories and of OpenMM have exported sets of their own, since they alone need further packages: who links dch::core
+# only has to have none of them.
 include(CMakePackageConfigHelpers)
 
 set(DCH_CONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/dch)
-install(EXPORT dch-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER})
+install(EXPORT dch-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER} COMPONENT libdch-dev)
+if(TARGET dch_shared)
+  install(EXPORT dch-shared-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER} COMPONENT libdch-dev)
+endif()
 if(TARGET dch_trajectory)
-  install(EXPORT dch-trajectory-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER})
+  install(EXPORT dch-trajectory-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER} COMPONENT libdch-dev)
+endif()
+if(TARGET OpenMMDCH)
+  install(EXPORT dch-openmm-targets NAMESPACE dch:: DESTINATION ${DCH_CONFIG_FOLDER} COMPONENT openmm-dch)
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dch-config.cmake.in
                               ${CMAKE_CURRENT_BINARY_DIR}/dch-config.cmake
@@ -15,4 +22,24 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/dch-config-version.
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/dch-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/dch-config-version.cmake
-        DESTINATION ${DCH_CONFIG_FOLDER})
+        DESTINATION ${DCH_CONFIG_FOLDER} COMPONENT libdch-dev)
+
+# dch_install_pc(<name> <libraries ...>): <name>.pc, which goes by where it lies.
+function(dch_install_pc name)
+  set(DCH_PC_NAME ${name})
+  list(TRANSFORM ARGN PREPEND -l OUTPUT_VARIABLE DCH_PC_LIBRARIES)
+  list(JOIN DCH_PC_LIBRARIES " " DCH_PC_LIBRARIES)
+  file(RELATIVE_PATH DCH_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /.)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/dch.pc.in ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libdch-dev)
+endfunction()
+
+get_property(parts GLOBAL PROPERTY DCH_SHARED_PARTS)
+list(REVERSE parts)  # what stands above comes first
+list(TRANSFORM parts PREPEND dch_)
+dch_install_pc(dch-static ${parts})
+if(TARGET dch_shared)
+  dch_install_pc(dch dch)
+else()
+  dch_install_pc(dch ${parts})
+endif()

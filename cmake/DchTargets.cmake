@@ -97,22 +97,26 @@ function(dch_instruction_sets target)
 endfunction()
 
 # dch_add_library(<name> [EXPORT set])
-#   The library dch::<name> of all sources in src/, with its headers in include/, to be installed; and
+#   The static library dch_<name> of all sources in src/, with its headers in include/, to be installed; and
 #   dch_<name>_internals, what is no part of its interface, for the other libraries, the tests and benchmarks of this
-#   project. Static unless BUILD_SHARED_LIBS is on; before 1.0 the second number of the version tells what fits.
+#   project. Without an export set of its own it is a part of libdch (cmake/DchShared.cmake) too, from the same objects.
+#   dch::<name> is the static library, but in a project that takes this one in with BUILD_SHARED_LIBS it is libdch.
 function(dch_add_library name)
   cmake_parse_arguments(ARG "" "EXPORT" "" ${ARGN})
-  if(NOT ARG_EXPORT)
-    set(ARG_EXPORT dch-targets)
-  endif()
   set(target dch_${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
-  add_library(${target} ${sources})
-  add_library(dch::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME ${target} INSTALL_RPATH "$ORIGIN")
-  if(PROJECT_VERSION)
-    set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION}
-                                               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  add_library(${target} STATIC ${sources})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME ${target})
+  if(ARG_EXPORT)
+    add_library(dch::${name} ALIAS ${target})
+  else()
+    set(ARG_EXPORT dch-targets)
+    if(NOT DCH_LINK_SHARED)
+      add_library(dch::${name} ALIAS ${target})
+    endif()
+    set_property(GLOBAL APPEND PROPERTY DCH_SHARED_PARTS ${name})
+    # Public headers make what they declare visible, between pragmas.
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   endif()
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
@@ -122,9 +126,9 @@ function(dch_add_library name)
   dch_join_sources(${target})
   add_library(${target}_internals INTERFACE)
   target_include_directories(${target}_internals INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-  install(TARGETS ${target} EXPORT ${ARG_EXPORT})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(TARGETS ${target} EXPORT ${ARG_EXPORT} COMPONENT libdch-dev)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libdch-dev)
   if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/moved)
-    install(DIRECTORY moved/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY moved/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libdch-dev)
   endif()
 endfunction()

@@ -25,6 +25,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${FOLDER}/in
 extract_example(${README} ${FOLDER}/readme_example.cpp)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${FOLDER}/installed
-    -DDCH_COMPONENTS=${COMPONENTS} -DREADME_EXAMPLE=${FOLDER}/readme_example.cpp)
+    -DDCH_COMPONENTS=${COMPONENTS} -Ddch_USE_STATIC_LIBS=${STATIC}
+    -DREADME_EXAMPLE=${FOLDER}/readme_example.cpp)
 run(${CMAKE_COMMAND} --build ${FOLDER}/build --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${FOLDER}/build -C ${CONFIG} --output-on-failure --no-tests=error)

@@ -9,6 +9,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// The part of an Ewald sum of charges in reciprocal space, on a mesh: smooth particle mesh Ewald (Essmann,
@@ -51,3 +52,4 @@ class EwaldMesh {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Finitely extensible bonds of Kremer and Grest (J. Chem. Phys. 92:5057, 1990): energy
@@ -49,3 +50,4 @@ class FeneForces {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 namespace detail {
@@ -125,3 +126,4 @@ class BornSums {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

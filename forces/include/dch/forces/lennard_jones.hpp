@@ -10,6 +10,7 @@
 #include <dch/clusters/cluster_pairs.hpp>
 #include <dch/lists/pair_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 namespace detail {
@@ -194,3 +195,4 @@ class LennardJones {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// A pair of points that is within the cutoff for a while between two frames: from one moment to the next one
@@ -105,3 +106,4 @@ std::vector<OracleContact> all_hidden_contacts(double cutoff, double slack, Span
                                                Span<const std::int32_t> points = {});
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

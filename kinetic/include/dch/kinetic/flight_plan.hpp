@@ -5,6 +5,7 @@
 
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// How a point moves from a time on, until it is given another plan: linear motion, or quadratic motion where
@@ -34,3 +35,4 @@ inline constexpr double kMaxMagnitude = 1e50;
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

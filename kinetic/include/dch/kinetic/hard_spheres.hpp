@@ -12,6 +12,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/kinetic/kinetic_edges.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 struct HardSphereParams {
@@ -112,3 +113,4 @@ class HardSpheres {
 };
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

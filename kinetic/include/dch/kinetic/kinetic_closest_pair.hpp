@@ -13,6 +13,7 @@
 #include <dch/kinetic/flight_plan.hpp>
 #include <dch/kinetic/kinetic_edges.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// Another pair has become the closest one.
@@ -114,3 +115,4 @@ class KineticClosestPair {
 };
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/kinetic/flight_plan.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// Two points, the smaller id first.
@@ -132,3 +133,4 @@ std::unique_ptr<KineticEdges> make_kinetic_edges(const KineticParams& params, Sp
                                                  double start);
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

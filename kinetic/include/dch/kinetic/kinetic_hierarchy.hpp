@@ -8,6 +8,7 @@
 
 #include <dch/kinetic/kinetic_edges.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// What a kinetic hierarchy did and holds: the four qualities of a kinetic data structure (thesis 5.5.2), as
@@ -62,3 +63,4 @@ std::unique_ptr<KineticHierarchy> make_kinetic_hierarchy(const KineticParams& pa
                                                          Span<const FlightPlan> plans, double start);
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

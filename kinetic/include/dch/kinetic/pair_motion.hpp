@@ -4,6 +4,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/kinetic/flight_plan.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 /// Two points under their flight plans, one image of each, and a distance d: when they come within it and
@@ -46,3 +47,4 @@ class PairMotion {
 };
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

@@ -3,6 +3,7 @@
 
 #include <dch/kinetic/hard_spheres.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::kinetic {
 
 struct GrowthParams {
@@ -26,3 +27,4 @@ struct GrowthResult {
 GrowthResult grow(HardSpheres& spheres, const GrowthParams& params);
 
 }  // namespace dch::kinetic
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Base of everything the library throws. The message names the value, the limit and the remedy.
@@ -37,3 +38,4 @@ class CutoffTooLarge : public Error {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

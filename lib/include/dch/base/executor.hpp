@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Runs the parts of a task, perhaps side by side: how a host lends its threads. Results do not depend on how
@@ -50,3 +51,4 @@ void for_ranges(Executor* executor, Count count, const Task& task) {
 }
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include <dch/base/error.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Most things that 32-bit indices name.
@@ -30,3 +31,4 @@ inline std::int32_t index_count(std::int64_t count, const char* things, const ch
 }
 
 }  // namespace dch
+#pragma GCC visibility pop

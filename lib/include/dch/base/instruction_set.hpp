@@ -3,6 +3,7 @@
 
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Instruction sets that the inner loops are compiled for. All of them give the same lists, bit for bit.
@@ -29,3 +30,4 @@ void set_instruction_set(InstructionSet set);
 std::string name(InstructionSet set);
 
 }  // namespace dch
+#pragma GCC visibility pop

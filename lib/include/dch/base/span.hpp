@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Non-owning view of contiguous elements; the C++17 stand-in for std::span.
@@ -35,3 +36,4 @@ class Span {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

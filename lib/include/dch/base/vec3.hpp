@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A point or a displacement in three dimensions [length].
@@ -24,3 +25,4 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include <dch/hierarchy/hierarchy_view.hpp>
 #include <dch/lists/list_params.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// What a search of cluster pairs has looked at: the work, counted alike on every machine.
@@ -54,3 +55,4 @@ class ClusterPairMaker {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Coordinates (or forces) of the four slots of a cluster, side by side as vector registers want them.
@@ -169,3 +170,4 @@ struct ClusterPairs {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

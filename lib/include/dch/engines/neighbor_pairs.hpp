@@ -16,6 +16,7 @@
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// What neighbor_pairs() has to find.
@@ -144,3 +145,4 @@ double expected_pairs(Span<const Vec3> positions, const Box& box, const Neighbor
 NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, double cutoff);
 
 }  // namespace dch
+#pragma GCC visibility pop

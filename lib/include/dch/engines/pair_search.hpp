@@ -17,6 +17,7 @@
 #include <dch/lists/neighbor_list.hpp>
 #include <dch/lists/unlisted_pair.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// An engine that keeps a search structure over moving particles and writes neighbor lists from it.
@@ -137,3 +138,4 @@ std::unique_ptr<PairSearch> make_auto_search(const HierarchyParams& params);
 std::unique_ptr<PairSearch> make_search(const std::string& name, const HierarchyParams& params);
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <dch/engines/pair_search.hpp>
 #include <dch/lists/stale_test.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// When a list is stale.
@@ -68,3 +69,4 @@ class VerletList {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

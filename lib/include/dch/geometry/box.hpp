@@ -9,6 +9,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Largest coordinate magnitude accepted [length]; keeps squared distances far from overflow.
@@ -130,3 +131,4 @@ inline bool same_periodicity(const Box& a, const Box& b) {
 }
 
 }  // namespace dch
+#pragma GCC visibility pop

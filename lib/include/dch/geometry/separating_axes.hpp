@@ -6,6 +6,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Most generators that zonotope_is_apart() takes: the number of its axes grows with the square.
@@ -32,3 +33,4 @@ inline constexpr std::size_t kMaxAxisGenerators = 16;
 bool zonotope_is_apart(Vec3 center, Span<const Vec3> generators, double margin = 0);
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -12,6 +12,7 @@
 #include <dch/hierarchy/hierarchy_view.hpp>
 #include <dch/hierarchy/search_stats.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// The discrete center hierarchy of a point set and its conflict graph (thesis, chapter 5).
@@ -115,3 +116,4 @@ class Hierarchy {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -3,6 +3,7 @@
 
 #include <dch/base/executor.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// When update() repairs and when it builds anew.
@@ -30,3 +31,4 @@ struct HierarchyParams {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/hierarchy/hierarchy_params.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 namespace detail {
@@ -68,3 +69,4 @@ class HierarchyView {
 std::string validate(const HierarchyView& hierarchy);
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// What an engine did since it was made. Times in seconds of wall clock.
@@ -35,3 +36,4 @@ struct SearchStats {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

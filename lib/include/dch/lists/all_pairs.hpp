@@ -6,6 +6,7 @@
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// The oracle: every pair within its cutoff by looking at all n(n-1)/2 of them and at every lattice image
@@ -20,3 +21,4 @@ std::vector<std::int32_t> all_neighbors(std::int32_t i, Span<const Vec3> positio
                                         const ListParams& params);
 
 }  // namespace dch
+#pragma GCC visibility pop

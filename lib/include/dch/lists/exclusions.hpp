@@ -7,6 +7,7 @@
 
 #include <dch/base/span.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Two particle indices.
@@ -46,3 +47,4 @@ class Exclusions {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// What has been looked at for lists: the work, counted alike on every machine.
@@ -57,3 +58,4 @@ class ListMaker {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

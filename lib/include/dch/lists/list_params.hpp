@@ -8,6 +8,7 @@
 #include <dch/lists/exclusions.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A cutoff for each pair of particle types.
@@ -113,3 +114,4 @@ struct RadiusRange {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

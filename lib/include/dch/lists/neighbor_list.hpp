@@ -6,6 +6,7 @@
 
 #include <dch/base/span.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 enum class ListKind {
@@ -45,3 +46,4 @@ struct NeighborList {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Pairs of particles one by one, each with the image of the second particle that is meant: for force loops
@@ -126,3 +127,4 @@ void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec
 }
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/geometry/box.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A particle that has moved farther than half the skin allows.
@@ -81,3 +82,4 @@ class StaleTest {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include <dch/lists/list_params.hpp>
 #include <dch/lists/stale_test.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A question about a list that was made a while ago: whether a pair has come within its cutoff that was
@@ -25,3 +26,4 @@ enum class UnlistedPair {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

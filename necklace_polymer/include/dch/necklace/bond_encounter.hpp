@@ -6,6 +6,7 @@
 
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A bond over one step: its beads a and b go along straight lines, each at a constant speed, from where they
@@ -71,3 +72,4 @@ BondEncounter bond_encounter(const MovingBond& p, const MovingBond& q, double th
                              const std::array<std::uint64_t, 4>& beads = {0, 1, 2, 3});
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 #include <dch/necklace/enclosing_ball.hpp>
 #include <dch/necklace/necklace.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A hierarchy of bounding spheres over chains of beads: a *cage* for each node of the trees along the
@@ -60,3 +61,4 @@ class CageHierarchy {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <dch/base/span.hpp>
 #include <dch/necklace/necklace.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A balanced binary tree along each chain (thesis 4.3), which does not change while the chains move: the
@@ -47,3 +48,4 @@ class ChainTrees {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// The periodic images of the beads do not tell where a chain goes. The message names the bond, its length
@@ -90,3 +91,4 @@ class Chains {
 std::vector<Vec3> unwrap(const Chains& chains, Span<const Vec3> positions, const Box& box);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include <dch/necklace/necklace.hpp>
 #include <dch/necklace/proximity_diagram.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// What a search for the closest pair looked at.
@@ -69,3 +70,4 @@ class ClosestPair {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

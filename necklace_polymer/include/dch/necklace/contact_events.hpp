@@ -8,6 +8,7 @@
 #include <dch/base/span.hpp>
 #include <dch/necklace/contacts.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// Two beads in contact in frame after frame, from the first to the last without a gap.
@@ -50,3 +51,4 @@ class ContactEvents {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -14,6 +14,7 @@
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/wrapped_hierarchy.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// What contacts are searched with.
@@ -129,3 +130,4 @@ class ContactFinder {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

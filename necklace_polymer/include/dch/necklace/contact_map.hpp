@@ -9,6 +9,7 @@
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/necklace.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// How often beads were in contact, over the frames of a trajectory: a symmetric matrix over the beads in the
@@ -74,3 +75,4 @@ class ContactMap {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

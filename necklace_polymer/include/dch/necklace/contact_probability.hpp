@@ -9,6 +9,7 @@
 #include <dch/necklace/contacts.hpp>
 #include <dch/necklace/necklace.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// Separations along the chain that are next to each other, taken together.
@@ -60,3 +61,4 @@ class ContactProbability {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

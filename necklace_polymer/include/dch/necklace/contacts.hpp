@@ -9,6 +9,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/necklace/cage_hierarchy.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// Which pairs of beads are contacts.
@@ -91,3 +92,4 @@ std::string check_certificate(const CageHierarchy& hierarchy, const ContactQuery
                               const Separation& separation);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include <dch/necklace/bond_encounter.hpp>
 #include <dch/necklace/chains.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 struct CrossingFinderParams {
@@ -131,3 +132,4 @@ class CrossingFinder {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A closed ball; a point if the radius is 0 [length].
@@ -51,3 +52,4 @@ EnclosingBall enclosing_ball(Span<const Ball> balls);
 EnclosingBall enclosing_ball(Span<const Ball> balls, const Basis& guess);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

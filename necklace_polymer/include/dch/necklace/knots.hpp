@@ -7,6 +7,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A ring touches itself or another, or comes so near to it that doubles do not tell the two apart in any
@@ -49,3 +50,4 @@ double writhe(Span<const Vec3> ring);
 std::int64_t knot_determinant(Span<const Vec3> ring);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

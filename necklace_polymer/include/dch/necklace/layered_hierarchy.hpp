@@ -3,6 +3,7 @@
 
 #include <dch/necklace/cage_hierarchy.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 struct LayeredParams {
@@ -24,3 +25,4 @@ class LayeredHierarchy : public CageHierarchy {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A melt of linear bead-spring chains (Kremer and Grest, J. Chem. Phys. 92:5057, 1990). Lengths in units of
@@ -50,3 +51,4 @@ Melt make_melt(const MeltParams& params);
 void write_lammps_data(std::ostream& out, const Melt& melt);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/lists/exclusions.hpp>
 #include <dch/necklace/chains.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// Positions that break what a theorem on necklaces assumes. The message names the beads, the value measured
@@ -105,3 +106,4 @@ class Necklace {
 void require(const NecklaceMeasure& measure, const NecklaceLimits& limits);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

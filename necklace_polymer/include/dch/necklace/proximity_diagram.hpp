@@ -8,6 +8,7 @@
 #include <dch/lists/exclusions.hpp>
 #include <dch/necklace/enclosing_ball.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A diagram of balls in open space whose edges join balls that are next to each other, such as the power
@@ -39,3 +40,4 @@ class ProximityDiagram {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/necklace/necklace.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// Centers of the beads of one chain, in order along it.
@@ -51,3 +52,4 @@ Shape facing_bumps(std::int32_t n, std::int32_t c, double gap, double progress);
 Shape tight_set(std::int32_t k);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include <dch/necklace/shapes.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// A random walk with bonds of length 1; beads may overlap at will. The same bits on every platform.
@@ -25,3 +26,4 @@ Shape self_avoiding_walk(std::int32_t beads, double diameter, std::uint64_t seed
 Shape globule(std::int32_t beads, double jitter, std::uint64_t seed);
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

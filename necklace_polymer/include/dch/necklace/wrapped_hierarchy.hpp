@@ -8,6 +8,7 @@
 
 #include <dch/necklace/cage_hierarchy.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::necklace {
 
 /// How an update finds beads that have left a cage.
@@ -100,3 +101,4 @@ class WrappedHierarchy : public CageHierarchy {
 };
 
 }  // namespace dch::necklace
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include <dch/proximity/point_tree.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 struct ClosestPoints {
@@ -20,3 +21,4 @@ struct ClosestPoints {
 ClosestPoints closest_pair(const PointTree& tree);
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <dch/base/span.hpp>
 #include <dch/proximity/point_tree.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 struct FarSumParams {
@@ -53,3 +54,4 @@ struct FarSums {
 FarSums far_sums(const PointTree& tree, Span<const double> charges, const FarSumParams& params);
 
 }  // namespace dch
+#pragma GCC visibility pop

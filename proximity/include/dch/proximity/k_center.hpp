@@ -7,6 +7,7 @@
 #include <dch/base/span.hpp>
 #include <dch/proximity/point_tree.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Centers for several numbers k at once.
@@ -28,3 +29,4 @@ struct KCenters {
 KCenters k_centers(const PointTree& tree, Span<const std::int64_t> k);
 
 }  // namespace dch
+#pragma GCC visibility pop

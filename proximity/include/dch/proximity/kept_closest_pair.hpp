@@ -10,6 +10,7 @@
 #include <dch/proximity/closest_pair.hpp>
 #include <dch/proximity/nearest.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Work since an object was made, for tests and for comparisons on any machine.
@@ -72,3 +73,4 @@ class KeptClosestPair {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/hierarchy/hierarchy_view.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 struct NearestParams {
@@ -93,3 +94,4 @@ class Nearest {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include <dch/hierarchy/hierarchy_view.hpp>
 #include <dch/proximity/nearest.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// All neighbors of some points within a radius, a row each, nearest first; of points equally near, the one
@@ -57,3 +58,4 @@ class NeighborsWithin {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

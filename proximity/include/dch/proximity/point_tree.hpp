@@ -10,6 +10,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/hierarchy/hierarchy_view.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A hierarchy at full depth: a tree from all points down to single ones, with a measured ball at each node.
@@ -72,3 +73,4 @@ class PointTree {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

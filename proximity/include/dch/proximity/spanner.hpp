@@ -9,6 +9,7 @@
 #include <dch/proximity/point_tree.hpp>
 #include <dch/proximity/spanning_tree.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// A path along the edges of a spanner.
@@ -62,3 +63,4 @@ class Spanner {
 };
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include <dch/base/span.hpp>
 #include <dch/hierarchy/hierarchy_view.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// An edge between two points, the smaller id first.
@@ -52,3 +53,4 @@ Clusters clusters_at(const SpanningTree& tree, double cutoff);
 std::vector<std::int64_t> cluster_counts(const SpanningTree& tree, Span<const double> cutoffs);
 
 }  // namespace dch
+#pragma GCC visibility pop

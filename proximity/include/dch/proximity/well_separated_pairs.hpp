@@ -6,6 +6,7 @@
 
 #include <dch/proximity/point_tree.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// Two nodes of a PointTree whose balls are far apart for their size.
@@ -37,3 +38,4 @@ struct WellSeparatedPairs {
 WellSeparatedPairs well_separated_pairs(const PointTree& tree, double s);
 
 }  // namespace dch
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// What walks took. Counts are added up.
@@ -62,3 +63,4 @@ class FaceWalk {
 };
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// A facet of a zonotope: the zonogon of all generators in its plane, a parallelogram if there are two. Of a
@@ -42,3 +43,4 @@ std::vector<Vec3> corners(const Zonotope& z, const Facet& facet);
 FaceCounts count_faces(const std::vector<Facet>& facets);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

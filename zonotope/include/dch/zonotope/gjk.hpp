@@ -4,6 +4,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// How far two zonotopes are apart.
@@ -26,3 +27,4 @@ struct Separation {
 Separation distance(const Zonotope& a, const Zonotope& b, Vec3 start = {});
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

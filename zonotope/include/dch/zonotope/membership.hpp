@@ -6,6 +6,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// How a question is decided first. The answer is the same with each.
@@ -52,3 +53,4 @@ bool intersect(const Zonotope& a, const Zonotope& b, Method method = Method::aut
 bool encloses(const Zonotope& outer, const Zonotope& inner);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

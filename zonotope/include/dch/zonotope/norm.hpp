@@ -4,6 +4,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// The norm whose unit ball is a zonotope moved to the origin (Corollary 3.5.4): the least t >= 0 with x in t
@@ -19,3 +20,4 @@ double norm(const Zonotope& z, Vec3 x);
 double polyhedral_distance(const Zonotope& z, Vec3 p, Vec3 q);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

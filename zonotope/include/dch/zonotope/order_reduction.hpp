@@ -5,6 +5,7 @@
 
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// A zonotope with fewer generators that encloses another one.
@@ -38,3 +39,4 @@ Approximation approximated(const Zonotope& z, double epsilon);
 Zonotope reduced(const Zonotope& z, std::size_t most);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// A rigid motion over a step: a turn around an axis and a translation, both in proportion to the time s,
@@ -61,3 +62,4 @@ FirstMeeting first_meeting(const Zonotope& a, const RigidMotion& motion_a, const
                            const RigidMotion& motion_b, double tolerance);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

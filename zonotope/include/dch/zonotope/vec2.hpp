@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// A point or a displacement in the plane [length].
@@ -19,3 +20,4 @@ constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <dch/base/span.hpp>
 #include <dch/zonotope/vec2.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// A zonotope in the plane: the points center + sum of delta_k generators[k] with -1 <= delta_k <= 1.
@@ -76,3 +77,4 @@ Zonogon min_area_zonogon(Span<const Vec2> points, ZonogonStats* stats = nullptr)
 Zonogon enclosing_zonogon(Span<const Vec2> points, Vec2 center);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// Coordinates of centers and generators may not be larger in magnitude [length].
@@ -55,3 +56,4 @@ double surface_area(const Zonotope& z);
 Zonotope canonical(const Zonotope& z);
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/zonotope/zonotope.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch::zonotope {
 
 /// What queries took. Counts are added up.
@@ -54,3 +55,4 @@ class ZonotopeIndex {
 };
 
 }  // namespace dch::zonotope
+#pragma GCC visibility pop
