@@ -4,6 +4,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 
+#pragma GCC visibility push(default)
 namespace dch {
 
 /// The steps of velocity Verlet. Each product and each sum is rounded on its own, in the order of the
@@ -20,3 +21,4 @@ void kick_and_drift(Span<const double> dt_over_mass, double dt, Span<const Vec3>
                     Span<Vec3> velocities, Span<Vec3> positions);
 
 }  // namespace dch
+#pragma GCC visibility pop
