@@ -6,6 +6,7 @@
 #include <dch/base/instruction_set.hpp>
 #include <dch/forces/fene.hpp>
 
+#include "simd/all_pairs_task.hpp"
 #include "simd/born_task.hpp"
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
@@ -32,6 +33,7 @@ struct ForceKernels {
   MeshKernels mesh;
   BornKernels born;
   MotionKernels motion;
+  AllPairsKernels all_pairs;
 
   /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
   /// be room for all. Returns how many.

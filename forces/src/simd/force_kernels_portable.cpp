@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_portable.hpp"
+#include "simd/all_pairs_loops.hpp"
 #include "simd/born_loops.hpp"
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
@@ -10,13 +11,11 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_portable() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Portable<float>>,
-                                         lj_functions_of<Portable<double>>,
-                                         lj_pair_functions_of<Portable<double>>,
-                                         mesh_kernels,
-                                         born_kernels<Portable<float>>,
-                                         motion_kernels,
-                                         fene<Portable<double>>};
+  static constexpr ForceKernels kKernels{
+      lj_functions_of<Portable<float>>,       lj_functions_of<Portable<double>>,
+      lj_pair_functions_of<Portable<double>>, mesh_kernels,
+      born_kernels<Portable<float>>,          motion_kernels,
+      all_pairs_kernels<Portable<float>>,     fene<Portable<double>>};
   return kKernels;
 }
 

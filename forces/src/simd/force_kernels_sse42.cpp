@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_sse42.hpp"
+#include "simd/all_pairs_loops.hpp"
 #include "simd/born_loops.hpp"
 #include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
@@ -10,13 +11,10 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
-  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,
-                                         lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>,
-                                         mesh_kernels,
-                                         born_kernels<SseFloat>,
-                                         motion_kernels,
-                                         fene<SseDouble>};
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,       lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>, mesh_kernels,
+                                         born_kernels<SseFloat>,          motion_kernels,
+                                         all_pairs_kernels<SseFloat>,     fene<SseDouble>};
   return kKernels;
 }
 

@@ -14,8 +14,6 @@ using OpenMM::NonbondedForce;
 /// Why OpenMM's own kernel computes a force, "" if ours does.
 std::string reasonForNative(const NonbondedForce& force) {
   switch (force.getNonbondedMethod()) {
-    case NonbondedForce::NoCutoff:
-      return "without a cutoff (NoCutoff) there are no lists to gain by";
     case NonbondedForce::Ewald:
       return "the method Ewald is not covered; PME is, and is faster";
     case NonbondedForce::LJPME:

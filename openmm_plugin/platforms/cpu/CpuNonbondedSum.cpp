@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "CpuNonbondedSum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -21,7 +22,21 @@ void CpuNonbondedSum::initialize(const OpenMM::System& system, const OpenMM::Non
 }
 
 void CpuNonbondedSum::parametersChanged() {
-  if (keeper) makeForces();
+  if (keeper)
+    makeForces();
+  else
+    makeForcesOfAllPairs();
+}
+
+void CpuNonbondedSum::makeForcesOfAllPairs() {
+  std::vector<dch::LennardJonesParticle> particles;
+  std::vector<double> chargesNow;
+  for (const auto& p : parameters().particles()) {
+    particles.push_back({p.epsilon, p.sigma});
+    chargesNow.push_back(p.charge);
+  }
+  forcesOfAllPairs.emplace(particles, chargesNow, PairPotential::coulombConstant(), exclusions());
+  forcesOfAllPairs->set_executor(&executor);
 }
 
 void CpuNonbondedSum::makeForces() {
@@ -64,7 +79,8 @@ void CpuNonbondedSum::setCharges(std::size_t typePairs) {
 }
 
 double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
-  if (!keeper || !keeper->fits(state.box)) return addAllPairs(state);
+  if (!keeper) return addWithoutCutoff(state, includeEnergy);
+  if (!keeper->fits(state.box)) return addAllPairs(state);
   const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
   const auto precision =
       forces->fits_single() ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
@@ -74,6 +90,15 @@ double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   }
   const dch::LennardJonesSums sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);
   return sums.energy + sums.coulomb_energy;
+}
+
+double CpuNonbondedSum::addWithoutCutoff(const HostState& state, bool includeEnergy) {
+  found.assign(state.positions.size(), {});
+  const double energy = forcesOfAllPairs->add_forces(state.positions, found, includeEnergy);
+  const auto isFinite = [](const dch::Vec3& force) { return std::isfinite(norm2(force)); };
+  if (!std::isfinite(energy) || !std::all_of(found.begin(), found.end(), isFinite)) return addAllPairs(state);
+  for (std::size_t i = 0; i < found.size(); ++i) state.forces[i] = state.forces[i] + found[i];
+  return energy;
 }
 
 double CpuNonbondedSum::addAllPairs(const HostState& state) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <dch/forces/all_pair_forces.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
 #include "ClusterPairKeeper.h"
@@ -14,8 +15,8 @@
 namespace OpenMMDCH {
 
 /// A nonbonded force on the CPU platform: cluster pairs from double positions, SIMD kernels in single
-/// precision with sums in double, on the threads of the platform. Without a cutoff, and in the few boxes
-/// where lists cannot be made, all pairs in double.
+/// precision with sums in double, on the threads of the platform. Without a cutoff all pairs in the same way;
+/// in the few boxes where lists cannot be made, all pairs in double.
 class CpuNonbondedSum : public NonbondedSum {
  public:
   explicit CpuNonbondedSum(OpenMM::ThreadPool& threads) : executor(threads) {}
@@ -30,11 +31,16 @@ class CpuNonbondedSum : public NonbondedSum {
  private:
   void makeForces();
   void setCharges(std::size_t typePairs);
+  void makeForcesOfAllPairs();
+  /// In single precision, or in double where that has no value.
+  double addWithoutCutoff(const HostState& state, bool includeEnergy);
   double addAllPairs(const HostState& state);
 
   PoolExecutor executor;
   std::optional<ClusterPairKeeper> keeper;             ///< with a cutoff
   std::optional<dch::LennardJones> forces;             ///< the same
+  std::optional<dch::AllPairForces> forcesOfAllPairs;  ///< without one
+  std::vector<dch::Vec3> found;                        ///< the same
   std::vector<double> charges;                         ///< empty if all are 0
   std::vector<std::vector<dch::Vec3>> forcesByThread;  ///< of all pairs
 };

@@ -90,7 +90,8 @@ Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, con
     if (box && force.getExceptionsUsePeriodicBoundaryConditions()) apart = wrapped(apart, box);
     const double r = std::sqrt(apart.dot(apart));
     RadialTerms terms = lennard_jones(sigma, epsilon, r);
-    act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
+    if (qq != 0 || epsilon != 0)
+      act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
     if (splitting > 0) {
       double qi, qj;
       force.getParticleParameters(i, qi, sigma, epsilon);

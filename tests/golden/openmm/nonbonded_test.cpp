@@ -189,9 +189,7 @@ TEST_P(NonbondedTest, LargeSystem) {
                             DCHNonbondedForce::CutoffPeriodic}) {
     many.set_method(method, 2);
     const std::string what = "method " + std::to_string(method);
-    // OpenMM's own kernel for the CPU adds in the order of its threads, another one each time.
-    const bool is_native = method == DCHNonbondedForce::NoCutoff && GetParam() == kDropIn + "CPU";
-    expect_near(native(many), evaluate(many, GetParam()), is_native ? 2e-4 : tolerance(), what);
+    expect_near(native(many), evaluate(many, GetParam()), tolerance(), what);
   }
 }
 

@@ -49,10 +49,7 @@ inline std::vector<std::string> dch_ways() {
 }
 
 /// How far forces and energies may be from exact ones: in single precision as OpenMM's own tests have it.
-inline double tolerance_of(const std::string& way) {
-  if (platform_of(way) == "Reference") return 1e-10;
-  return is_drop_in(way) ? 3e-5 : 1e-5;  // without a cutoff that is OpenMM's own kernel
-}
+inline double tolerance_of(const std::string& way) { return platform_of(way) == "Reference" ? 1e-10 : 1e-5; }
 
 struct Evaluation {
   double energy = 0;

@@ -22,6 +22,7 @@ struct SseFloat {
   static V zero() { return _mm_setzero_ps(); }
   static V set1(float v) { return _mm_set1_ps(v); }
   static V load(const float* p) { return _mm_loadu_ps(p); }
+  static void store(float* p, V a) { _mm_storeu_ps(p, a); }
   static V add(V a, V b) { return _mm_add_ps(a, b); }
   static V sub(V a, V b) { return _mm_sub_ps(a, b); }
   static V mul(V a, V b) { return _mm_mul_ps(a, b); }
