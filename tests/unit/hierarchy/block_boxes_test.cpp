@@ -127,13 +127,16 @@ TEST_P(BlockBoxesTest, HasWhatCameAndDidNotGo) {
   }
 }
 
-// The distance is that of the box to the last bit, where float hides many of them.
+// The distance is that of the box to the last bit, where float hides many of them: far from it, and so near
+// that the coordinates are millions of times as large as the gap.
 TEST_P(BlockBoxesTest, HasABoxThatTouches) {
   while (expected_.size() < 40) add();
   for (int round = 0; round < 2000; ++round)
     for (const auto& [block, entry] : expected_) {
-      const Vec3 at = somewhere(1000 * kExtent);
-      const double gap = gap_between(at, entry.second), extent = kExtent * scale() * std::sqrt(3.0);
+      const MeasuredLeaves::Corners& box = entry.second;
+      const double by = kExtent * std::pow(10, random_.uniform(-8, 3));
+      const Vec3 at = Vec3{box.low[0], box.low[1], box.low[2]} + somewhere(by);
+      const double gap = gap_between(at, box), extent = kExtent * scale() * std::sqrt(3.0);
       const float most2 = BlockBoxes::most_gap2(at, extent, gap);
       ASSERT_EQ(called_for(entry.first, at, most2).count(block), 1u) << gap;
     }
