@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake --install, find_package(dch) and pkg-config. The components are the packages of cmake/DchPackages.cmake. The libraries
-# of trajectories and of OpenMM have exported sets of their own, since they alone need further packages: who links dch::core
-# only has to have none of them.
+# cmake --install, find_package(dch) and pkg-config. The components say what of an installation goes together. The
+# libraries of trajectories and of OpenMM have exported sets of their own, since they alone need further packages: who
+# links dch::core only has to have none of them.
 include(CMakePackageConfigHelpers)
 
 set(DCH_CONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/dch)

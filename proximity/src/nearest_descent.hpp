@@ -53,7 +53,7 @@ class NearestDescent {
     double limit;   ///< how far off a point may be at most to be taken, by its wrapped image
     double shrink;  ///< of that: how far off a subtree may be to be opened
   };
-  static constexpr std::size_t kUsual = 256;  ///< more than wait in most queries: no memory is asked for then
+  static constexpr std::size_t kUsual = 256;  ///< subtrees or blocks that wait: hardly a query has more
   static bool is_nearer(const Subtree& a, const Subtree& b) { return a.distance2 < b.distance2; }
   void push_roots(const Query& query);
   void dive(Query& query);
