@@ -11,6 +11,7 @@
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
 #include "simd/motion_task.hpp"
+#include "simd/noise_task.hpp"
 
 namespace dch::detail {
 
@@ -34,6 +35,7 @@ struct ForceKernels {
   BornKernels born;
   MotionKernels motion;
   AllPairsKernels all_pairs;
+  NoiseKernels noise;
 
   /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
   /// be room for all. Returns how many.

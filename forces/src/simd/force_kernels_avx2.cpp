@@ -7,14 +7,20 @@
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
+#include "simd/noise_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx2() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,       lj_functions_of<Avx2Double>,
-                                         lj_pair_functions_of<Avx2Double>, mesh_kernels,
-                                         born_kernels<Avx2Float>,          motion_kernels,
-                                         all_pairs_kernels<Avx2Float>,     fene<Avx2Double>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,
+                                         lj_functions_of<Avx2Double>,
+                                         lj_pair_functions_of<Avx2Double>,
+                                         mesh_kernels,
+                                         born_kernels<Avx2Float>,
+                                         motion_kernels,
+                                         all_pairs_kernels<Avx2Float>,
+                                         noise_kernels,
+                                         fene<Avx2Double>};
   return kKernels;
 }
 

@@ -7,14 +7,20 @@
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
+#include "simd/noise_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx512() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>,       lj_functions_of<Avx512Double>,
-                                         lj_pair_functions_of<Avx512Double>, mesh_kernels,
-                                         born_kernels<Avx512Float>,          motion_kernels,
-                                         all_pairs_kernels<Avx512Float>,     fene<Avx512Double>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>,
+                                         lj_functions_of<Avx512Double>,
+                                         lj_pair_functions_of<Avx512Double>,
+                                         mesh_kernels,
+                                         born_kernels<Avx512Float>,
+                                         motion_kernels,
+                                         all_pairs_kernels<Avx512Float>,
+                                         noise_kernels,
+                                         fene<Avx512Double>};
   return kKernels;
 }
 

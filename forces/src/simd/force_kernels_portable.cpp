@@ -7,15 +7,20 @@
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
+#include "simd/noise_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_portable() {
-  static constexpr ForceKernels kKernels{
-      lj_functions_of<Portable<float>>,       lj_functions_of<Portable<double>>,
-      lj_pair_functions_of<Portable<double>>, mesh_kernels,
-      born_kernels<Portable<float>>,          motion_kernels,
-      all_pairs_kernels<Portable<float>>,     fene<Portable<double>>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Portable<float>>,
+                                         lj_functions_of<Portable<double>>,
+                                         lj_pair_functions_of<Portable<double>>,
+                                         mesh_kernels,
+                                         born_kernels<Portable<float>>,
+                                         motion_kernels,
+                                         all_pairs_kernels<Portable<float>>,
+                                         noise_kernels,
+                                         fene<Portable<double>>};
   return kKernels;
 }
 

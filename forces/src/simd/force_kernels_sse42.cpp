@@ -7,14 +7,20 @@
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
+#include "simd/noise_loops.hpp"
 
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
-  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,       lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>, mesh_kernels,
-                                         born_kernels<SseFloat>,          motion_kernels,
-                                         all_pairs_kernels<SseFloat>,     fene<SseDouble>};
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,
+                                         lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>,
+                                         mesh_kernels,
+                                         born_kernels<SseFloat>,
+                                         motion_kernels,
+                                         all_pairs_kernels<SseFloat>,
+                                         noise_kernels,
+                                         fene<SseDouble>};
   return kKernels;
 }
 
