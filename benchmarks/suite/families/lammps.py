@@ -28,7 +28,7 @@ def run(suite):
         words += ["--set", "steps", "60", "--variants", "dch lists;suffix dch, double;suffix dch, mixed"]
     for case, variants in suite.run_for_json(words).items():
         for variant, seconds in variants.items():
-            for section in ("loop", "Neigh", "Pair"):
+            for section in ("loop", "Neigh", "Pair", "Modify"):
                 baseline = variants[STOCK][section]
                 against = {} if variant == STOCK or min(baseline) == 0 else {"baseline": STOCK,
                                                                              "baseline_values": baseline}

@@ -10,7 +10,8 @@
 namespace LAMMPS_NS {
 namespace {
 
-// Each with all whose names go on with a slash. Names in capitals are LAMMPS's own and ours.
+// Each with all whose names go on with a slash. Names in capitals are LAMMPS's own and ours. Random numbers
+// of langevin/philox go by atom ID.
 constexpr const char* kWithoutRandomNumbers[] = {"nve",
                                                  "nvt",
                                                  "npt",
@@ -31,6 +32,7 @@ constexpr const char* kWithoutRandomNumbers[] = {"nve",
                                                  "gravity",
                                                  "halt",
                                                  "indent",
+                                                 "langevin/philox",
                                                  "lineforce",
                                                  "momentum",
                                                  "move",

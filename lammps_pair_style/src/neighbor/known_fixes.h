@@ -5,8 +5,8 @@ namespace LAMMPS_NS {
 
 inline constexpr const char* kHistoryFix = "NEIGH_HISTORY";  ///< LAMMPS's own, of granular contacts
 
-/// Whether fixes of this style are known to draw no random numbers atom by atom: with the others, atoms in
-/// another order, or in this order at other steps, take another trajectory.
+/// Whether fixes of this style are known to draw no random numbers in the order of atoms: with the others,
+/// atoms in another order, or in this order at other steps, take another trajectory.
 bool draws_no_random_numbers(const char* style);
 
 }  // namespace LAMMPS_NS

@@ -6,6 +6,7 @@
 
 #include "bond_fene_dch.h"
 #include "compute_necklace_contact.h"
+#include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"
 #include "pair_lj_dch.h"
@@ -56,6 +57,7 @@ std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch() {
   std::vector<StyleEntry<Fix, int, char**>> styles;
 #define FIX_CLASS
 #define FixStyle(key, Made) styles.push_back({#key, &create<Fix, Made, int, char**>})
+#include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"
 #undef FixStyle

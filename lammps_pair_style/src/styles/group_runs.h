@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace LAMMPS_NS {
 
@@ -17,6 +19,23 @@ void for_runs_of_group(const int* mask, int group_bit, int begin, int end, Act a
     if (i > first) act(first, i - first);
     if (i < most) ++i;  // not of the group
   }
+}
+
+/// Calls act(atoms, count) for the atoms of a group up to `end`, kMostInRun at a time and ascending, wherever
+/// they stand.
+template <class Act>
+void for_batches_of_group(const int* mask, int group_bit, int end, Act act) {
+  std::array<int, kMostInRun> atoms;
+  int count = 0;
+  for (int i = 0; i < end; ++i) {
+    atoms[static_cast<std::size_t>(count)] = i;
+    if (mask[i] & group_bit) ++count;
+    if (count == kMostInRun) {
+      act(atoms.data(), count);
+      count = 0;
+    }
+  }
+  if (count > 0) act(atoms.data(), count);
 }
 
 }  // namespace LAMMPS_NS

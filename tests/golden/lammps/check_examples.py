@@ -67,6 +67,9 @@ class Scripts(unittest.TestCase):
         run_example("in.chain.equilibrate", "equilibrate.log", walks=host.variables["data"], data=data, settle=200)
         for ranks in (1, 2):
             self.compare_lists("in.chain", ranks, data=data)
+        output = run_example("in.chain", "philox.log", load=host.loader, lists="dch", verify="every 5", data=data,
+                             bath="langevin/philox")
+        self.assertRegex(output, r"verified +\d+ builds, \d+ pairs, all equal")
 
 
 class Python(unittest.TestCase):
