@@ -1,19 +1,55 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// lmp-dch: LAMMPS with the command `dch`, and LAMMPS's own command line.
+// lmp-dch: LAMMPS with the command `dch`, and LAMMPS's own command line. What -dch names comes before the
+// script: -dch on,precision=mixed is "dch on" and "dch precision mixed".
+#include <algorithm>
+#include <cstring>
+#include <error.h>
 #include <exception>
 #include <input.h>
 #include <lammps_host.h>
 #include <library.h>
 #include <memory>
+#include <sstream>
+#include <string>
 
 #include "dch_register.h"
 
 namespace {
 
+// Takes -dch and its settings out of the command line, which LAMMPS reads otherwise; false if the settings
+// are missing.
+bool take_settings(int& argc, char** argv, std::string& settings) {
+  char** const end = argv + argc;
+  char** const option =
+      std::find_if(argv, end, [](const char* word) { return std::strcmp(word, "-dch") == 0; });
+  if (option == end) return true;
+  const bool complete = option + 1 < end && option[1][0] != '-';
+  const int taken = complete ? 2 : 1;
+  if (complete) settings = option[1];
+  std::copy(option + taken, end + 1, option);  // with the null pointer behind the last one
+  argc -= taken;
+  return complete;
+}
+
+void run_settings(const std::string& settings, LAMMPS_NS::Input& input) {
+  std::istringstream words(settings);
+  for (std::string setting; std::getline(words, setting, ',');) {
+    std::replace(setting.begin(), setting.end(), '=', ' ');
+    input.one("dch " + setting);
+  }
+}
+
 int run(int argc, char** argv) {
+  std::string settings;
+  const bool complete = take_settings(argc, argv, settings);
   const auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(argc, argv, MPI_COMM_WORLD);
+  if (!complete)
+    lammps->error->all(FLERR,
+                       std::string("-dch lacks its settings: give -dch on, or -dch on,precision=mixed"));
   const int status = dch_register(lammps.get());
-  if (status == 0) lammps->input->file();
+  if (status != 0) return status;
+  run_settings(settings, *lammps->input);
+  lammps->input->file();
   return status;
 }
 

@@ -27,6 +27,20 @@ class Loading(unittest.TestCase):
         launched = run(MELT + "dch on\nrun 20\n", executable=host.lmp_dch)
         self.assertEqual(thermo_tables(loaded), thermo_tables(launched))
 
+    def test_launcher_takes_settings_before_the_script(self):
+        script = run(MELT + "dch on\ndch verify yes\nrun 20\n", executable=host.lmp_dch)
+        code, output = host.run_text(MELT + "run 20\ndch stats\n", executable=[host.lmp_dch, "-dch", "on,verify=yes"])
+        self.assertEqual(code, 0, output)
+        self.assertIn("half, newton on: DCH", output)
+        self.assertIn("DCH neighbor lists: on, verified at every build", output)
+        self.assertEqual(thermo_tables(script), thermo_tables(output))
+
+    def test_launcher_refuses_settings_that_dch_does_not_have(self):
+        for words, message in ((["-dch", "on,speed=9"], "dch speed"), (["-dch"], "-dch lacks its settings")):
+            code, output = host.run_text(MELT + "run 0\n", executable=[host.lmp_dch, *words])
+            self.assertNotEqual(code, 0)
+            self.assertIn(message, output)
+
     def test_as_a_plugin(self):
         code, output = host.run_text("suffix dch\n" + MELT + "dch on\nrun 20\ndch stats\nclear\n" + MELT + "run 20\n",
                                      executable=[host.tools / "plugin_host", host.loader.parent / "libdch_lammps.so"])
