@@ -136,6 +136,11 @@ def in_order(letters: str, find: Callable[[str], tuple[Any, ...]]) -> Any:
     return tuple(found[letter].copy() for letter in letters)
 
 
+def kept(value: Any) -> Any:
+    """None and numbers as they are, arrays as copies that the caller does not change later."""
+    return value if value is None or np.ndim(value) == 0 else np.array(value)
+
+
 def element(key: Any) -> int:
     """The atomic number of a symbol, or a number as it is."""
     if isinstance(key, str):

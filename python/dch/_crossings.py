@@ -68,7 +68,8 @@ class Crossings:
     threads
         As for neighbor_list().
 
-    One thread at a time may use an object; another one gets a RuntimeError. InvalidParameter for bonds of particles that do
+    One thread at a time may use an object; another one gets a RuntimeError. Copies and what comes out of a pickle have the
+    parameters and bonds alone: call start(). InvalidParameter for bonds of particles that do
     not exist, of a particle with itself, or given twice, and for a thickness that is negative.
 
     >>> crossings = Crossings(4, [[0, 1], [2, 3]])
@@ -83,7 +84,14 @@ class Crossings:
     def __init__(self, particles: int, bonds: Any, thickness: float = 0, *, threads: int | None = None) -> None:
         self._steps = _core.CrossingSteps(arguments.count(particles, "particles", 0, 2**31 - 1), arguments.index_pairs(bonds, "bonds"),
                                           arguments.length(thickness, "thickness"), arguments.threads(threads))
+        self._made_with = {"particles": particles, "thickness": thickness, "threads": threads}
         self._frame = 0
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self._made_with, "bonds": self.bonds}
+
+    def __setstate__(self, made_with: dict[str, Any]) -> None:
+        Crossings.__init__(self, **made_with)
 
     def start(self, positions: Any, cell: Any = None, pbc: Any = None) -> None:
         """Takes the first frame, or one after a gap: positions (n, 3), the cell and pbc as VerletList.update() does.

@@ -147,7 +147,8 @@ class VerletList:
     Pairs are never missing, whatever moves: update() compares how far atoms came, as nearest images, with half the
     skin, and how the cell has changed. Coordinates that were wrapped into the cell, or out of it, since are followed
     without a rebuild. The cutoff may be larger than the cell; if cutoff + skin exceeds half its smallest height, any
-    change of the cell makes the list anew. One thread at a time may use an object; another one gets a RuntimeError.
+    change of the cell makes the list anew. One thread at a time may use an object; another one gets a RuntimeError. Copies
+    and what comes out of a pickle have the parameters alone: call update().
 
     Parameters
     ----------
@@ -191,9 +192,17 @@ class VerletList:
     def __init__(self, cutoff: Any, skin: float, *, half: bool = False, types: Any = None, exclusions: Any = None,
                  threads: int | None = None) -> None:
         wanted = request_of_particles(cutoff, types, exclusions, half)
+        self._made_with = {"cutoff": arguments.kept(cutoff), "skin": skin, "half": half, "types": arguments.kept(types),
+                           "exclusions": arguments.kept(exclusions), "threads": threads}
         self._skin = arguments.length(skin, "skin")
         self._cutoff = described(cutoff)
         self._pairs = _core.VerletPairs(wanted, self._skin, arguments.threads(threads))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self._made_with
+
+    def __setstate__(self, made_with: dict[str, Any]) -> None:
+        VerletList.__init__(self, **made_with)
 
     def update(self, positions: Any, cell: Any = None, pbc: Any = None) -> bool:
         """Takes positions (n, 3), the cell (vectors as rows, or three lengths; None for open space) and pbc (all True

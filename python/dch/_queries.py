@@ -28,7 +28,7 @@ class NeighborSearch:
 
     Each pair has its nearest image alone, so the cutoff is at most half the smallest height of the cell; neighbor_list
     has no such limit. The search keeps a structure from update to update. One thread at a time may use an object;
-    another one gets a RuntimeError.
+    another one gets a RuntimeError. Copies and what comes out of a pickle have the parameters alone.
 
     Parameters
     ----------
@@ -59,7 +59,15 @@ class NeighborSearch:
 
     def __init__(self, cutoff: Any, *, types: Any = None, exclusions: Any = None, threads: int | None = None) -> None:
         self._search = _core.Search(request(cutoff, types, exclusions), arguments.threads(threads))
+        self._made_with = {"cutoff": arguments.kept(cutoff), "types": arguments.kept(types),
+                           "exclusions": arguments.kept(exclusions), "threads": threads}
         self._cutoff = described(cutoff if np.ndim(cutoff) else float(cutoff))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self._made_with
+
+    def __setstate__(self, made_with: dict[str, Any]) -> None:
+        NeighborSearch.__init__(self, **made_with)
 
     def update(self, positions: Any, cell: Any = None, pbc: Any = None) -> None:
         """Takes positions (n, 3), the cell and pbc as VerletList.update() does, however far they have moved.

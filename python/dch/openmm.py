@@ -78,8 +78,9 @@ class CrossingReporter:
             print("#" + ",".join(f'"{name}"' for name in COLUMNS), file=self._file, flush=True)
 
     def __del__(self) -> None:
-        if getattr(self, "_owned_file", None) is not None:  # nor where an argument was refused
-            self._owned_file.close()
+        file: TextIO | None = getattr(self, "_owned_file", None)  # not there where an argument was refused
+        if file is not None:
+            file.close()
 
     def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
         """Steps until the next report, and that it needs positions, not wrapped."""

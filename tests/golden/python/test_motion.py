@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """VerletList and NeighborSearch over many steps: exact pairs, few rebuilds, no growth of memory; nearest neighbors."""
 import gc
+import pathlib
 import resource
 import unittest
 
@@ -114,10 +115,11 @@ class Memory(unittest.TestCase):
                     except dch.InvalidParameter:
                         pass
             gc.collect()
-            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])  # resident now, not at most
+            return pages * resource.getpagesize()
 
-        before = steps(300)
-        self.assertLess(steps(1500), before + 2000)  # kilobytes; each step makes arrays of 600
+        before = steps(1000)
+        self.assertLess(steps(9000) - before, 30 * 9000)
 
     def test_arrays_outlive_what_made_them(self):
         search = dch.NeighborSearch(1.5)
