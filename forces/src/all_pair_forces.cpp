@@ -10,6 +10,7 @@
 
 #include "base/aligned_vector.hpp"
 #include "base/describe.hpp"
+#include "same_count.hpp"
 #include "simd/force_kernels.hpp"
 #include "turns.hpp"
 
@@ -25,12 +26,6 @@ void check_number(const char* what, std::size_t i, double value, bool may_be_neg
   throw InvalidParameter(std::string(what) + " of particle " + std::to_string(i) + " is " +
                          detail::describe(value) + "; it must be finite" +
                          (may_be_negative ? "" : " and not negative"));
-}
-
-void check_count(const char* what, std::size_t count, std::size_t particles) {
-  if (count != particles)
-    throw InvalidParameter(std::to_string(count) + " " + what + " given for all pairs of " +
-                           std::to_string(particles) + " particles; give one each");
 }
 
 }  // namespace
@@ -108,8 +103,9 @@ AllPairForces::AllPairForces(Span<const LennardJonesParticle> particles, Span<co
   all.count = particles.size();
   all.blocks = (all.count + kBlock - 1) / kBlock;
   all.exclusions = &exclusions;
-  if (!charges.empty()) check_count("charges", charges.size(), all.count);
-  if (!exclusions.empty()) check_count("rows of exclusions", exclusions.size(), all.count);
+  if (!charges.empty()) detail::require_same_count(all.count, "particles", charges.size(), "charges");
+  if (!exclusions.empty())
+    detail::require_same_count(all.count, "particles", exclusions.size(), "rows of exclusions");
   if (!(std::isfinite(constant) && constant >= 0))
     throw InvalidParameter("the constant of all pairs is " + detail::describe(constant) +
                            "; it must be finite and not negative");
@@ -137,8 +133,8 @@ void AllPairForces::set_executor(Executor* executor) { impl_->executor = executo
 
 double AllPairForces::add_forces(Span<const Vec3> positions, Span<Vec3> forces, bool wants_energy) const {
   Impl& all = *impl_;
-  check_count("positions", positions.size(), all.count);
-  check_count("forces", forces.size(), all.count);
+  detail::require_same_count(all.count, "particles", positions.size(), "positions");
+  detail::require_same_count(all.count, "particles", forces.size(), "forces");
   all.place(positions);
   const auto blocks = static_cast<int>(all.blocks);
   const int workers = std::max(all.executor ? std::min(all.executor->threads(), blocks) : 1, 1);

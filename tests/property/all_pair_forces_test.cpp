@@ -150,7 +150,7 @@ TEST(AllPairForces, RefuseBadInput) {
     EXPECT_NE(complaint(bad, 1).find(what), std::string::npos) << complaint(bad, 1);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_named([](Cloud& c) { c.charges.pop_back(); }, "9 charges given for all pairs of 10");
+  expect_named([](Cloud& c) { c.charges.pop_back(); }, "9 charges given for 10 particles");
   expect_named([&](Cloud& c) { c.charges[3] = nan; }, "the charge of particle 3");
   expect_named([](Cloud& c) { c.particles[2].sigma = -0.5; }, "sigma of particle 2 is -0.5");
   expect_named([&](Cloud& c) { c.particles[2].epsilon = nan; }, "epsilon of particle 2");
