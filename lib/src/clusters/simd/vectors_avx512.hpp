@@ -198,12 +198,23 @@ struct Avx512Double {
   static V gather(const double* from, const std::int32_t* at) {
     return _mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)), from, 8);
   }
+  /// By loads and shuffles: in registers r, points 0 to 3 stand in the lower halves, 4 to 7 in the upper
+  /// ones.
   static void gather_xyz(const double* from, const std::int32_t* at, V& x, V& y, V& z) {
-    const __m256i k = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
-    const __m256i first = _mm256_add_epi32(k, _mm256_add_epi32(k, k));
-    x = _mm512_i32gather_pd(first, from, 8);
-    y = _mm512_i32gather_pd(first, from + 1, 8);
-    z = _mm512_i32gather_pd(first, from + 2, 8);
+    const auto point = [&](int lane) {
+      return _mm256_maskz_loadu_pd(7, from + 3 * static_cast<std::ptrdiff_t>(at[lane]));
+    };
+    const auto two = [&](int lane) {
+      return _mm512_insertf64x4(_mm512_castpd256_pd512(point(lane)), point(lane + 4), 1);
+    };
+    const V a = two(0), b = two(1), c = two(2), d = two(3);
+    const V xz_of_ab = _mm512_unpacklo_pd(a, b), y_of_ab = _mm512_unpackhi_pd(a, b);
+    const V xz_of_cd = _mm512_unpacklo_pd(c, d), y_of_cd = _mm512_unpackhi_pd(c, d);
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+    const __m512i second = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    x = _mm512_permutex2var_pd(xz_of_ab, first, xz_of_cd);
+    y = _mm512_permutex2var_pd(y_of_ab, first, y_of_cd);
+    z = _mm512_permutex2var_pd(xz_of_ab, second, xz_of_cd);
   }
 };
 
