@@ -37,7 +37,7 @@ void FeneForces::add_forces(Span<const BondOfType> bonds, int first_type, Span<c
   too_long.clear();
   if (bonds.empty()) return;
   too_long.resize(bonds.size());
-  const detail::FeneTask task{bonds.data(),
+  const detail::BondTask task{bonds.data(),
                               static_cast<std::int64_t>(bonds.size()),
                               first_type,
                               static_cast<std::int32_t>(tables_[0].size()),
@@ -46,7 +46,7 @@ void FeneForces::add_forces(Span<const BondOfType> bonds, int first_type, Span<c
                               forces.data(),
                               virial ? virial->data() : nullptr};
   too_long.resize(
-      static_cast<std::size_t>(detail::force_kernels(instruction_set()).fene(task, too_long.data())));
+      static_cast<std::size_t>(detail::force_kernels(instruction_set()).bonds.fene(task, too_long.data())));
 }
 
 }  // namespace dch

@@ -15,8 +15,8 @@
 
 namespace dch::detail {
 
-/// Bonds, and coefficients by type: k, 1/r0^2, sigma^2, 48 epsilon.
-struct FeneTask {
+/// Bonds, and coefficients by type.
+struct BondTask {
   const BondOfType* bonds;
   std::int64_t count;
   std::int32_t first_type, types;
@@ -24,6 +24,13 @@ struct FeneTask {
   const Vec3* positions;
   Vec3* forces;    ///< added to
   double* virial;  ///< six sums of d f, added to; null if not wanted
+};
+
+/// Each adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has
+/// to be room for all. It returns how many.
+struct BondKernels {
+  std::int32_t (*fene)(const BondTask& task, std::int32_t* too_long);
+  std::int32_t (*harmonic)(const BondTask& task, std::int32_t* too_long);
 };
 
 /// The loops of forces, compiled for one instruction set. No function allocates.
@@ -36,10 +43,7 @@ struct ForceKernels {
   MotionKernels motion;
   AllPairsKernels all_pairs;
   NoiseKernels noise;
-
-  /// Adds forces of all bonds but those that are too long, whose numbers it writes, ascending; there has to
-  /// be room for all. Returns how many.
-  std::int32_t (*fene)(const FeneTask& task, std::int32_t* too_long);
+  BondKernels bonds;
 };
 
 /// The kernels of a set that is supported.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_avx2.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
-#include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -12,15 +12,11 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx2() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,
-                                         lj_functions_of<Avx2Double>,
-                                         lj_pair_functions_of<Avx2Double>,
-                                         mesh_kernels,
-                                         born_kernels<Avx2Float>,
-                                         motion_kernels,
-                                         all_pairs_kernels<Avx2Float>,
-                                         noise_kernels,
-                                         fene<Avx2Double>};
+  static constexpr ForceKernels kKernels{lj_functions_of<Avx2Float>,       lj_functions_of<Avx2Double>,
+                                         lj_pair_functions_of<Avx2Double>, mesh_kernels,
+                                         born_kernels<Avx2Float>,          motion_kernels,
+                                         all_pairs_kernels<Avx2Float>,     noise_kernels,
+                                         bond_kernels<Avx2Double>};
   return kKernels;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_portable.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
-#include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -12,15 +12,12 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_portable() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Portable<float>>,
-                                         lj_functions_of<Portable<double>>,
-                                         lj_pair_functions_of<Portable<double>>,
-                                         mesh_kernels,
-                                         born_kernels<Portable<float>>,
-                                         motion_kernels,
-                                         all_pairs_kernels<Portable<float>>,
-                                         noise_kernels,
-                                         fene<Portable<double>>};
+  static constexpr ForceKernels kKernels{
+      lj_functions_of<Portable<float>>,       lj_functions_of<Portable<double>>,
+      lj_pair_functions_of<Portable<double>>, mesh_kernels,
+      born_kernels<Portable<float>>,          motion_kernels,
+      all_pairs_kernels<Portable<float>>,     noise_kernels,
+      bond_kernels<Portable<double>>};
   return kKernels;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_sse42.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
-#include "simd/fene_kernels_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -12,15 +12,11 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_sse42() {
-  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,
-                                         lj_functions_of<SseDouble>,
-                                         lj_pair_functions_of<SseDouble>,
-                                         mesh_kernels,
-                                         born_kernels<SseFloat>,
-                                         motion_kernels,
-                                         all_pairs_kernels<SseFloat>,
-                                         noise_kernels,
-                                         fene<SseDouble>};
+  static constexpr ForceKernels kKernels{lj_functions_of<SseFloat>,       lj_functions_of<SseDouble>,
+                                         lj_pair_functions_of<SseDouble>, mesh_kernels,
+                                         born_kernels<SseFloat>,          motion_kernels,
+                                         all_pairs_kernels<SseFloat>,     noise_kernels,
+                                         bond_kernels<SseDouble>};
   return kKernels;
 }
 

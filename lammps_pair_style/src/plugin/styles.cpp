@@ -5,6 +5,7 @@
 #include <modify.h>
 
 #include "bond_fene_dch.h"
+#include "bond_harmonic_dch.h"
 #include "compute_necklace_contact.h"
 #include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
@@ -38,6 +39,7 @@ std::vector<StyleEntry<Bond>> bond_styles_dch() {
 #define BOND_CLASS
 #define BondStyle(key, Made) styles.push_back({#key, &create<Bond, Made>})
 #include "bond_fene_dch.h"
+#include "bond_harmonic_dch.h"
 #undef BondStyle
 #undef BOND_CLASS
   return styles;

@@ -31,6 +31,39 @@ thermo_modify format float %.15g
 """
 
 
+def bonded(style, coefficients):
+    """Atoms near the points of a lattice with bonds of two types to the next ones."""
+    return f"""
+units lj
+atom_style bond
+lattice sc 1.0
+region box block 0 6 0 6 0 6
+create_box 1 box bond/types 2 extra/bond/per/atom 6 extra/special/per/atom 60
+create_atoms 1 box
+mass 1 1.0
+pair_style lj/cut 1.3
+pair_coeff 1 1 1.0 0.8
+displace_atoms all random 0.05 0.05 0.05 4711
+bond_style {style}
+bond_coeff 1 {coefficients[0]}
+bond_coeff 2 {coefficients[1]}
+group odd id 1:300:2
+group even subtract all odd
+create_bonds many odd odd 1 0.8 1.2
+create_bonds many odd even 2 0.8 1.2
+neighbor 0.4 bin
+"""
+
+
+def forces_of(script, ranks):
+    """Components of all forces, by ID, at a step that wants no energy; atoms stand still."""
+    dump = host.work / "dump.forces"
+    run(f"include ${{load}}\n{script}dump 1 all custom 1 {dump} id fx fy fz\ndump_modify 1 sort id format float %.17g\nrun 2\n",
+        ranks=ranks)
+    rows = dump.read_text().split("ITEM: ATOMS")[2].split("ITEM")[0].splitlines()[1:]
+    return [float(word) for row in rows for word in row.split()[1:]]
+
+
 class ForceStyles(unittest.TestCase):
     """Other ways to set a style, to change it, to read it back."""
 
@@ -144,6 +177,27 @@ run 100
         code, output = host.run_text("include ${load}\nsuffix dch\n" + script, variables={"second": "7.1"})
         self.assertNotEqual(code, 0)
         self.assertIn("Bad FENE bond", output)
+
+    def test_harmonic_bonds(self):
+        restart = host.work / "harmonic.restart"
+        script = bonded("harmonic", ("30.0 1.0", "25.0 1.1"))
+        rest = "fix 1 all nve\nfix 2 all press/berendsen iso 0.1 0.1 10.0\nthermo 30\nthermo_modify format float %.15g\nrun 60\n"
+        again = f"write_restart {restart}\nclear\ndch precision double\nread_restart {restart}\n" + rest
+        change = "bond_coeff 1 20.0 1.05\nrun 30\n"
+        for newton in ("on", "off"):
+            tables = self.compare(f"newton {newton}\n" + script + rest + again + change)
+            self.assertEqual(len(tables), 3)
+        output = run("include ${load}\nsuffix dch\n" + script + "run 0\ninfo styles bond\n")
+        self.assertIn("harmonic/dch", output)
+
+    def test_forces_of_bonds(self):
+        for style, coefficients in (("harmonic", ("30.0 1.0", "25.0 1.1")), ("fene", ("30.0 1.5 1.0 1.0", "25.0 1.6 1.0 1.1"))):
+            for ranks in (1, 2):
+                stock, ours = (forces_of(words + bonded(style, coefficients), ranks) for words in ("", "suffix dch\n"))
+                largest = max(map(abs, stock))
+                self.assertGreater(largest, 1)
+                self.assertTrue(stock != ours)
+                self.assertLess(max(abs(a - b) for a, b in zip(stock, ours)), 1e-13 * largest)
 
     def test_charges_restart_and_change(self):
         script = SALT + f"""
