@@ -11,16 +11,17 @@ namespace {
 
 class CertifiedRule : public RebuildRule {
  public:
-  explicit CertifiedRule(double skin) : test_(skin) {}
+  CertifiedRule(double cutoff, double skin) : list_radius_(cutoff + skin), test_(skin) {}
   bool is_due(const std::vector<Vec3>& positions, const Box& box) override {
     return test_.is_stale(positions, box);
   }
   void remember(const std::vector<Vec3>& positions, const Box& box) override {
-    test_.remember(positions, box);
+    test_.remember(positions, box, list_radius_);
   }
   bool is_certified() const override { return true; }
 
  private:
+  double list_radius_;
   StaleTest test_;
 };
 
@@ -80,7 +81,7 @@ int steps_in(const std::string& name) {
 }  // namespace
 
 std::unique_ptr<RebuildRule> make_rebuild_rule(const std::string& name, double cutoff, double skin) {
-  if (name == "certified") return std::make_unique<CertifiedRule>(skin);
+  if (name == "certified") return std::make_unique<CertifiedRule>(cutoff, skin);
   if (name == "openmm") return std::make_unique<OpenMmRule>(cutoff, skin);
   if (name.starts_with(kEvery)) return std::make_unique<FixedRule>(steps_in(name));
   throw Error("unknown rebuild rule '" + name + "'; there are certified, every:N and openmm");

@@ -69,7 +69,9 @@ class VerletPairs {
     if (is_new) {
       stale_test_.forget();
       pairs_ = find(points, box, params, 0);
-      stale_test_.remember(points, box);
+      const double cutoff =
+          params.radii.empty() ? params.cutoffs.largest() : 2 * RadiusRange(params.radii).largest;
+      stale_test_.remember(points, box, cutoff + skin_);
       ++rebuilds_;
     } else {
       pairs_.follow(points, box);

@@ -42,7 +42,7 @@ HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierar
               "HierarchyMotion.NoMotion*:HierarchyMotion.Boxes*:HierarchyChurn.*:HierarchySparse*:"
               "*/HierarchySparse.*/none",
               "*/HierarchyChurn.*/orthorhombic_ppf:*/HierarchyMotion.*/orthorhombic_ppf:*/ListSizes.UnderMotion/none"])
-STALE_TEST = (["unit/core/dch_unit_core"], ["*StaleTest*:*VerletList*"])
+STALE_TEST = (["unit/core/dch_unit_core", "property/dch_property_expiry"], ["*StaleTest*:*VerletList*", "*AffineMotion*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
 LATTICE = (["unit/core/dch_unit_core"], ["Lattice.*"])
@@ -64,6 +64,7 @@ FILES = {
     "hierarchy/points/removal.cpp": HIERARCHY,
     "hierarchy/points/singletons.cpp": HIERARCHY,
     "lists/stale_test.cpp": STALE_TEST,
+    "geometry/affine_motion.cpp": STALE_TEST,
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
     "simd/list_rows_loops.hpp": LIST_KERNELS,
     "lists/pair_filter.cpp": PAIR_FILTER,

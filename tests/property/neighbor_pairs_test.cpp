@@ -183,6 +183,26 @@ TEST(NeighborPairs, FollowABoxThatChangesAsTheStaleTestAllows) {
   EXPECT_EQ(pairs_of(found, scene), brute_force(scene, 2.5));
 }
 
+TEST(NeighborPairs, FollowABoxThatTakesParticlesAlong) {
+  const Box before = Box::triclinic({9, 0, 0}, {2, 8, 0}, {-1, 3, 10});
+  const double grown = 1.05;
+  const Box now =
+      Box::triclinic(grown * before.vector(0), grown * before.vector(1), grown * before.vector(2));
+  Scene scene{before, scenes::uniform_in(before, 300, 15), {}};
+  scene.params.cutoffs = TypeCutoffs(2.5);
+  scene.params.skin = 0.4;
+  NeighborPairs found = neighbor_pairs(scene.points, before, scene.params);
+  StaleTest stale(scene.params.skin);
+  stale.remember(scene.points, before, 2.9);
+  scene.box = now;
+  scenes::Random random(16);
+  for (Vec3& p : scene.points)
+    p = grown * p + random.in_ball(0.15) + static_cast<double>(random.below(2)) * now.vector(1);
+  ASSERT_FALSE(stale.is_stale(scene.points, now));
+  found.follow(scene.points, now);
+  EXPECT_EQ(pairs_of(found, scene), brute_force(scene, 2.5));
+}
+
 /// In the same order too.
 TEST(NeighborPairs, AreTheSameOnAnyNumberOfThreads) {
   const Box box = Box::orthorhombic({6, 5, 7});

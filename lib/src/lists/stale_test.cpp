@@ -7,6 +7,7 @@
 
 #include <dch/lists/stale_test.hpp>
 
+#include "geometry/affine_motion.hpp"
 #include "geometry/lattice.hpp"
 #include "geometry/position_check.hpp"
 #include "lists/list_check.hpp"
@@ -19,10 +20,18 @@ namespace {
 
 constexpr std::size_t kAtATime = 16;  ///< particles that are looked at together: few hold a fast one
 
-/// Whether one of particles [first, end) is displaced by more than that, or a NaN. Without a branch for each.
+constexpr auto kStop = [](std::size_t, double) { return false; };
+
+struct AtRest {
+  Vec3 operator()(Vec3 p) const { return p; }
+};
+
+/// Whether one of particles [first, end) is displaced by more than that from where it was expected, or a NaN.
+/// Without a branch for each.
+template <class Expected>
 bool any_beyond(Span<const Vec3> now, Span<const Vec3> then, std::size_t first, std::size_t end,
-                double allowed2) {
-  const auto is_beyond = [&](Vec3 a, Vec3 b) { return norm2(a - b) <= allowed2 ? 0 : 1; };
+                const Expected& expected, double allowed2) {
+  const auto is_beyond = [&](Vec3 a, Vec3 b) { return norm2(a - expected(b)) <= allowed2 ? 0 : 1; };
   return std::transform_reduce(std::next(now.begin(), first), std::next(now.begin(), end),
                                std::next(then.begin(), first), 0, std::plus<>(), is_beyond) != 0;
 }
@@ -37,7 +46,27 @@ bool StaleTest::is_stale(Span<const Vec3> positions, const Box& box) const {
   if (!is_comparable(positions, box)) return true;
   if (skin_ == 0)
     return box != reference_box_ || !std::equal(positions.begin(), positions.end(), reference_.begin());
-  return !for_each_fast(positions, box, [](std::size_t, double) { return false; });
+  if (box != reference_box_ && is_kept_by_affine_motion(positions, box)) return false;
+  return !for_each_fast(positions, box, AtRest{}, 0.5 * (skin_ - strain(box)), kStop);
+}
+
+// With F for the map, v_i for the displacement of i from F x0_i, and r for that of a pair within its cutoff c
+// now: r = F r0 + v_j - v_i, with r0 of the same image then, since F takes vectors of the box to those of
+// now. F makes no displacement shorter than s times its length, s <= 1, so
+//     |r0| <= (c + 2 max |v|) / s,
+// which is c + skin or less if 2 max |v| <= skin - (1 - s) (c + skin).
+bool StaleTest::is_kept_by_affine_motion(Span<const Vec3> positions, const Box& box) const {
+  // Who follows a pair from time to time takes a particle for the image that has moved least.
+  const double room = std::min(box.max_cutoff(), reference_box_.max_cutoff());
+  if (!(2 * strain(box) + skin_ <= room)) return false;
+  const detail::AffineMotion motion(reference_box_, periods(reference_box_), periods(box), box.origin());
+  // The map takes of rounding a few times what wrapping does, in either box.
+  constexpr double kRoundings = 8;
+  const detail::WrapError before(reference_box_), now(box);
+  const double rounding = kRoundings * (before.bound(before.reach_between(low_, high_)) +
+                                        now.bound(now.reach_between(low_, high_)));
+  const double lost = (1 - motion.least_stretch()) * std::min(list_radius_, reference_box_.max_cutoff());
+  return for_each_fast(positions, box, motion, 0.5 * (skin_ - lost) - rounding, kStop);
 }
 
 StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, std::size_t most,
@@ -46,37 +75,41 @@ StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, 
   if (!is_comparable(positions, box) || skin_ == 0 || box != reference_box_)
     return is_stale(positions, box) ? Verdict::stale : Verdict::fresh;
   Verdict verdict = Verdict::some_fast;
-  const bool all_bounded = for_each_fast(positions, box, [&](std::size_t i, double moved) {
-    if (!std::isfinite(moved)) return false;
-    if (fast.size() == most) {
-      verdict = Verdict::too_many;
-    } else {
-      fast.push_back({static_cast<std::int32_t>(i), moved});
-    }
-    return verdict == Verdict::some_fast;
-  });
+  const bool all_bounded =
+      for_each_fast(positions, box, AtRest{}, 0.5 * skin_, [&](std::size_t i, double moved) {
+        if (!std::isfinite(moved)) return false;
+        if (fast.size() == most) {
+          verdict = Verdict::too_many;
+        } else {
+          fast.push_back({static_cast<std::int32_t>(i), moved});
+        }
+        return verdict == Verdict::some_fast;
+      });
   if (verdict == Verdict::too_many) return verdict;
   if (!all_bounded) return Verdict::stale;
   return fast.empty() ? Verdict::fresh : verdict;
 }
 
-/// Calls fast(i, moved) for the particles that have moved by more than half of what the skin leaves, rounding
-/// included, until it returns false; infinity and NaN count as such. Returns whether all have been looked at.
-template <class Fast>
-bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const Fast& fast) const {
+/// Calls fast(i, moved) for the particles that are farther than `most` from where they were expected,
+/// rounding included, until it returns false; infinity and NaN count as such. Returns whether all have been
+/// looked at.
+/// @param expected where a particle would be that was at a place at the time
+template <class Expected, class Fast>
+bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const Expected& expected,
+                              double most, const Fast& fast) const {
   // Of each particle there may be off by rounding: its remembered place, from which it is displaced and from
   // which pairs were found; the displacement; and its distance from others now.
   const detail::WrapError error(box);
-  const double room = 0.5 * (skin_ - strain(box)) - 2 * reference_error_;
+  const double room = most - 2 * reference_error_;
   // A particle that is near its wrapped place is hardly farther out than that.
   const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
   if (!(allowed >= 0)) return false;
   const std::size_t n = positions.size();
   for (std::size_t first = 0, end = 0; first != n; first = end) {
     end = first + std::min(n - first, kAtATime);
-    if (!any_beyond(positions, reference_, first, end, allowed * allowed)) continue;
+    if (!any_beyond(positions, reference_, first, end, expected, allowed * allowed)) continue;
     for (std::size_t i = first; i != end; ++i) {
-      const Vec3 now = positions[i], then = reference_[i];
+      const Vec3 now = positions[i], then = expected(reference_[i]);
       const double rounding = 2 * error.bound(error.reach(now) + error.reach(then));
       const double left = room - rounding, moved2 = norm2(box.nearest_image(now - then));
       if (left >= 0 && moved2 <= left * left) continue;
@@ -86,8 +119,9 @@ bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const 
   return true;
 }
 
-void StaleTest::remember(Span<const Vec3> positions, const Box& box) {
+void StaleTest::remember(Span<const Vec3> positions, const Box& box, double list_radius) {
   valid_ = false;  // until all of it has changed
+  list_radius_ = list_radius;
   reference_.assign(positions.begin(), positions.end());
   reference_box_ = box;
   if (skin_ > 0) wrap_reference();

@@ -43,7 +43,7 @@ dch::Span<const dch::IndexPair> ContactKeeper::at(dch::Span<const dch::Vec3> pos
   pairs.clear();
   for (const dch::necklace::Contact& contact : contacts(positions, box, skin))
     pairs.push_back({contact.i, contact.j});
-  staleTest->remember(beads, box);
+  staleTest->remember(beads, box, 2 * necklace().largest_radius() + skin);
   return pairs;
 }
 

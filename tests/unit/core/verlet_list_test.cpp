@@ -86,8 +86,8 @@ TEST(VerletList, BoxChangeTakesFromTheSkin) {
 
   std::vector<Vec3> moved = points;
   moved[0].y += 0.125;
-  EXPECT_FALSE(verlet.is_stale(moved, box(10.25 - 1e-9)));
-  EXPECT_TRUE(verlet.is_stale(moved, box(10.25 + 1e-9)));
+  EXPECT_FALSE(verlet.is_stale(moved, box(9.75 + 1e-9)));
+  EXPECT_TRUE(verlet.is_stale(moved, box(9.75 - 1e-9)));
 
   moved = points;
   moved[0].x += 10.25;
@@ -96,8 +96,27 @@ TEST(VerletList, BoxChangeTakesFromTheSkin) {
   EXPECT_TRUE(verlet.is_stale(moved, box(10.5)));
 }
 
-TEST(VerletList, ChangesOfCellVectorsAddUpInTheWorstWay) {
+TEST(VerletList, ParticlesThatGoAlongWithTheBoxTakeNothingFromTheSkin) {
   const std::vector<Vec3> points{{1, 1, 1}, {9, 9, 9}};
+  auto verlet = verlet_list(2, 0.5);
+  verlet.update(points, Box::orthorhombic({10, 10, 10}));
+  const auto is_stale = [&](double scale, double step) {
+    const std::vector<Vec3> moved{scale * points[0] + Vec3{0, step, 0}, scale * points[1]};
+    return verlet.is_stale(moved, Box::orthorhombic({10 * scale, 10 * scale, 10 * scale}));
+  };
+  EXPECT_FALSE(is_stale(1.1, 0.25 - 1e-9)) << "distances have grown";
+  EXPECT_TRUE(is_stale(1.1, 0.25 + 1e-9));
+  const double lost = 0.05 * 2.5;
+  EXPECT_FALSE(is_stale(0.95, 0.25 - 0.5 * lost - 1e-9)) << "a pair at the list radius has come nearer";
+  EXPECT_TRUE(is_stale(0.95, 0.25 - 0.5 * lost + 1e-9));
+}
+
+TEST(VerletList, ChangesOfCellVectorsAddUpInTheWorstWay) {
+  // Whichever the change is, one of them does not move along with it.
+  std::vector<Vec3> points;
+  for (const double x : {1, 9})
+    for (const double y : {1, 9})
+      for (const double z : {1, 9}) points.push_back({x, y, z});
   auto verlet = verlet_list(2, 0.375);
   verlet.update(points, Box::orthorhombic({10, 10, 10}));
   for (const double a : {-0.125, 0.125}) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <dch/base/span.hpp>
@@ -33,6 +34,13 @@ struct MovedParticle {
 /// vector of each. Changes of the origin and of open axes move no pair. Another periodicity and another
 /// number of particles are always stale.
 ///
+/// Or as long as, for particles that go along with the box,
+///     2 max_i |v_i| + (1 - s) r_list <= skin,
+/// where v_i is the displacement from F x0_i, F = H H0^-1 the map that keeps fractional coordinates, and s
+/// the factor by which it shortens displacements at most. While r_list is a fraction of the box, this allows
+/// the box to change by much more: what moves with it costs nothing, and a pair is shorter than a period.
+/// Changes of a vector by a quarter of a height or so are left to the first condition.
+///
 /// In a periodic box displacements and distances round: 1e-12 of the box or less for particles near it, and
 /// about 1e-14 of the coordinates of boxes and particles far from the origin. A bound on that is taken from
 /// the skin, so that what cannot be told is stale. Without a skin all but the very same positions and box
@@ -60,13 +68,17 @@ class StaleTest {
                 std::vector<MovedParticle>& fast) const;
 
   /// Takes positions and the box that pairs are being found for. After a throw none are remembered.
-  void remember(Span<const Vec3> positions, const Box& box);
+  /// @param list_radius largest cutoff + skin of a pair [length]; half the smallest height if it is larger
+  void remember(Span<const Vec3> positions, const Box& box,
+                double list_radius = std::numeric_limits<double>::infinity());
   void forget() { valid_ = false; }
 
  private:
   bool is_comparable(Span<const Vec3> positions, const Box& box) const;
-  template <class Fast>
-  bool for_each_fast(Span<const Vec3> positions, const Box& box, const Fast& fast) const;
+  bool is_kept_by_affine_motion(Span<const Vec3> positions, const Box& box) const;
+  template <class Expected, class Fast>
+  bool for_each_fast(Span<const Vec3> positions, const Box& box, const Expected& expected, double most,
+                     const Fast& fast) const;
   void wrap_reference();
   std::array<Vec3, 3> periods(const Box& box) const;
   double strain(const Box& box) const;
@@ -74,6 +86,7 @@ class StaleTest {
   double skin_;
   std::vector<Vec3> reference_;  ///< positions, wrapped unless there is no skin
   Box reference_box_;
+  double list_radius_ = 0;
   Vec3 low_, high_;             ///< corners of the box around them
   double reference_error_ = 0;  ///< how far distances of the wrapped positions may be off [length]
   /// Reduced periodic vectors of the reference box as integer combinations of its cell vectors.
