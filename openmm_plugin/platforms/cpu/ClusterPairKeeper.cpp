@@ -10,7 +10,7 @@ namespace OpenMMDCH {
 namespace {
 
 // Of the cutoff: see docs/openmm.md for what it costs.
-constexpr double kSkinFraction = 0.12;
+constexpr double kSkinFraction = 0.1;
 // While fewer than one particle in so many is away from its cluster, all stay where they are: to move them
 // takes longer than to refresh the clusters of those few.
 constexpr std::size_t kAwayOfOne = 32;
@@ -29,7 +29,7 @@ void ClusterPairKeeper::setTypes(std::vector<std::int32_t> types, int typeCount)
   const auto side = static_cast<std::size_t>(typeCount);
   request.types = particleTypes;
   request.cutoffs = dch::TypeCutoffs(typeCount, std::vector<double>(side * side, cutoff));
-  if (staleTest) staleTest->forget();
+  if (expiry) expiry->forget();
 }
 
 bool ClusterPairKeeper::fits(const dch::Box& box) const {
@@ -45,7 +45,7 @@ void ClusterPairKeeper::chooseSkin(const dch::Box& box) {
   params.radius = request.list_radius();
   params.executor = &pool;
   search = dch::make_dch_search(params);
-  staleTest.emplace(request.skin);
+  expiry.emplace(request.skin, dch::Expiry::exact, dch::KeptImages::as_found);
 }
 
 void ClusterPairKeeper::rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
@@ -83,16 +83,16 @@ dch::Span<const dch::Vec3> ClusterPairKeeper::broughtNear(dch::Span<const dch::V
 const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
   chooseSkin(box);
   const dch::Span<const dch::Vec3> near = broughtNear(positions, box);
-  if (!staleTest->is_stale(near, box)) {
+  if (!expiry->is_stale(near, box, request, *search)) {
     pairs.refresh(near, box, &pool);
     return pairs;
   }
-  staleTest->forget();
+  expiry->forget();
   search->update(positions, box);  // checks them
   search->cluster_pairs(request, pairs);
   ++searchCount;
   if (box.any_periodic()) rememberPeriods(positions, box);
-  staleTest->remember(positions, box);
+  expiry->remember(positions, box, request);
   return pairs;
 }
 

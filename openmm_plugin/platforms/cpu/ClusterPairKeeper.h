@@ -9,8 +9,8 @@
 
 #include <dch/base/executor.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
+#include <dch/engines/expiry_test.hpp>
 #include <dch/engines/pair_search.hpp>
-#include <dch/lists/stale_test.hpp>
 
 namespace OpenMMDCH {
 
@@ -43,7 +43,7 @@ class ClusterPairKeeper {
   dch::ListParams request;
   std::vector<std::int32_t> particleTypes;
   std::unique_ptr<dch::PairSearch> search;
-  std::optional<dch::StaleTest> staleTest;
+  std::optional<dch::ExpiryTest> expiry;
   dch::ClusterPairs pairs;
   std::int64_t searchCount = 0;
   std::vector<dch::Vec3> periods;  ///< in multiples of the box vectors; empty if few are not 0

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The pairs of the CPU platform for particles that have wandered through many periods of the box.
+// The pairs of the CPU platform: for particles that have wandered through many periods of the box, for those
+// that have moved beyond half the skin, and in boxes that change.
 #include <cmath>
 #include <gtest/gtest.h>
+
+#include <dch/lists/stale_test.hpp>
 
 #include "ClusterPairKeeper.h"
 #include "cluster_pair_check.hpp"
@@ -67,6 +70,78 @@ TEST(ClusterPairKeeperTest, ParticlesThatWanderedCostNoMore) {
       EXPECT_EQ(away.searches, 1) << periods_away << " periods away, " << box.description();
       EXPECT_EQ(away.split, 0u) << periods_away << " periods away, " << box.description();
     }
+  }
+}
+
+/// A keeper of pairs within kCutoff, each answer of which is checked.
+class CheckedKeeper {
+ public:
+  CheckedKeeper() { within.cutoffs = dch::TypeCutoffs(kCutoff); }
+
+  void at(const std::vector<Vec3>& positions, const Box& box) {
+    EXPECT_EQ(dch::cluster_pair_fault(keeper.at(positions, box), positions, box, within), "")
+        << keeper.searches() << " searches, " << box.description();
+  }
+  std::int64_t searches() const { return keeper.searches(); }
+
+ private:
+  std::unique_ptr<dch::Executor> executor = dch::make_thread_pool(1);
+  dch::Exclusions none;
+  dch::ListParams within;
+  ClusterPairKeeper keeper{kCutoff, none, *executor};
+};
+
+TEST(ClusterPairKeeperTest, PairsAreKeptWhileNoneIsMissing) {
+  constexpr double kSkin = 0.1 * kCutoff;
+  for (const Box& box :
+       {Box::orthorhombic({3, 3.2, 3.4}), Box::triclinic({3, 0, 0}, {1.4, 3, 0}, {-1.3, 1.2, 3})}) {
+    dch::scenes::Random random(9);
+    std::vector<Vec3> positions = jittered_lattice(8, box, random), velocity(positions.size());
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+      velocity[i] = random.in_ball(i % 64 == 0 ? 0.25 * kSkin : 0.05 * kSkin);
+    CheckedKeeper keeper;
+    dch::StaleTest half(kSkin);
+    std::int64_t searchesByHalf = 0;
+    for (int step = 0; step < 100; ++step) {
+      keeper.at(positions, box);
+      if (half.is_stale(positions, box)) {
+        half.remember(positions, box);
+        ++searchesByHalf;
+      }
+      for (std::size_t i = 0; i < velocity.size(); ++i) positions[i] = positions[i] + velocity[i];
+    }
+    EXPECT_LT(1.2 * static_cast<double>(keeper.searches()), static_cast<double>(searchesByHalf))
+        << box.description();
+    EXPECT_GT(keeper.searches(), 5);
+  }
+}
+
+// Two particles that are paired in one image, and come near each other in the next one.
+TEST(ClusterPairKeeperTest, AnotherImageOfAPairIsSeen) {
+  constexpr double kSkin = 0.1 * kCutoff, kSide = 2 * (kCutoff + kSkin) + 1e-6;
+  const Box box = Box::orthorhombic({kSide, kSide, kSide});
+  CheckedKeeper keeper;
+  keeper.at({{0, 1, 1}, {kCutoff + 0.99 * kSkin, 1, 1}}, box);
+  keeper.at({{-0.9 * kSkin, 1, 1}, {kCutoff + 1.2 * kSkin, 1, 1}}, box);
+  EXPECT_EQ(keeper.searches(), 2);
+}
+
+// What a barostat does: box and particles are scaled, forces are asked for, and all is put back.
+TEST(ClusterPairKeeperTest, ABoxThatIsTriedNeedsNoSearch) {
+  for (const Box& box :
+       {Box::orthorhombic({5, 5.2, 5.4}), Box::triclinic({5, 0, 0}, {1.4, 5, 0}, {-1.3, 1.2, 5})}) {
+    dch::scenes::Random random(10);
+    std::vector<Vec3> positions = jittered_lattice(11, box, random);
+    CheckedKeeper keeper;
+    keeper.at(positions, box);
+    for (const double scale : {1.02, 0.98}) {
+      const Box tried = Box::triclinic(scale * box.vector(0), scale * box.vector(1), scale * box.vector(2));
+      std::vector<Vec3> scaled;
+      for (const Vec3& p : positions) scaled.push_back(scale * p + random.in_ball(0.03));
+      keeper.at(scaled, tried);
+      keeper.at(positions, box);
+    }
+    EXPECT_EQ(keeper.searches(), 1) << box.description();
   }
 }
 
