@@ -166,43 +166,53 @@ PairArrays::PairArrays(const std::string& quantities, std::int64_t pairs) : arra
   }
 }
 
+void PairArrays::move(std::int64_t from, std::int64_t count, std::int64_t to) {
+  const auto moved = [&](auto* elements) {
+    if (elements != nullptr) std::copy(elements + from, elements + from + count, elements + to);
+  };
+  moved(i_), moved(j_), moved(distance_), moved(displacement_), moved(shift_);
+}
+
+void PairArrays::shorten(std::int64_t pairs) {
+  for (std::size_t k = 0; k < arrays_.size(); ++k) {
+    auto array = arrays_[k].cast<py::array>();
+    std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
+    shape[0] = pairs;
+    array.resize(shape, false);  // nobody else has it
+  }
+}
+
 py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const std::string& quantities,
                      NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor) {
-  const auto n = static_cast<std::int32_t>(positions.size());
-  const bool are_all = within == NeighborPairs::Within::cutoff_and_skin || !pairs.has_skin();
-  const auto is_with_itself = [&](std::int32_t i) {
-    return !has_self.empty() && has_self[static_cast<std::size_t>(i)] != 0;
-  };
-  const auto count_row = [&](std::int32_t i) {
-    if (are_all) return pairs.listed_in_row(i);
-    std::int64_t count = 0;
-    pairs.for_each_in_row(
-        i, positions, [&](std::int32_t, const NeighborPairs::Shift&, Vec3) { ++count; }, within);
-    return count;
-  };
-  std::vector<std::int64_t> first(positions.size() + 1, 0);
+  const std::size_t n = positions.size();
+  // Rows have places for all that is listed; a range of rows leaves no gap within.
+  std::vector<std::int64_t> place(n + 1, 0), end(n + 1, -1);
+  for (std::size_t i = 0; i < n; ++i)
+    place[i + 1] = place[i] + pairs.listed_in_row(static_cast<std::int32_t>(i)) +
+                   static_cast<int>(!has_self.empty() && has_self[i] != 0);
+  PairArrays arrays(quantities, place.back());
+  std::int64_t found = 0;
   {
     const py::gil_scoped_release release;
-    for_ranges(executor, n, [&](std::int32_t from, std::int32_t to) {
-      for (std::int32_t i = from; i < to; ++i)
-        first[static_cast<std::size_t>(i) + 1] = count_row(i) + static_cast<int>(is_with_itself(i));
-    });
-    for (std::size_t i = 0; i < positions.size(); ++i) first[i + 1] += first[i];
-  }
-  const PairArrays arrays(quantities, first.back());
-  {
-    const py::gil_scoped_release release;
-    for_ranges(executor, n, [&](std::int32_t from, std::int32_t to) {
+    for_ranges(executor, static_cast<std::int32_t>(n), [&](std::int32_t from, std::int32_t to) {
+      std::int64_t at = place[static_cast<std::size_t>(from)];
       for (std::int32_t i = from; i < to; ++i) {
-        std::int64_t at = first[static_cast<std::size_t>(i)];
-        if (is_with_itself(i)) arrays.put(at++, i, i, {}, {});
+        if (!has_self.empty() && has_self[static_cast<std::size_t>(i)] != 0) arrays.put(at++, i, i, {}, {});
         pairs.for_each_in_row(
             i, positions,
             [&](std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) { arrays.put(at++, i, j, s, d); },
             within);
       }
+      if (from < to) end[static_cast<std::size_t>(from)] = at;
     });
+    for (std::size_t i = 0; i < n; ++i) {
+      if (end[i] < 0) continue;  // no range begins here
+      const std::int64_t count = end[i] - place[i];
+      if (found < place[i]) arrays.move(place[i], count, found);
+      found += count;
+    }
   }
+  if (found < place.back()) arrays.shorten(found);
   return arrays.tuple();
 }
 

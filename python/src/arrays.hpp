@@ -75,6 +75,10 @@ class PairArrays {
     if (displacement_ != nullptr) displacement_[at] = d;
     if (shift_ != nullptr) shift_[at] = {s[0], s[1], s[2]};
   }
+  /// Moves pairs to an earlier place.
+  void move(std::int64_t from, std::int64_t count, std::int64_t to);
+  /// Leaves out those behind.
+  void shorten(std::int64_t pairs);
   /// One for each letter.
   py::tuple tuple() const { return arrays_; }
 

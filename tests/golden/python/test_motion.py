@@ -58,6 +58,22 @@ class Followed(unittest.TestCase):
                 self.assert_same(sorted_rows(*verlet.pairs("ijSdD")), fresh(wrapped, cell, True, cutoff), "wrapped")
             self.assertEqual(verlet.rebuilds, 1)
 
+    def test_any_number_of_threads_gives_the_same_arrays(self):
+        """Each leaves a gap where listed pairs are beyond the cutoff; some have no row, or no pair at all."""
+        random = np.random.default_rng(3)
+        for atoms, cutoff in ((0, 1), (1, 7), (3, 1), (400, 1.2), (400, 1e-3)):
+            positions = random.random((atoms, 3)) * 6
+            for itself in (False, True):
+                found = []
+                for threads in (1, 2, 5):
+                    verlet = dch.VerletList(cutoff, 0.7, threads=threads)
+                    verlet.update(positions, [6, 6, 6])
+                    found.append(verlet.pairs("ijdDS", self_interaction=itself))
+                    self.assertTrue(all(array.flags.owndata and array.flags.c_contiguous for array in found[-1]))
+                for others in found[1:]:
+                    for a, b in zip(found[0], others):
+                        np.testing.assert_array_equal(a, b)
+
     def test_half_pairs_radii_and_the_skin(self):
         positions = np.array([[0.0, 0, 0], [1, 0, 0], [2.2, 0, 0]])
         verlet = dch.VerletList([0.5, 0.5, 0.5], 0.3, half=True)
