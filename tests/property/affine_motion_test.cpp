@@ -105,8 +105,7 @@ TEST_P(AffineMotion, NoPairIsMissing) {
   int kept = 0, beyond = 0, stale_though_complete = 0;
   for (int trial = 0; trial < effort(400); ++trial) {
     const auto points = scenes::uniform_in(box, 150, 2000 + static_cast<std::uint64_t>(trial));
-    VerletList list(trial % 2 == 0 ? make_cell_search(kRadius) : make_dch_search(kRadius),
-                    with_skin(kSkin));
+    VerletList list(trial % 2 == 0 ? make_cell_search(kRadius) : make_dch_search(kRadius), with_skin(kSkin));
     list.update(points, box);
     const Change change = random_change(box, random.uniform(0, 0.06), random);
     const Box now = change.changed();
@@ -174,7 +173,8 @@ TEST_P(AffineMotion, RoundingTakesFromTheSkin) {
     const Box box = Box::triclinic(near.vector(0), near.vector(1), near.vector(2),
                                    {near.periodic(0), near.periodic(1), near.periodic(2)}, {far, -far, far});
     for (int trial = 0; trial < effort(60); ++trial) {
-      const double skin = std::pow(10, random.uniform(-15, -11)) * far, share = random.uniform(-0.2, 0) * skin;
+      const double skin = std::pow(10, random.uniform(-15, -11)) * far,
+                   share = random.uniform(-0.2, 0) * skin;
       const Change change = even_change(box, share);
       const Box now = change.changed();
       const Vec3 p = scenes::from_fractional(box, {random.uniform(), random.uniform(), random.uniform()});
@@ -206,9 +206,7 @@ TEST(AffineMotionOfPairs, TheLargestCutoffCounts) {
   list.update(points, box);
   const std::vector<Vec3> along{{0.99, 0.99, 0.99}, {19.8, 0.99, 0.99}};
   const double lost = 0.01 * (10 + 0.3), room = 0.5 * (0.3 - lost);
-  const auto moved_by = [&](double step) {
-    return std::vector<Vec3>{along[0], along[1] + Vec3{0, step, 0}};
-  };
+  const auto moved_by = [&](double step) { return std::vector<Vec3>{along[0], along[1] + Vec3{0, step, 0}}; };
   EXPECT_FALSE(list.is_stale(moved_by(room - 1e-9), smaller));
   EXPECT_TRUE(list.is_stale(moved_by(room + 1e-9), smaller));
 }

@@ -25,8 +25,7 @@ double AffineMotion::least_stretch() const {
   constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
   const std::array<Vec3, 3> f{Vec3{1, 0, 0} + change_[0], Vec3{0, 1, 0} + change_[1],
                               Vec3{0, 0, 1} + change_[2]};
-  const double xy = std::abs(dot(f[0], f[1])), xz = std::abs(dot(f[0], f[2])),
-               yz = std::abs(dot(f[1], f[2]));
+  const double xy = std::abs(dot(f[0], f[1])), xz = std::abs(dot(f[0], f[2])), yz = std::abs(dot(f[1], f[2]));
   const double least = std::min({norm2(f[0]) - xy - xz, norm2(f[1]) - xy - yz, norm2(f[2]) - xz - yz});
   return std::sqrt(std::min(std::max(least - kRounding, 0.0), 1.0));
 }
