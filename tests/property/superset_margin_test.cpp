@@ -34,7 +34,7 @@ constexpr double kDigits = 1e-5;    ///< what widths in single precision and the
 /// distances and (f + s)^2 - f^2 + 1/2 S for reaches.
 struct Rounding {
   double unit, error;  ///< [length]
-  double off() const { return 1.5 * std::sqrt(3.0) + 0.03 + 2 * error / unit; }
+  double off() const { return 1.5 * std::sqrt(3.0) + 0.05 + 2 * error / unit; }
   /// How far beyond its reach a kept pair may be [length].
   double margin(double reach) const {
     const double l = reach / unit;

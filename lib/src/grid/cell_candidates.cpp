@@ -70,6 +70,7 @@ OwnBlocks CellCandidates::take_blocks(const CellScene& scene, std::int32_t cell,
   OwnBlocks own{points_.data(),   spans_.data(),
                 particle_.data(), from.tag == nullptr ? nullptr : tags_.data(),
                 in_block_.data(), blocks};
+  own.wrap = true;
   own.are_candidates = !scene.has_ghosts || scene.rows.is_owned(cell);
   return own;
 }

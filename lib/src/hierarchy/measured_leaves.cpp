@@ -156,6 +156,7 @@ void MeasuredLeaves::measure_leaf(const Meter& meter, Vec3 center, Leaf& leaf) {
   }
   leaf.extent = std::sqrt(extent2);
   leaf.width = longest(leaf_high - leaf_low);
+  leaf.middle = 0.5 * (leaf_low + leaf_high);
 }
 
 std::size_t MeasuredLeaves::memory_bytes() const {

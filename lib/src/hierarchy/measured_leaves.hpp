@@ -22,6 +22,7 @@ struct MeasuredLeaves {
     std::int32_t first_block = 0, blocks = 0;
     double extent = 0;       ///< distance of the farthest point from the center [length]
     double width = 0;        ///< of the box around the points and the center, along its longest side [length]
+    Vec3 middle;             ///< of that box, relative to the center [length]
     double block_width = 0;  ///< the same of the widest block
     std::int32_t uncovered = 0;  ///< points farther from the center than asked
   };

@@ -11,12 +11,12 @@
 namespace dch::detail {
 
 /// Box around those of blocks [first, last), whose center and half width along an axis span_of(block, axis)
-/// gives. Coordinates wrap, so all is taken relative to the first one.
+/// gives. Coordinates that wrap are taken relative to the first one.
 template <class SpanOf>
-BlockSpan around(std::int32_t first, std::int32_t last, const SpanOf& span_of) {
+BlockSpan around(std::int32_t first, std::int32_t last, bool wrap, const SpanOf& span_of) {
   BlockSpan span{};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto origin = static_cast<std::uint16_t>(span_of(first, axis).first);
+    const auto origin = static_cast<std::uint16_t>(wrap ? span_of(first, axis).first : 0);
     int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::lowest();
     for (std::int32_t b = first; b < last; ++b) {
       const auto [center, half_width] = span_of(b, axis);
@@ -46,10 +46,11 @@ struct OwnBlocks {
   const std::uint8_t* count = nullptr;          ///< points in each
   std::int32_t blocks = 0;
   bool are_candidates = true;  ///< whether their points are the first ones of the candidates near them
+  bool wrap = false;           ///< whether coordinates wrap between them
 
   /// Box around blocks [first, last).
   BlockSpan span_of(std::int32_t first, std::int32_t last) const {
-    return around(first, last, [this](std::int32_t b, int axis) {
+    return around(first, last, wrap, [this](std::int32_t b, int axis) {
       return std::pair<int, int>(spans[b].center[axis], spans[b].half_width[axis]);
     });
   }

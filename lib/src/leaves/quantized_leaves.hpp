@@ -20,10 +20,13 @@ struct ListUnits {
   double point = 1, box = 1;  ///< of points, and of the boxes of blocks [length]
 };
 
-/// MeasuredLeaves and the radii of LabelledLeaves, rounded to units: 16-bit integers, by block.
+/// MeasuredLeaves and the radii of LabelledLeaves, rounded to units: 16-bit integers, by block. Points and
+/// the boxes around them are relative to an origin in the middle of their leaf, boxes in the units of boxes
+/// to the center of their leaf.
 struct QuantizedLeaves {
+  /// @param centers of the leaves
   void quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const ListUnits& to_units,
-                Executor* executor);
+                Span<const Vec3> centers, Executor* executor);
 
   /// Box around blocks [first, last) of a leaf, in the units of boxes.
   BlockSpan box_of(std::int32_t first, std::int32_t last) const;
@@ -31,6 +34,9 @@ struct QuantizedLeaves {
   std::size_t memory_bytes() const;
 
   ListUnits units;
+  /// By leaf: its origin relative to its center. Origins lie on the lattice of integer units, so they differ
+  /// by integers, but for periods of the box and rounding in double [length].
+  std::vector<Vec3> origin;
   struct {
     double point = 1, box = 1;
   } per_unit;  ///< the inverse [1/length]
@@ -40,7 +46,8 @@ struct QuantizedLeaves {
       radii;  ///< 0 in empty lanes; empty if cutoffs do not go by them
 
  private:
-  void quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, std::int32_t b);
+  void quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const float from[3],
+                      std::int32_t b);
 
   AlignedVector<std::int16_t> box_center_[3], box_half_width_[3];
   AlignedVector<std::int32_t> number_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nearest_integer.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
 #include "leaves/rounding.hpp"
@@ -11,47 +12,81 @@
 namespace dch::detail {
 namespace {
 
+/// How much a period is off from an integer number of units, at most [units].
+double period_error(const Box& box, double unit) {
+  double error = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double units = box.vector(axis)[axis] / unit;
+    if (box.periodic(axis)) error = std::max(error, std::abs(units - nearest_integer(units)));
+  }
+  return error;
+}
+
+/// A unit hardly coarser, of which the periods of a brick are nearly integer numbers, if one is found soon.
+double fitted_unit(const Box& box, double unit) {
+  constexpr int kTrials = 40;
+  constexpr double kLeast = 4096, kMost = 0x1p45;
+  int axis = 0;
+  while (axis < 3 && !box.periodic(axis)) ++axis;
+  if (axis == 3 || box.kind() == Box::Kind::triclinic) return unit;
+  const double period = box.vector(axis)[axis], units = std::floor(period / unit);
+  double best = unit, least = 1;
+  for (int k = 0; k < kTrials && units - k > kLeast && units < kMost; ++k) {
+    const double error = period_error(box, period / (units - k));
+    if (error >= least) continue;
+    least = error;
+    best = period / (units - k);
+  }
+  return best;
+}
+
 /// Boxes are rounded outward by more than their centers and shifts are off; three squares are rounded too.
 std::int16_t box_limit(double reach, const ListUnits& units) {
   const double box_reach = reach / units.box;
   return static_cast<std::int16_t>(std::min(std::floor(box_reach * box_reach / 0x1p15 + 1.5) + 1, 32767.0));
 }
 
-/// How far apart boxes may be that collect() takes for near [length]: it stays below the limit by 1 at least,
-/// three squares are rounded, and so are centers, half widths and a shift.
-double farthest_collected(double reach, const ListUnits& units) {
-  constexpr double kRoundings = 8;
-  return (std::sqrt((box_limit(reach, units) + 1.5) * 0x1p15) + kRoundings) * units.box;
-}
-
-/// The finest units in which the rows of source `s` can be found. Coordinates and their differences are
-/// integers modulo 2^16 = P, and no more than these has to hold of the points in them:
-/// - Boxes of blocks are taken relative to each other, so a leaf is narrower than P / 2.
-/// - A filter takes points relative to the middle of a box. With a half width h of the box and a reach r, a
-///   difference d is mistaken for a near one only if |d| > P - h - r. The box of a part of a leaf is at most
-///   as wide as the leaf, w, and meets points of blocks that collect() has found: |d| <= w / 2 + c + b, with
-///   the distance c of the blocks and their width b. So w + r + c + b < P serves, and serves the boxes within
-///   that box too, which meet what it has kept: |d| + h <= w + r.
-/// - A test takes points relative to one in a block whose box has kept them: |d| <= b + r < P / 2.
-/// Filters and tests let points pass that are farther than r by what they round, less than 500 units.
+/// The finest units in which the rows of source `s` can be found. Coordinates are 16-bit integers that
+/// saturate when points are shifted to the frame of another leaf, and differences are taken modulo 2^16 = P.
+/// No more than these has to hold of the points in them:
+/// - A leaf of which points are shifted is narrower than P.
+/// - A filter takes points relative to the middle c of a box with a half width h, in the middle of its leaf:
+///   |c| + h <= w / 2, with the width w of the leaf. A difference to a coordinate is at most P / 2 + |c|, so
+///   if it wraps, or if the coordinate is saturated, a gap of P / 2 - |c| - h at least is left. With a reach
+///   r, w / 2 + r < P / 2 serves.
+/// - A test takes points relative to one in a block whose box has kept them: |d| <= b + r < P / 2, with the
+///   width b of the block.
+/// Filters and tests let points pass that are farther than r by what they round, less than 500 units, and the
+/// middle of a leaf is rounded too.
 ListUnits units_for(const ListScene& scene, std::size_t s) {
-  constexpr double kPeriod = 0x1p16, kRoom = 1000;
+  constexpr double kHalfPeriod = 0x1p15, kRoom = 1000;
   const MeasuredLeaves& own = scene.sources[s]->measured();
-  double farthest = 0;
-  for (std::size_t a = 0; a <= s; ++a)
-    farthest = std::max(farthest, scene.reach_of(s, a) +
-                                      3 * (own.largest_extent + scene.sources[a]->measured().largest_extent));
-  ListUnits units{0, finest_unit(farthest)};
+  double farthest = 0, widest = 0;
   for (std::size_t a = 0; a <= s; ++a) {
     const MeasuredLeaves& other = scene.sources[a]->measured();
+    farthest = std::max(farthest, scene.reach_of(s, a) + 3 * (own.largest_extent + other.largest_extent));
     const double reach = scene.reach_of(s, a) + 2 * scene.error;  // limits are wider by that
-    const double filtered =
-        own.largest_width + reach + farthest_collected(reach, units) + other.largest_block_width;
-    const double tested = std::max(own.largest_width, own.largest_block_width + reach);
-    units.point = std::max({units.point, filtered / (kPeriod - kRoom), tested / (kPeriod / 2 - kRoom)});
+    widest = std::max({widest, 0.5 * own.largest_width + reach, own.largest_block_width + reach,
+                       0.5 * other.largest_width});
   }
-  units.point *= 1 + 1e-9;
-  return units;
+  return {fitted_unit(scene.box, widest * (1 + 1e-9) / (kHalfPeriod - kRoom)), finest_unit(farthest)};
+}
+
+/// By how much shifts between the leaves of some sources are off at most, along an axis [units]: origins
+/// differ by integers, but for a period, and for rounding of numbers as large as centers and periods; far out
+/// origins are no multiples of the unit.
+double shift_error_of(const ListScene& scene, std::size_t s, double unit, bool one_image) {
+  constexpr double kRounded = 0.5, kRoundings = 16 * 0x1p-53, kFar = 0x1p44;
+  if (!one_image || (scene.box.any_periodic() && scene.box.kind() == Box::Kind::triclinic)) return kRounded;
+  double far = 0;
+  for (std::size_t a = 0; a <= s; ++a)
+    for (const Vec3 center : scene.sources[a]->centers().position)
+      far = std::max({far, std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+  double period = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (scene.box.periodic(axis)) period = std::max(period, scene.box.vector(axis)[axis]);
+  if (far + period > kFar * unit) return kRounded;
+  return std::min(kRounded, period_error(scene.box, unit) + kRoundings * (far + period) / unit);
 }
 
 }  // namespace
@@ -80,21 +115,26 @@ void LeafRows::find_with(const Metric& metric, const ListScene& scene,
                            scene.executor);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const ListUnits units = units_for(scene, s);
+    bool one_image = true;
     LeafScene<Metric> rows{metric, scene.box, {}, {}};
     for (std::size_t turn = 0; turn <= s; ++turn) {
       const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
       LeafSource& source = *scene.sources[a];
-      source.quantized.quantize(source.measured(), source.labelled, units, scene.executor);
+      source.quantized.quantize(source.measured(), source.labelled, units, source.centers().position,
+                                scene.executor);
       const double reach = scene.reach_of(s, a);
       const double extents = scene.sources[s]->measured().largest_extent + source.measured().largest_extent;
-      const bool one_image =
+      const bool has_one_image =
           !scene.box.any_periodic() || (reach + extents) * kInflate < scene.box.max_cutoff();
-      rows.near.push_back({&source, reach, box_limit(reach, units), one_image});
+      rows.near.push_back({&source, reach, box_limit(reach, units), has_one_image});
+      one_image = one_image && has_one_image;
     }
     double farthest = 0;
     for (const NearSource& near : rows.near) farthest = std::max(farthest, near.reach);
+    const double shift_error = shift_error_of(scene, s, units.point, one_image);
     for (std::size_t r = 0; r < out.size(); ++r) {
-      rows.requests.push_back({filters[r], ListLimits(*filters[r], units.point, farthest, scene.error)});
+      rows.requests.push_back(
+          {filters[r], ListLimits(*filters[r], units.point, farthest, scene.error, shift_error)});
       if (filters[r]->params().superset)
         out[r]->margin = std::max(out[r]->margin, rows.requests.back().limits.margin);
     }

@@ -11,14 +11,14 @@ constexpr double kSquareScale = 0x1p15;  ///< squares are shifted right by 15 bi
 
 std::int16_t clamped(double v) { return static_cast<std::int16_t>(std::clamp(v, 0.0, 32767.0)); }
 
-// Errors, with all lengths in units: a difference of coordinates is off by at most 3/2 along each axis (two
-// points and a shift, each rounded; rounding in float adds 0.03 to the distance at most), hence a distance
-// d <= reach by sqrt(3) 3/2, and its square by 3 sqrt(3) reach + 27/4; halved 15 times over, and three
-// roundings of 1/2 added. The pair distance may differ by `error` more.
+// Errors, with all lengths in units: a difference of coordinates is off by at most 1 + s along each axis (two
+// points, each rounded, and a shift that is off by s; rounding in float adds 0.05 to the distance at most),
+// hence a distance d <= reach by off = sqrt(3) (1 + s), and its square by 2 off reach + off^2; halved 15
+// times over, and three roundings of 1/2 added. The pair distance may differ by `error` more.
 class Rounding {
  public:
-  Rounding(double point_unit, double error)
-      : unit_(point_unit), off_(std::sqrt(27.0) / 2 + 0.03 + 2 * error / point_unit) {}
+  Rounding(double point_unit, double error, double shift_error)
+      : unit_(point_unit), off_(std::sqrt(3.0) * (1 + shift_error) + 0.05 + 2 * error / point_unit) {}
 
   double limit(double reach) const { return reach / unit_ * (reach / unit_) / kSquareScale; }
   double band(double reach) const {
@@ -59,7 +59,8 @@ void set_middles(int types, ListLimits::PairLimits& to) {
 }
 
 /// The limits of each two types, of which there are at most kKernelTypes.
-void set_by_types(const ListParams& params, const Rounding& rounding, double point_unit, ListLimits& to) {
+void set_by_types(const ListParams& params, const Rounding& rounding, double point_unit, double reach,
+                  ListLimits& to) {
   const int types = params.cutoffs.types();
   to.type_cutoff.resize(static_cast<std::size_t>(types));
   to.all.type_in.resize(static_cast<std::size_t>(types));
@@ -74,7 +75,7 @@ void set_by_types(const ListParams& params, const Rounding& rounding, double poi
       to.all.type_in[a].limit[b] = rounding.in(far);
       to.all.type_out[a].limit[b] = rounding.out(far);
       to.near.type_in[a].limit[b] = rounding.nearest(far - params.shell);
-      to.farthest.limit[b] = std::max(to.farthest.limit[b], to.all.type_out[a].limit[b]);
+      to.farthest.limit[b] = std::max(to.farthest.limit[b], rounding.out(std::min(far, reach)));
       to.margin = std::max(to.margin, rounding.margin(far, to.all.type_out[a].limit[b] - 1));
     }
   }
@@ -84,9 +85,10 @@ void set_by_types(const ListParams& params, const Rounding& rounding, double poi
 
 }  // namespace
 
-ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach, double error)
+ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach, double error,
+                       double shift_error)
     : by(filter.by()) {
-  const Rounding rounding(point_unit, error);
+  const Rounding rounding(point_unit, error, shift_error);
   const ListParams& params = filter.params();
   has_shell = params.shell > 0;
   const double largest = std::sqrt(filter.largest_distance2());
@@ -123,12 +125,12 @@ ListLimits::ListLimits(const PairFilter& filter, double point_unit, double reach
   const int types = params.cutoffs.types();
   per_pair = types > kKernelTypes;
   if (per_pair) {
-    all.out = rounding.out(largest);
+    all.out = rounding.out(std::min(largest, reach));
     near.in = near.out = rounding.nearest(largest - params.shell);
     return;  // decided pair by pair, whatever the margin
   }
   off = rounding.off();
-  set_by_types(params, rounding, point_unit, *this);
+  set_by_types(params, rounding, point_unit, reach, *this);
 }
 
 RowLimits ListLimits::for_rows(const PairLimits& pairs, bool take_open) const {

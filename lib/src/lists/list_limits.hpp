@@ -14,9 +14,12 @@ namespace dch::detail {
 /// `out` lies what its rounding leaves open.
 struct ListLimits {
   /// @param point_unit of the coordinates [length]
-  /// @param reach of pairs of particles at most, where cutoffs go by radii [length]
+  /// @param reach of pairs of particles at most, where cutoffs go by radii or types [length]: no filter lets
+  ///   points pass that are farther, but for rounding
   /// @param error how far the distance of two positions may be from their pair distance [length]
-  ListLimits(const PairFilter& filter, double point_unit, double reach, double error);
+  /// @param shift_error how much the shift between two points is off along an axis, at most [units]
+  ListLimits(const PairFilter& filter, double point_unit, double reach, double error,
+             double shift_error = 0.5);
 
   struct PairLimits {
     std::int16_t in = 0, out = 0;               ///< by one cutoff; by types if per_pair

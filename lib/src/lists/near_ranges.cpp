@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/nearest_integer.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
 #include "geometry/tolerance.hpp"
@@ -10,14 +11,21 @@
 #include "lists/leaf_search.hpp"
 
 namespace dch::detail {
+/// @param between the centers of leaf k and of the other one
 template <class Metric>
-void NearRanges<Metric>::add(const LeafSource& leaves, const Leaf& other, Vec3 between) {
+void NearRanges<Metric>::add(const LeafSource& leaves, std::int32_t other, Vec3 between) {
+  constexpr double kMost = 0xFFFE;  // twice the largest number of 16 bits: all saturate from there on
+  const Leaf& other_leaf = leaves.measured().leaves[other];
+  const Vec3 origins = between + (leaves.quantized.origin[other] - rows_.quantized.origin[k_]);
   BlockRange range{};
-  range.first = other.first_block;
-  range.count = other.blocks;
+  range.first = other_leaf.first_block;
+  range.count = other_leaf.blocks;
   for (int axis = 0; axis < 3; ++axis) {
     range.box_shift[axis] = rounded(between[axis] * leaves.quantized.per_unit.box);
-    range.point_shift[axis] = rounded(between[axis] * leaves.quantized.per_unit.point);
+    const double units = std::clamp(origins[axis] * leaves.quantized.per_unit.point, -kMost, kMost);
+    const auto shift = static_cast<std::int32_t>(nearest_integer(units));
+    range.point_shift[axis][0] = static_cast<std::int16_t>(shift / 2);
+    range.point_shift[axis][1] = static_cast<std::int16_t>(shift - shift / 2);
   }
   ranges_.push_back(range);
 }
@@ -29,27 +37,26 @@ double NearRanges<Metric>::limit_with(const NearSource& near, const Leaf& other)
 }
 
 template <class Metric>
-void NearRanges<Metric>::add_if_near(const NearSource& near, const Leaf& other, Vec3 between) {
-  const double limit = limit_with(near, other);
+void NearRanges<Metric>::add_if_near(const NearSource& near, std::int32_t other, Vec3 between) {
+  const double limit = limit_with(near, near.source->measured().leaves[other]);
   if (norm2(between) <= limit * limit) add(*near.source, other, between);
 }
 
 /// All images of a leaf that are near; of a leaf and itself each pair of images once.
 template <class Metric>
 void NearRanges<Metric>::add_images(const NearSource& near, std::int32_t other) {
-  const Leaf& other_leaf = near.source->measured().leaves[other];
   const bool is_itself = near.source == &rows_ && k_ == other;
   const Vec3 nearest = metric_.displacement(center_, near.source->centers().position[other]);
-  const double limit = limit_with(near, other_leaf);
+  const double limit = limit_with(near, near.source->measured().leaves[other]);
   for_each_near_image(box_, nearest, limit, is_itself,
-                      [&](Vec3 between) { add(*near.source, other_leaf, between); });
+                      [&](Vec3 between) { add(*near.source, other, between); });
 }
 
 template <class Metric>
 void NearRanges<Metric>::find_own(const NearSource& near) {
   const Level& centers = near.source->centers();
   ranges_.clear();
-  add(*near.source, own_, Vec3{});
+  add(*near.source, k_, Vec3{});
   if (!near.one_image) add_images(near, k_);
   const Span<const std::int32_t> joined = centers.edges.row(k_);
   for (std::size_t first = 0; first < joined.size(); first += kAtATime)
@@ -81,7 +88,7 @@ void NearRanges<Metric>::add_joined(const NearSource& near, const std::int32_t* 
     const double limit = limit_with(near, leaves[other]);
     kept += static_cast<std::size_t>(norm2(between[kept]) <= limit * limit);
   }
-  for (std::size_t e = 0; e < kept; ++e) add(*near.source, leaves[later[e]], between[e]);
+  for (std::size_t e = 0; e < kept; ++e) add(*near.source, later[e], between[e]);
 }
 
 template <class Metric>
@@ -92,8 +99,7 @@ std::int64_t NearRanges<Metric>::find_others(const NearSource& near) {
   return for_each_leaf_near(metric_, *near.source, center_, radius, [&](std::int32_t other) {
     if (!(own_owned_ || near.source->labelled.leaf_owned[other])) return;
     if (near.one_image) {
-      add_if_near(near, others.leaves[other],
-                  metric_.displacement(center_, near.source->centers().position[other]));
+      add_if_near(near, other, metric_.displacement(center_, near.source->centers().position[other]));
     } else {
       add_images(near, other);
     }

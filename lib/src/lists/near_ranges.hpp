@@ -47,8 +47,8 @@ class NearRanges {
   double limit_with(const NearSource& near, const Leaf& other) const;
   void add_joined(const NearSource& near, const std::int32_t* joined, std::size_t count);
   void add_images(const NearSource& near, std::int32_t other);
-  void add_if_near(const NearSource& near, const Leaf& other, Vec3 between);
-  void add(const LeafSource& leaves, const Leaf& other, Vec3 between);
+  void add_if_near(const NearSource& near, std::int32_t other, Vec3 between);
+  void add(const LeafSource& leaves, std::int32_t other, Vec3 between);
 
   const Metric& metric_;
   const Box& box_;

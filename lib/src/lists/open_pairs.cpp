@@ -2,6 +2,7 @@
 #include "lists/open_pairs.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace dch::detail {
 namespace {
@@ -30,7 +31,50 @@ double cutoff_of(const ListLimits& limits, const OwnBlocks& own, std::int32_t bl
   }
 }
 
+/// How many entries more there are after an edit.
+std::int32_t more_by(const RowEdit& edit) { return edit.is_missing ? 1 : -1; }
+
+/// Moves the entries between an edit and the next one, which begins at `end`, by some places.
+void move_behind(const RowEdit& edit, Span<const std::int32_t> ends, std::int32_t end, std::int32_t by,
+                 std::int32_t* ids) {
+  const std::int32_t begin = ends[edit.segment] + edit.place + (edit.is_missing ? 0 : 1);
+  std::memmove(ids + begin + by, ids + begin, static_cast<std::size_t>(end - begin) * sizeof *ids);
+}
+
 }  // namespace
+
+// Neighboring pieces move by one place more or less. So one that moves to the front meets only what has moved
+// or gone, and of some that move to the back none meets another if the last is moved first.
+void apply_edits(Span<const RowEdit> edits, std::int32_t* ids, Span<std::int32_t> ends) {
+  if (edits.empty()) return;
+  const auto place_of = [&](const RowEdit& edit) { return ends[edit.segment] + edit.place; };
+  const auto move_piece = [&](std::size_t k, std::int32_t by) {
+    const std::int32_t end = k + 1 < edits.size() ? place_of(edits[k + 1]) : ends[ends.size() - 1];
+    move_behind(edits[k], ends, end, by, ids);
+  };
+  std::int32_t by = 0;
+  for (std::size_t k = 0; k < edits.size();) {
+    const std::size_t first = k;
+    while (k < edits.size() && by + more_by(edits[k]) > 0) by += more_by(edits[k++]);
+    std::int32_t back = by;
+    for (std::size_t last = k; last > first; back -= more_by(edits[last])) move_piece(--last, back);
+    if (k == edits.size()) break;
+    by += more_by(edits[k]);
+    move_piece(k++, by);
+  }
+  by = 0;
+  for (const RowEdit& edit : edits) {
+    if (edit.is_missing) ids[place_of(edit) + by] = edit.id;
+    by += more_by(edit);
+  }
+  by = 0;
+  const RowEdit* edit = edits.begin();
+  for (std::size_t segment = static_cast<std::size_t>(edit->segment); segment + 1 < ends.size(); ++segment) {
+    for (; edit != edits.end() && edit->segment == static_cast<std::int32_t>(segment); ++edit)
+      by += more_by(*edit);
+    ends[segment + 1] += by;
+  }
+}
 
 void OpenPairs::note(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t before,
                      const Candidates& near, const OpenLanes* open, std::int32_t open_count) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <dch/base/span.hpp>
+
 #include "leaves/own_blocks.hpp"
 #include "lists/row_request.hpp"
 
@@ -17,6 +19,11 @@ struct RowEdit {
   std::int32_t id;
   bool is_missing;
 };
+
+/// Edits rows where they stand, segment after segment.
+/// @param edits in the order of their places
+/// @param ends where each segment ends, after a 0; is brought up to date
+void apply_edits(Span<const RowEdit> edits, std::int32_t* ids, Span<std::int32_t> ends);
 
 /// Pairs that the kernels could not decide: by unrounded squares of the integers first, then by positions.
 class OpenPairs {

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kFewExclusions = 32;  ///< of a particle: fewer than a search of them would cost
 constexpr std::int32_t kGroup = 5;          ///< most blocks in one
-constexpr std::size_t kRoom = 2 * kChunk;   ///< that a row is overwritten beyond its end
+constexpr std::int32_t kNobody = -1;
+constexpr std::size_t kRoom = 2 * kChunk;  ///< that a row is overwritten beyond its end
 
 }  // namespace
 
@@ -49,6 +50,7 @@ void RowFinder::append_group(const RowRequest& request, const OwnBlocks& own, st
                              std::int32_t last, const Candidates& around, std::int32_t count,
                              NeighborList& out) {
   make_room(count);
+  ask_for_exclusions(*request.filter, own, first, last);
   // All blocks are thinned before the rows of the first are found: its candidates have left the store queue
   // by then, out of which loads that span several stores cannot be served.
   std::int32_t before = 0;
@@ -65,20 +67,16 @@ void RowFinder::append_group(const RowRequest& request, const OwnBlocks& own, st
   }
   const auto written = static_cast<std::size_t>(out.first.back());
   if (out.j.size() < written + most + kRoom) out.j.resize(written + most + most / 4 + kRoom);
-  ask_for_exclusions(*request.filter, own, first, last);
-  const bool is_restricted = request.limits.per_pair || request.filter->restricts_any();
+  const bool is_ready = note_exclusions(*request.filter, own, first, last);
+  const bool is_restricted = request.limits.per_pair || !is_ready;
   if (is_restricted && as_written_.size() < most) as_written_.resize(most);
   std::int32_t* const to = is_restricted ? as_written_.data() : out.j.data() + written;
   write_group(request, own, first, last, to);
   const std::vector<RowEdit>& edits = open_.decide(*request.filter);
   if (is_restricted) {
-    finish_rows(request, own, first, 0, edits, out);
-  } else if (!edits.empty()) {
-    const std::int32_t all = segment_end_[segments_];
-    if (as_written_.size() < static_cast<std::size_t>(all)) as_written_.resize(static_cast<std::size_t>(all));
-    const std::int32_t unchanged = segment_end_[edits.front().segment];
-    std::copy(to + unchanged, to + all, as_written_.data() + unchanged);
-    finish_rows(request, own, first, edits.front().segment, edits, out);
+    finish_rows(request, own, first, edits, out);
+  } else {
+    apply_edits(edits, to, {segment_end_.data(), static_cast<std::size_t>(segments_) + 1});
   }
   append_ends(request, own, first, last, out);
 }
@@ -113,7 +111,8 @@ void RowFinder::write_group(const RowRequest& request, const OwnBlocks& own, std
     all.rows = near.rows = own.tags == nullptr ? nullptr : own.tags[block].data();
     const std::int32_t written = segment_end_[segments_];
     std::int32_t* const end = segment_end_.data() + segments_ + 1;
-    const RowsTo target{to + written, end, open_lanes_.data(), own.are_candidates};
+    const RowsTo target{to + written, end, open_lanes_.data(), own.are_candidates,
+                        excluded_.empty() ? nullptr : &excluded_[kFewExcluded * kBlock * (block - first)]};
     const Candidates candidates = others.candidates.at(0);
     const std::int32_t open = kernel(own.points[block], own.count[block], candidates, others.count, all,
                                      limits.has_shell ? &near : nullptr, target);
@@ -133,17 +132,42 @@ void RowFinder::ask_for_exclusions(const PairFilter& filter, const OwnBlocks& ow
       __builtin_prefetch(filter.excluded_with(own.particle[block][row]).data());
 }
 
-/// Copies the segments of a group from `segment` on as they are to be: from as_written_ to behind the rows of
-/// the groups before.
+/// Notes what the kernels are to leave out of the rows of blocks [first, last). Returns whether that is all
+/// that exclusions and ghosts keep out of them; else nothing is noted.
+bool RowFinder::note_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first,
+                                std::int32_t last) {
+  excluded_.clear();
+  if (!filter.restricts_any()) return true;
+  excluded_.resize(std::size_t{kFewExcluded} * kBlock * static_cast<std::size_t>(last - first), kNobody);
+  std::int32_t* to = excluded_.data();
+  bool any = false;
+  for (std::int32_t block = first; block < last; ++block, to += kFewExcluded * kBlock)
+    for (std::int32_t row = 0; row < own.count[block]; ++row) {
+      const std::int32_t particle = own.particle[block][row];
+      const Span<const std::int32_t> excluded = filter.excluded_with(particle);
+      if (excluded.size() > kFewExcluded || filter.is_ghost(particle)) {
+        excluded_.clear();
+        return false;
+      }
+      for (std::size_t k = 0; k < excluded.size(); ++k)
+        to[kFewExcluded * row + static_cast<int>(k)] = excluded[k];
+      any |= !excluded.empty();
+    }
+  if (!any) excluded_.clear();
+  return true;
+}
+
+/// Copies the segments of a group as they are to be: from as_written_ to behind the rows of the groups
+/// before.
 void RowFinder::finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
-                            std::int32_t segment, const std::vector<RowEdit>& edits, NeighborList& out) {
+                            const std::vector<RowEdit>& edits, NeighborList& out) {
   std::int32_t* const to = out.j.data() + out.first.back();
   const RowEdit* edit = edits.data();
   const RowEdit* const end = edit + edits.size();
   const int parts = request.limits.has_shell ? 2 : 1;
-  std::int32_t row = segment / parts;  // of the blocks from `block` on
-  std::int32_t begin = segment_end_[segment], written = begin;
-  for (std::int32_t s = segment; s < segments_; ++s) {
+  std::int32_t row = 0;  // of the blocks from `block` on
+  std::int32_t begin = 0, written = 0;
+  for (std::int32_t s = 0; s < segments_; ++s) {
     for (; row >= own.count[block]; ++block) row -= own.count[block];
     const std::int32_t length = segment_end_[s + 1] - begin;
     const RowEdit* const first = edit;
@@ -221,7 +245,8 @@ std::int32_t RowFinder::restricted_row(const RowRequest& request, std::int32_t p
 std::size_t RowFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   std::size_t bytes = open_.memory_bytes() + bytes_of(open_lanes_) + bytes_of(as_written_) +
-                      bytes_of(segment_end_) + around_request_.memory_bytes() + around_group_.memory_bytes();
+                      bytes_of(segment_end_) + bytes_of(excluded_) + around_request_.memory_bytes() +
+                      around_group_.memory_bytes();
   for (const BlockNear& near : near_) bytes += near.candidates.memory_bytes();
   return bytes;
 }

@@ -47,7 +47,8 @@ class RowFinder {
                    std::int32_t* to);
   static void ask_for_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first,
                                  std::int32_t last);
-  void finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block, std::int32_t segment,
+  bool note_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first, std::int32_t last);
+  void finish_rows(const RowRequest& request, const OwnBlocks& own, std::int32_t block,
                    const std::vector<RowEdit>& edits, NeighborList& out);
   std::int32_t finish_segment(const RowRequest& request, std::int32_t particle, const std::int32_t* from,
                               std::int32_t length, Span<const RowEdit> edits, std::int32_t* to) const;
@@ -65,7 +66,8 @@ class RowFinder {
   /// Of the blocks that are looked at together, where each segment ends, after a 0.
   std::vector<std::int32_t> segment_end_;
   std::int32_t segments_ = 0;
-  std::vector<std::int32_t> as_written_;  ///< their rows, where these are not as they are to be
+  std::vector<std::int32_t> excluded_;    ///< of their rows, as RowsTo has it; empty if there are none
+  std::vector<std::int32_t> as_written_;  ///< their rows, where exclusions and ghosts have to be left out
   OpenPairs open_;
 };
 

@@ -36,7 +36,8 @@ struct BlockSpans {
 /// Blocks that lie side by side and have a common shift.
 struct BlockRange {
   std::int32_t first, count;
-  std::int16_t box_shift[3], point_shift[3];  ///< to add to their boxes and to their points
+  std::int16_t box_shift[3];       ///< to add to their boxes
+  std::int16_t point_shift[3][2];  ///< to add to their points, saturating: two numbers of one sign
 };
 
 /// Points side by side: coordinates in one array each, and whose they are.
@@ -76,12 +77,16 @@ struct OpenLanes {
   std::uint32_t lanes, within;  ///< within: lanes whose ids are in the segment
 };
 
+/// Ids that a row can be written without; more of them are left out of it later.
+inline constexpr int kFewExcluded = 2;
+
 /// Where rows are written.
 struct RowsTo {
   std::int32_t* j;    ///< segment after segment; up to kChunk entries beyond are overwritten
   std::int32_t* end;  ///< by segment
   OpenLanes* open;    ///< room for two a row and chunk
   bool own_first;     ///< the first candidates are the block's points: a row takes those after its own
+  const std::int32_t* excluded = nullptr;  ///< kFewExcluded a row, negative where there are fewer; or null
 };
 
 /// The loops that lists are made with, compiled for one instruction set. No function allocates.
@@ -94,7 +99,7 @@ struct ListKernels {
                           std::int32_t* range_end);
 
   /// Copies the points of the blocks that collect() has found side by side, shifted by their ranges, with all
-  /// lanes of each.
+  /// lanes of each. Coordinates beyond 16 bits saturate.
   void (*gather)(const std::int32_t* block, const std::int32_t* range_end, const BlockRange* ranges,
                  std::int32_t range_count, const BlockPoints* points,
                  const std::int32_t* ids,   ///< kBlock a block

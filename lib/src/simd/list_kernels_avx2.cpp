@@ -67,6 +67,17 @@ struct Avx2 : X86Blocks {
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kChunk, ids, out);
   }
+  using Id = V;
+  static Id set1_id(std::int32_t id) { return _mm256_set1_epi32(id); }
+  static std::uint32_t lanes_of_either(const std::int32_t* ids, Id a, Id b) {
+    std::uint32_t lanes = 0;
+    for (int k = 0; k < kChunk; k += 8) {
+      const V here = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids + k));
+      const V equal = _mm256_or_si256(_mm256_cmpeq_epi32(here, a), _mm256_cmpeq_epi32(here, b));
+      lanes |= static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal))) << k;
+    }
+    return lanes;
+  }
   static constexpr int kIds = 8;
   static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
     const __m256i equal =

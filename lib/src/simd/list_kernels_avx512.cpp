@@ -39,6 +39,16 @@ struct Avx512 : X86Blocks {
     _mm512_storeu_si512(z, _mm512_maskz_compress_epi16(lanes, pz));
     return compress_chunk(lanes, from, to);
   }
+  using Id = V;
+  static Id set1_id(std::int32_t id) { return _mm512_set1_epi32(id); }
+  static std::uint32_t lanes_of_either(const std::int32_t* ids, Id a, Id b) {
+    const auto in_half = [&](const std::int32_t* half) {
+      const V of_half = _mm512_loadu_si512(half);
+      return static_cast<__mmask16>(_mm512_cmpeq_epi32_mask(of_half, a) |
+                                    _mm512_cmpeq_epi32_mask(of_half, b));
+    };
+    return _mm512_kunpackw(in_half(ids + 16), in_half(ids));
+  }
   static constexpr int kIds = 16;
   static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
     return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(ids), _mm512_set1_epi32(id));

@@ -56,13 +56,13 @@ void gather(const std::int32_t* block, const std::int32_t* range_end, const Bloc
             const std::int16_t* tags, const Candidates& to) {
   std::int32_t n = 0;
   for (std::int32_t r = 0; r < range_count; ++r) {
-    const std::int16_t* const shift = ranges[r].point_shift;
+    const std::int16_t(*const shift)[2] = ranges[r].point_shift;
     for (; n < range_end[r]; ++n) {
       const BlockPoints& from = points[block[n]];
       const std::int64_t first = static_cast<std::int64_t>(block[n]) * kBlock;
-      Simd::copy_shifted(from.x, shift[0], to.x + n * kBlock);
-      Simd::copy_shifted(from.y, shift[1], to.y + n * kBlock);
-      Simd::copy_shifted(from.z, shift[2], to.z + n * kBlock);
+      Simd::copy_saturated(from.x, shift[0], to.x + n * kBlock);
+      Simd::copy_saturated(from.y, shift[1], to.y + n * kBlock);
+      Simd::copy_saturated(from.z, shift[2], to.z + n * kBlock);
       Simd::copy_ids(ids + first, to.id + n * kBlock);
       if (tags) Simd::copy_shifted(tags + first, 0, to.tag + n * kBlock);
     }

@@ -37,6 +37,9 @@ struct Portable {
     for (int lane = 0; lane < kBlock; ++lane)
       to[lane] = static_cast<V>(static_cast<std::uint16_t>(from[lane]) + static_cast<std::uint16_t>(shift));
   }
+  static void copy_saturated(const std::int16_t* from, const std::int16_t shift[2], std::int16_t* to) {
+    for (int lane = 0; lane < kBlock; ++lane) to[lane] = adds(adds(from[lane], shift[0]), shift[1]);
+  }
   static void copy_ids(const std::int32_t* from, std::int32_t* to) {
     for (int lane = 0; lane < kBlock; ++lane) to[lane] = from[lane];
   }
@@ -51,6 +54,14 @@ struct Portable {
     *z = pz;
     *to = *from;
     return static_cast<std::int32_t>(lane);
+  }
+  using Id = std::int32_t;
+  static Id set1_id(std::int32_t id) { return id; }
+  static std::uint32_t lanes_of_either(const std::int32_t* ids, Id a, Id b) {
+    std::uint32_t lanes = 0;
+    for (int k = 0; k < kChunk; ++k)
+      lanes |= static_cast<std::uint32_t>(static_cast<int>(ids[k] == a) | static_cast<int>(ids[k] == b)) << k;
+    return lanes;
   }
   static constexpr int kIds = 1;
   static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) { return *ids == id; }

@@ -64,6 +64,17 @@ struct Sse42 : X86Blocks {
   static std::int32_t compress_chunk(std::uint32_t mask, const std::int32_t* ids, std::int32_t* out) {
     return compress_lanes(mask, kChunk, ids, out);
   }
+  using Id = V;
+  static Id set1_id(std::int32_t id) { return _mm_set1_epi32(id); }
+  static std::uint32_t lanes_of_either(const std::int32_t* ids, Id a, Id b) {
+    std::uint32_t lanes = 0;
+    for (int k = 0; k < kChunk; k += 4) {
+      const V here = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ids + k));
+      const V equal = _mm_or_si128(_mm_cmpeq_epi32(here, a), _mm_cmpeq_epi32(here, b));
+      lanes |= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal))) << k;
+    }
+    return lanes;
+  }
   static constexpr int kIds = 4;
   static std::uint32_t equal_ids(const std::int32_t* ids, std::int32_t id) {
     const __m128i equal =

@@ -46,6 +46,11 @@ struct X86Blocks {
     const __m128i points = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_add_epi16(points, _mm_set1_epi16(shift)));
   }
+  static void copy_saturated(const std::int16_t* from, const std::int16_t shift[2], std::int16_t* to) {
+    const __m128i points = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    const __m128i part = _mm_adds_epi16(points, _mm_set1_epi16(shift[0]));
+    store(to, _mm_adds_epi16(part, _mm_set1_epi16(shift[1])));
+  }
   static void copy_ids(const std::int32_t* from, std::int32_t* to) {
     const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
     const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + 4));

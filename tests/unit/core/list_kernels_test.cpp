@@ -101,8 +101,10 @@ struct ExpectedRows {
   std::vector<std::int32_t> j, end;
   std::vector<OpenLanes> open;
 
+  /// @param excluded kFewExcluded a row, or none
   ExpectedRows(const BlockPoints& points, int rows, const CandidateArrays& c, std::size_t count,
-               const RandomLimits& limits, const RandomLimits* near, bool own_first) {
+               const RandomLimits& limits, const RandomLimits* near, bool own_first,
+               const std::vector<std::int32_t>& excluded) {
     for (int r = 0; r < rows; ++r)
       for (int part = 0; part < (near != nullptr ? 2 : 1); ++part) {
         const auto begin = static_cast<std::int32_t>(j.size());
@@ -114,6 +116,8 @@ struct ExpectedRows {
               saturated(square(wrapped(c.x[k] - points.x[r])) + square(wrapped(c.y[k] - points.y[r]))) +
               square(wrapped(c.z[k] - points.z[r])));
           if (own_first && k <= static_cast<std::size_t>(r)) continue;
+          const auto of_row = excluded.begin() + (excluded.empty() ? 0 : kFewExcluded * r);
+          if (!excluded.empty() && std::count(of_row, of_row + kFewExcluded, c.id[k]) > 0) continue;
           if (near != nullptr && (t < near->middle(r, c.tag[k])) != (part == 0)) continue;
           const int middle = limits.middle(r, c.tag[k]), band = limits.row_limits.band;
           const std::uint32_t bit = 1u << (k % kChunk);
@@ -146,8 +150,14 @@ TEST_P(ListKernelsTest, RowsHoldWhatIsWithinTheirLimitsAndNoteWhatIsOpen) {
     near.row_limits.raise = near.row_limits.band = 0;
     near.row_limits.by_type = near.by_type;
     near.row_limits.rows = near.row;
+    std::vector<std::int32_t> excluded;
+    if (count > 0 && trial % 7 < 3) {
+      excluded.resize(kFewExcluded * kBlock, -1);
+      for (std::int32_t& id : excluded)
+        if (random.below(3) > 0) id = candidates.id[random.below(count)];
+    }
     const ExpectedRows expected(points, rows, candidates, count, limits, has_shell ? &near : nullptr,
-                                own_first);
+                                own_first, excluded);
 
     const auto kernel = limits.kind == Limit::one       ? kernels().rows
                         : limits.kind == Limit::by_size ? kernels().rows_by_size
@@ -156,7 +166,8 @@ TEST_P(ListKernelsTest, RowsHoldWhatIsWithinTheirLimitsAndNoteWhatIsOpen) {
     std::vector<OpenLanes> open(2 * kBlock * (count / kChunk + 1));
     const std::int32_t noted =
         kernel(points, rows, candidates.view(), static_cast<std::int32_t>(count), limits.row_limits,
-               has_shell ? &near.row_limits : nullptr, {j.data(), end.data(), open.data(), own_first});
+               has_shell ? &near.row_limits : nullptr,
+               {j.data(), end.data(), open.data(), own_first, excluded.empty() ? nullptr : excluded.data()});
     ASSERT_TRUE(std::equal(expected.end.begin(), expected.end.end(), end.begin())) << trial;
     ASSERT_TRUE(std::equal(expected.j.begin(), expected.j.end(), j.begin())) << trial;
     ASSERT_EQ(j[expected.j.size() + kChunk], -7) << "writes farther than it says";
@@ -244,7 +255,11 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
   }
   std::vector<BlockRange> ranges(4);
   for (BlockRange& range : ranges)
-    for (int axis = 0; axis < 3; ++axis) range.point_shift[axis] = coordinate(random, 32767);
+    for (auto& shift : range.point_shift) {
+      const int most = random.below(2) == 0 ? 32767 : 10;  // with and without saturation
+      shift[0] = coordinate(random, most);
+      shift[1] = static_cast<std::int16_t>(shift[0] / 2);
+    }
   const std::vector<std::int32_t> range_end{2, 2, 6, 9};
   std::vector<std::int32_t> block(9);
   for (std::int32_t& b : block) b = static_cast<std::int32_t>(random.below(points.size()));
@@ -254,10 +269,13 @@ TEST_P(ListKernelsTest, GatherPutsShiftedBlocksSideBySide) {
   for (std::size_t n = 0; n < block.size(); ++n)
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
       const BlockPoints& from = points[block[n]];
-      const std::int16_t* shift = ranges[n < 2 ? 0 : n < 6 ? 2 : 3].point_shift;
-      ASSERT_EQ(to.x[n * kBlock + lane], wrapped(from.x[lane] + shift[0]));
-      ASSERT_EQ(to.y[n * kBlock + lane], wrapped(from.y[lane] + shift[1]));
-      ASSERT_EQ(to.z[n * kBlock + lane], wrapped(from.z[lane] + shift[2]));
+      const auto* const shift = ranges[n < 2 ? 0 : n < 6 ? 2 : 3].point_shift;
+      const auto shifted = [&](std::int16_t at, int axis) {
+        return saturated(saturated(at + shift[axis][0]) + shift[axis][1]);
+      };
+      ASSERT_EQ(to.x[n * kBlock + lane], shifted(from.x[lane], 0));
+      ASSERT_EQ(to.y[n * kBlock + lane], shifted(from.y[lane], 1));
+      ASSERT_EQ(to.z[n * kBlock + lane], shifted(from.z[lane], 2));
       ASSERT_EQ(to.id[n * kBlock + lane], ids[static_cast<std::size_t>(block[n]) * kBlock + lane]);
       ASSERT_EQ(to.tag[n * kBlock + lane], tags[static_cast<std::size_t>(block[n]) * kBlock + lane]);
     }

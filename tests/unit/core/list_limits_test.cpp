@@ -18,7 +18,9 @@ constexpr double kDigits = 2e-6;  ///< what the last digits of these sums may ma
 
 /// How far a distance by integers may be off [units]: two points and a shift along each axis, floats, and
 /// twice the error of distances, once of the pair and once in the largest distance that a filter looks at.
-double off_of(double unit, double error) { return 1.5 * std::sqrt(3.0) + 0.03 + 2 * error / unit; }
+double off_of(double unit, double error, double shift_error = 0.5) {
+  return (1 + shift_error) * std::sqrt(3.0) + 0.05 + 2 * error / unit;
+}
 /// The same of a sum of squares, of which three are rounded, for distances up to `length` [units].
 double band_of(double length, double off) { return (2 * off * length + off * off) / kScale + 1.5; }
 double square_of(double length) { return length * length / kScale; }
@@ -36,9 +38,10 @@ void expect_limits(std::int16_t in, std::int16_t out, double length, double off)
 }
 
 /// Those of a filter of two points in open space.
-ListLimits limits_of(const ListParams& params, double unit, double error, double reach = 1e300) {
+ListLimits limits_of(const ListParams& params, double unit, double error, double reach = 1e300,
+                     double shift_error = 0.5) {
   static const std::vector<Vec3> points(40);
-  return ListLimits(PairFilter(points, Box::none(), params, error), unit, reach, error);
+  return ListLimits(PairFilter(points, Box::none(), params, error), unit, reach, error, shift_error);
 }
 
 /// Calls f(length [units], unit, error [length]) for many of them.
@@ -47,6 +50,19 @@ void for_many_lengths(const F& f) {
   for (const double unit : {1.0, 0.0371})
     for (const double error : {0.0, 30 * unit})
       for (double length = 101.7; length < 32700; length += 77.77) f(length, unit, error);
+}
+
+TEST(ListLimits, NarrowerWhereShiftsAreNearlyExact) {
+  for_many_lengths([](double length, double unit, double error) {
+    ListParams params;
+    params.cutoffs = TypeCutoffs(length * unit);
+    for (const double shift_error : {0.0, 0.07, 0.3}) {
+      const ListLimits limits = limits_of(params, unit, error, 1e300, shift_error);
+      const double off = off_of(unit, error, shift_error);
+      expect_limits(limits.all.in, limits.all.out, length + error / unit, off);
+      EXPECT_NEAR(limits.off, off, 1e-9);
+    }
+  });
 }
 
 TEST(ListLimits, OfOneCutoff) {

@@ -92,6 +92,7 @@ void expect_measured(const MeasuredLeaves& points, const Scene& scene) {
       high[k][axis] = std::max(high[k][axis], most[axis]);
       leaf.block_width = std::max(leaf.block_width, most[axis] - least[axis]);
       leaf.width = std::max(leaf.width, high[k][axis] - low[k][axis]);
+      leaf.middle[axis] = 0.5 * (low[k][axis] + high[k][axis]);
     }
   });
   EXPECT_EQ(points.blocks, blocks);
@@ -100,6 +101,7 @@ void expect_measured(const MeasuredLeaves& points, const Scene& scene) {
     EXPECT_EQ(points.leaves[k].blocks, expected[k].blocks);
     EXPECT_NEAR(points.leaves[k].extent, expected[k].extent, 1e-12);
     EXPECT_NEAR(points.leaves[k].width, expected[k].width, 1e-12);
+    EXPECT_NEAR(norm2(points.leaves[k].middle - expected[k].middle), 0, 1e-24);
     EXPECT_NEAR(points.leaves[k].block_width, expected[k].block_width, 1e-12);
     EXPECT_EQ(points.leaves[k].uncovered, expected[k].uncovered);
     extent = std::max(extent, expected[k].extent);
@@ -250,7 +252,7 @@ TEST_F(LabelledLeavesTest, AnewIfAnythingHasChanged) {
 }
 
 /// A box of blocks as `center` and `half_width` [units] beside the lengths that it has to hold.
-void expect_box(double center, double half_width, float low, float high, double unit) {
+void expect_box(double center, double half_width, double low, double high, double unit) {
   EXPECT_NEAR(center, 0.5 * (low + high) / unit, 0.51);
   EXPECT_NEAR(half_width, 0.5 * (high - low) / unit + 2, 0.51);
 }
@@ -259,28 +261,33 @@ TEST_F(LabelledLeavesTest, RoundedToUnits) {
   for (const ListParams& params : {by_radii_, by_types_, one_}) {
     label(scene_, params, 0);
     const ListUnits units{0.00231, 0.0173};
-    quantized_.quantize(measured_, labelled_, units, nullptr);
+    quantized_.quantize(measured_, labelled_, units, scene_.centers.position, nullptr);
     EXPECT_EQ(quantized_.units.point, units.point);
     EXPECT_DOUBLE_EQ(quantized_.per_unit.point * units.point, 1);
     EXPECT_DOUBLE_EQ(quantized_.per_unit.box * units.box, 1);
     const BlockSpans boxes = quantized_.boxes();
     for (std::int32_t b = 0; b < measured_.blocks + kChunk; ++b) ASSERT_EQ(boxes.number[b], b);
-    for (std::int32_t b = 0; b < measured_.blocks; ++b) {
+    scene_.for_each_block([&](std::int32_t k, std::int32_t n, std::int32_t) {
+      const std::int32_t b = measured_.leaves[k].first_block + n;
       const std::int16_t* const at[] = {quantized_.points[b].x, quantized_.points[b].y,
                                         quantized_.points[b].z};
       for (int axis = 0; axis < 3; ++axis) {
+        const double origin = quantized_.origin[k][axis];
+        const double of_space = (scene_.centers.position[k][axis] + origin) / units.point;
+        ASSERT_NEAR(of_space, std::round(of_space), 1e-6);
+        ASSERT_LE(std::abs(origin - measured_.leaves[k].middle[axis]), 0.51 * units.point);
         const float low = measured_.corners[b].low[axis], high = measured_.corners[b].high[axis];
         const BlockSpan& span = quantized_.spans[b];
-        expect_box(span.center[axis], span.half_width[axis], low, high, units.point);
+        expect_box(span.center[axis], span.half_width[axis], low - origin, high - origin, units.point);
         expect_box(boxes.center[axis][b], boxes.half_width[axis][b], low, high, units.box);
         for (int lane = 0; lane < measured_.count[b]; ++lane) {
-          ASSERT_NEAR(at[axis][lane], measured_.offsets[b].axis[axis][lane] / units.point, 0.51);
+          ASSERT_NEAR(at[axis][lane], (measured_.offsets[b].axis[axis][lane] - origin) / units.point, 0.51);
           ASSERT_LE(std::abs(at[axis][lane] - span.center[axis]), span.half_width[axis]);
         }
       }
       for (int lane = 0; lane < measured_.count[b] && !params.radii.empty(); ++lane)
         ASSERT_NEAR(quantized_.radii[b][lane], labelled_.radii[b][lane] / units.point, 0.51);
-    }
+    });
   }
 }
 
@@ -304,7 +311,7 @@ void expect_around(const BlockSpan& around, std::int32_t first, std::int32_t las
 
 TEST_F(LabelledLeavesTest, BoxesAndTagsOfSeveralBlocks) {
   label(scene_, by_radii_, 0);
-  quantized_.quantize(measured_, labelled_, {0.00231, 0.0173}, nullptr);
+  quantized_.quantize(measured_, labelled_, {0.00231, 0.0173}, scene_.centers.position, nullptr);
   const BlockSpans boxes = quantized_.boxes();
   for (std::int32_t first = 0; first < measured_.blocks; ++first)
     for (std::int32_t last = first + 1; last <= measured_.blocks; ++last) {
