@@ -13,13 +13,11 @@ constexpr std::int32_t kIdsInLine = 16;  ///< of a cache line
 
 // NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
 
-// --- limits of a row's pairs: `middle(k)` for the candidates from k on, as RowLimits has it. kManyOpen: so
-// many rows have an open pair that a row is looked at as a whole then; else it is a chunk that is looked at.
+// --- limits of a row's pairs: `middle(k)` for the candidates from k on, as RowLimits has it
 
 template <class Simd>
 struct OneMiddle {
   using V = typename Simd::V;
-  static constexpr bool kManyOpen = false;
   explicit OneMiddle(const RowLimits& limits, const Candidates&) : all(Simd::set1(limits.middle)) {}
   void use_row(int) {}
   V middle(std::int32_t) const { return all; }
@@ -29,7 +27,6 @@ struct OneMiddle {
 template <class Simd>
 struct MiddleBySize {
   using V = typename Simd::V;
-  static constexpr bool kManyOpen = true;
   explicit MiddleBySize(const RowLimits& limits, const Candidates& candidates)
       : sizes(limits.rows), tags(candidates.tag), skin(limits.skin), raise(Simd::set1(limits.raise)) {}
   void use_row(int row) { size = Simd::set1(static_cast<std::int16_t>(sizes[row] + skin)); }
@@ -44,7 +41,6 @@ struct MiddleBySize {
 template <class Simd>
 struct MiddleByType {
   using V = typename Simd::V;
-  static constexpr bool kManyOpen = false;
   explicit MiddleByType(const RowLimits& limits, const Candidates& candidates)
       : types(limits.rows), tags(candidates.tag), by_type(limits.by_type) {}
   void use_row(int row) { of_row = Simd::table(by_type[types[row]].limit); }
@@ -168,7 +164,6 @@ template <class Simd, class Middle, class InSegment>
 template <class Simd, class Middle, class Excluded, int kFixed>
 std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Candidates& candidates,
                         std::int32_t count, const RowLimits& limits, const RowsTo& to) {
-  using V = typename Simd::V;
   const std::int32_t chunks = kFixed > 0 ? kFixed : (count + kChunk - 1) / kChunk;
   RowTest<Simd, Middle> test(points, candidates, limits);
   ValidLanes valid(count, chunks, to.own_first);
@@ -185,24 +180,17 @@ std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Cand
     __builtin_prefetch(j + written + kAhead, 1);
     __builtin_prefetch(j + written + kAhead + kIdsInLine, 1);
     const std::int32_t begin = written;
-    V least = Simd::set1(-1);
     for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
       const auto found = test.test(chunk);
       const std::uint32_t wanted = valid(chunk) & ~excluded.lanes(id + chunk * kChunk);
       const std::uint32_t lanes = found.within & wanted;
-      if constexpr (Middle::kManyOpen) {
-        least = Simd::least(least, found.least);
-      } else if (Simd::any_below(found.least, width)) [[unlikely]] {
+      if (Simd::any_below(found.least, width)) [[unlikely]] {
         const std::uint32_t in_band = test.lanes_in_band(chunk, width) & wanted;
         if (in_band != 0) open[noted++] = {row, row, chunk, written - begin, in_band, lanes};
       }
       written += Simd::compress_chunk(lanes, id + chunk * kChunk, j + written);
     }
     end[row] = written;
-    if (Middle::kManyOpen && Simd::any_below(least, width))
-      noted += note_open(
-          test, valid, width, row, [=](std::int32_t chunk) { return ~excluded.lanes(id + chunk * kChunk); },
-          row, open + noted);
     valid.next_row();
   }
   return noted;

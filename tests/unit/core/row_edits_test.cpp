@@ -50,8 +50,9 @@ TEST(RowEdits, WhereRowsStand) {
     ASSERT_EQ(rows.ends.size(), rows.expected.size() + 1);
     ASSERT_EQ(rows.ends[0], 0);
     for (std::size_t s = 0; s < rows.expected.size(); ++s)
-      ASSERT_EQ(std::vector<std::int32_t>(rows.ids.begin() + rows.ends[s], rows.ids.begin() + rows.ends[s + 1]),
-                rows.expected[s])
+      ASSERT_EQ(
+          std::vector<std::int32_t>(rows.ids.begin() + rows.ends[s], rows.ids.begin() + rows.ends[s + 1]),
+          rows.expected[s])
           << trial << ", segment " << s;
   }
 }
