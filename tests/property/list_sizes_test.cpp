@@ -206,6 +206,29 @@ TEST_P(ListSizes, SeveralListsAtOnce) {
   }
 }
 
+// Each list reaches farther than the others for one of its types.
+TEST_P(ListSizes, SeveralMatricesAtOnce) {
+  const Box box = GetParam().box;
+  const std::vector<Vec3> points = scenes::uniform_in(box, static_cast<std::size_t>(effort(800)), 18);
+  std::vector<std::int32_t> types;
+  for (std::size_t i = 0; i < points.size(); ++i) types.push_back(static_cast<std::int32_t>(i % 3));
+  std::vector<ListParams> requests(3);
+  for (int wide = 0; wide < 3; ++wide) {
+    std::vector<double> matrix(9, 0.2);
+    matrix[static_cast<std::size_t>(4 * wide)] = kReach * (1 - 0.1 * wide);
+    requests[static_cast<std::size_t>(wide)].cutoffs = TypeCutoffs(3, matrix);
+    requests[static_cast<std::size_t>(wide)].types = types;
+  }
+  for (const Engine engine : kEngines) {
+    const auto search = search_with(engine);
+    search->update(points, box);
+    const std::vector<NeighborList> lists = search->lists(requests);
+    for (std::size_t k = 0; k < requests.size(); ++k)
+      ASSERT_EQ(first_difference(lists[k], all_pairs(points, box, requests[k])), "")
+          << "list " << k << text(engine);
+  }
+}
+
 TEST_P(ListSizes, ListsDoNotDependOnTheNumberOfThreads) {
   const Box box = GetParam().box;
   const std::vector<Vec3> points = scenes::uniform_in(box, 2000, 9);

@@ -25,10 +25,12 @@ BlockSpan span_around(const MeasuredLeaves::Corners& corners, const float origin
   return span;
 }
 
-/// The nearest multiple of a unit; numbers so large that they have no finer digits stay.
-double nearest_multiple(double v, double unit, double per_unit) {
+/// From the center of a leaf to the multiple of a unit that is nearest to its middle. Where positions have no
+/// digits as fine, it is the middle itself: a sum with the center would round it off.
+double origin_of(double center, double middle, double unit, double per_unit) {
   constexpr double kMost = 0x1p45;
-  return std::abs(v * per_unit) < kMost ? nearest_integer(v * per_unit) * unit : v;
+  const double units = (center + middle) * per_unit;
+  return std::abs(units) < kMost ? nearest_integer(units) * unit - center : middle;
 }
 
 }  // namespace
@@ -55,8 +57,7 @@ void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLea
       const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
       float from[3];
       for (int axis = 0; axis < 3; ++axis) {
-        const double center = centers[k][axis], at = center + leaf.middle[axis];
-        origin[k][axis] = nearest_multiple(at, units.point, per_unit.point) - center;
+        origin[k][axis] = origin_of(centers[k][axis], leaf.middle[axis], units.point, per_unit.point);
         from[axis] = static_cast<float>(origin[k][axis]);
       }
       for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b)

@@ -20,6 +20,23 @@ bool are_alike(const ListParams& a, const ListParams& b) {
          a.cutoffs.types() == b.cutoffs.types();
 }
 
+/// The largest cutoff of a type and the skin [length]; 0 if it makes no pairs.
+double reach_of_type(const ListParams& request, int type) {
+  double largest = 0;
+  for (int other = 0; other < request.cutoffs.types(); ++other)
+    largest = std::max(largest, request.cutoffs(type, other));
+  return largest > 0 ? largest + request.skin : 0;
+}
+
+/// Whether what is near enough for one request is so for another one, of the same particles: candidates are
+/// those of the list that reaches farthest.
+bool reaches_as_far(const ListParams& farthest, const ListParams& other) {
+  if (!other.radii.empty() || other.types.empty()) return true;
+  for (int type = 0; type < other.cutoffs.types(); ++type)
+    if (reach_of_type(farthest, type) < reach_of_type(other, type)) return false;
+  return true;
+}
+
 bool is_ready_as_found(const ListParams& request) {
   return request.order == RowOrder::unsorted && request.kind == ListKind::half && request.first_ghost < 0;
 }
@@ -73,8 +90,12 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
 
 void ListFinder::find(const ListTask& task, Span<const ListParams> requests, const FindRows& find_rows,
                       const std::vector<NeighborList*>& out) {
-  const bool alike = std::all_of(requests.begin(), requests.end(),
-                                 [&](const ListParams& request) { return are_alike(request, requests[0]); });
+  const auto farthest = std::max_element(
+      requests.begin(), requests.end(),
+      [](const ListParams& a, const ListParams& b) { return a.list_radius() < b.list_radius(); });
+  const bool alike = std::all_of(requests.begin(), requests.end(), [&](const ListParams& request) {
+    return are_alike(request, *farthest) && reaches_as_far(*farthest, request);
+  });
   std::vector<const ListParams*> together;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     if (alike) {

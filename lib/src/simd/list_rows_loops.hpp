@@ -184,7 +184,7 @@ std::int32_t write_rows(const BlockPoints& points, std::int32_t rows, const Cand
       const auto found = test.test(chunk);
       const std::uint32_t wanted = valid(chunk) & ~excluded.lanes(id + chunk * kChunk);
       const std::uint32_t lanes = found.within & wanted;
-      if (Simd::any_below(found.least, width)) [[unlikely]] {
+      if (__builtin_expect(Simd::any_below(found.least, width), 0)) {
         const std::uint32_t in_band = test.lanes_in_band(chunk, width) & wanted;
         if (in_band != 0) open[noted++] = {row, row, chunk, written - begin, in_band, lanes};
       }
@@ -262,10 +262,9 @@ std::int32_t rows_without(const BlockPoints& points, std::int32_t rows, const Ca
 template <class Simd, class Middle>
 std::int32_t rows_with(const BlockPoints& points, std::int32_t rows, const Candidates& candidates,
                        std::int32_t count, const RowLimits& limits, const RowLimits* near, const RowsTo& to) {
-  return to.excluded == nullptr ? rows_without<Simd, Middle, NoneExcluded<Simd>>(points, rows, candidates,
-                                                                                 count, limits, near, to)
-                                : rows_without<Simd, Middle, FewExcluded<Simd>>(points, rows, candidates,
-                                                                                count, limits, near, to);
+  if (to.excluded != nullptr)
+    return rows_without<Simd, Middle, FewExcluded<Simd>>(points, rows, candidates, count, limits, near, to);
+  return rows_without<Simd, Middle, NoneExcluded<Simd>>(points, rows, candidates, count, limits, near, to);
 }
 
 // NOLINTEND(bugprone-easily-swappable-parameters)

@@ -291,6 +291,20 @@ TEST_F(LabelledLeavesTest, RoundedToUnits) {
   }
 }
 
+// Far out the sum of a center and a middle is rounded by more than a unit.
+TEST_F(LabelledLeavesTest, OriginsAreInTheMiddleFarOut) {
+  label(scene_, one_, 0);
+  for (const double far : {1e3, 1e9, 0x1p45, 0x1p51, 1e18}) {
+    const std::vector<Vec3> centers(measured_.leaves.size(), Vec3{far, -far, 1.5 * far});
+    const ListUnits units{0.00231, 0.0173};
+    quantized_.quantize(measured_, labelled_, units, centers, nullptr);
+    for (std::size_t k = 0; k < centers.size(); ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        ASSERT_LE(std::abs(quantized_.origin[k][axis] - measured_.leaves[k].middle[axis]), 0.6 * units.point)
+            << far;
+  }
+}
+
 /// That a box holds others along an axis, with no more room than halves of integers need.
 template <class BoxOf>
 void expect_around(const BlockSpan& around, std::int32_t first, std::int32_t last, const BoxOf& box_of) {
