@@ -3,6 +3,7 @@
 
 import os
 import subprocess
+import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -45,8 +46,11 @@ class Host:
         words += ["-log", log]
         for name, value in {**self.variables, **dict(variables)}.items():
             words += ["-var", name, str(value)]
-        done = subprocess.run(words, cwd=self.work, env=self.environment, timeout=timeout, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        # Processes that run alone share one folder of Open MPI's, which each of them removes at its end.
+        with tempfile.TemporaryDirectory(prefix="dch-mpi-") as sessions:
+            environment = {**self.environment, "OMPI_MCA_orte_tmpdir_base": sessions}
+            done = subprocess.run(words, cwd=self.work, env=environment, timeout=timeout, check=False,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return done.returncode, done.stdout
 
     def run_text(self, text, ranks=1, executable=None, variables=()):
