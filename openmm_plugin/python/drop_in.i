@@ -26,7 +26,8 @@ PyObject* list_of(const std::vector<OpenMMDCH::NonbondedStatus>& all) {
 }
 
 namespace OpenMMDCH {
-void enableDropIn();
+enum class DropInPrecision { Mixed, Double };
+void enableDropIn(DropInPrecision precision);
 void disableDropIn();
 bool isDropInEnabled();
 int countOfForcesBeforeDropIn();

@@ -10,7 +10,7 @@
     Crossings         bonds of chains that go through each other from frame to frame
 
 dch.ase has neighbor lists for ASE's calculators, dch.mdanalysis has capped_distance and self_capped_distance, dch.openmm
-has a reporter of crossings.
+has the pairs of a Context and a reporter of crossings.
 Lengths are in the caller's unit. Errors of arguments are InvalidParameter, a ValueError.
 """
 from ._core import CutoffTooLarge, InvalidBox, InvalidParameter, InvalidPosition

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A reporter for OpenMM's simulations: which bonds of chains go through each other.
+"""Neighbor pairs of OpenMM's Contexts, and a reporter of bonds of chains that go through each other.
 
+    i, j, D = dch.openmm.ContextPairs(context, 0.6 * unit.nanometer).pairs("ijD")
     simulation.reporters.append(dch.openmm.CrossingReporter("crossings.csv", 100))
 """
 from __future__ import annotations
@@ -13,8 +14,9 @@ from openmm import unit
 from ._arguments import count, index_pairs, length
 from ._core import InvalidParameter
 from ._crossings import Crossings, CrossingStep
+from ._pairs import VerletList
 
-__all__ = ["CrossingReporter"]
+__all__ = ["ContextPairs", "CrossingReporter"]
 
 COLUMNS = ("Step", "Time (ps)", "p1", "p2", "q1", "q2", "Sign", "X (nm)", "Y (nm)", "Z (nm)")
 
@@ -28,6 +30,57 @@ def bonds_of(topology: Any) -> list[list[int]]:
     if not bonds:
         raise InvalidParameter("the topology of the simulation has no bonds; give CrossingReporter those of the chains")
     return bonds
+
+
+def positions_and_cell(system: Any, state: Any) -> tuple[Any, Any]:
+    """In nm; None for the cell unless a force of the System is periodic."""
+    cell = None
+    if system.usesPeriodicBoundaryConditions():
+        cell = state.getPeriodicBoxVectors(asNumpy=True).value_in_unit(unit.nanometer)
+    return state.getPositions(asNumpy=True).value_in_unit(unit.nanometer), cell
+
+
+class ContextPairs:
+    """Pairs of particles of a Context within a cutoff, at its positions and in its box of the moment.
+
+    For potentials that are computed outside of OpenMM, and for analysis. Pairs are found with a skin and kept, as by
+    VerletList: none is ever missing. The box is periodic if a force of the System uses periodic boundary conditions; the
+    cutoff may be larger than the box, and all images are listed. One thread at a time may use an object.
+
+    Parameters
+    ----------
+    context
+        An openmm.Context that has positions.
+    cutoff
+        A length in nm unless it has a unit; or an array of radii, or a matrix of cutoffs with types, as VerletList has them.
+    skin
+        As VerletList has it; for analysis of frames far from each other 0 is best. A length in nm unless it has a unit.
+    half, types, exclusions, threads
+        As VerletList has them.
+
+    Raises InvalidParameter as VerletList does; InvalidPosition for positions that are not finite.
+    """
+
+    def __init__(self, context: Any, cutoff: Any, skin: Any = 0.1, *, half: bool = False, types: Any = None,
+                 exclusions: Any = None, threads: int | None = None) -> None:
+        self._context = context
+        self._pairs = VerletList(in_nanometers(cutoff), in_nanometers(skin), half=half, types=types, exclusions=exclusions,
+                                 threads=threads)
+
+    def pairs(self, quantities: str = "ijDS") -> Any:
+        """Arrays as dch.neighbor_list() returns them, lengths in nm; D = r_j - r_i + S . cell with positions as
+        context.getState(getPositions=True) has them, and the cell in reduced form as OpenMM keeps it."""
+        state = self._context.getState(getPositions=True)
+        self._pairs.update(*positions_and_cell(self._context.getSystem(), state))
+        return self._pairs.pairs(quantities)
+
+    @property
+    def rebuilds(self) -> int:
+        """How often pairs were searched for anew."""
+        return self._pairs.rebuilds
+
+    def __repr__(self) -> str:
+        return f"ContextPairs({self._pairs!r})"
 
 
 class CrossingReporter:
@@ -89,10 +142,7 @@ class CrossingReporter:
     def report(self, simulation: Any, state: Any) -> None:
         """Called by the Simulation. Call it with a state of the positions that the first steps begin with, if these are to
         count: reporter.report(simulation, simulation.context.getState(getPositions=True))."""
-        positions = state.getPositions(asNumpy=True).value_in_unit(unit.nanometer)
-        cell = None
-        if simulation.system.usesPeriodicBoundaryConditions():
-            cell = state.getPeriodicBoxVectors(asNumpy=True).value_in_unit(unit.nanometer)
+        positions, cell = positions_and_cell(simulation.system, state)
         now = simulation.currentStep, state.getTime().value_in_unit(unit.picosecond)
         last, self._last, self.found = self._last, None, None  # after an error the next report begins anew
         if self._following is None:

@@ -12,6 +12,7 @@
 #include "simd/mesh_task.hpp"
 #include "simd/motion_task.hpp"
 #include "simd/noise_task.hpp"
+#include "simd/waves_task.hpp"
 
 namespace dch::detail {
 
@@ -44,6 +45,7 @@ struct ForceKernels {
   AllPairsKernels all_pairs;
   NoiseKernels noise;
   BondKernels bonds;
+  WaveKernels waves;
 };
 
 /// The kernels of a set that is supported.

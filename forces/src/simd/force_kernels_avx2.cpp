@@ -8,6 +8,7 @@
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
 #include "simd/noise_loops.hpp"
+#include "simd/waves_loops.hpp"
 
 namespace dch::detail {
 
@@ -16,7 +17,7 @@ const ForceKernels& force_kernels_avx2() {
                                          lj_pair_functions_of<Avx2Double>, mesh_kernels,
                                          born_kernels<Avx2Float>,          motion_kernels,
                                          all_pairs_kernels<Avx2Float>,     noise_kernels,
-                                         bond_kernels<Avx2Double>};
+                                         bond_kernels<Avx2Double>,         wave_kernels<Avx2Double>};
   return kKernels;
 }
 

@@ -8,6 +8,7 @@
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
 #include "simd/noise_loops.hpp"
+#include "simd/waves_loops.hpp"
 
 namespace dch::detail {
 
@@ -16,7 +17,7 @@ const ForceKernels& force_kernels_avx512() {
                                          lj_pair_functions_of<Avx512Double>, mesh_kernels,
                                          born_kernels<Avx512Float>,          motion_kernels,
                                          all_pairs_kernels<Avx512Float>,     noise_kernels,
-                                         bond_kernels<Avx512Double>};
+                                         bond_kernels<Avx512Double>,         wave_kernels<Avx512Double>};
   return kKernels;
 }
 

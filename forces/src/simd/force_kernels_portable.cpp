@@ -8,6 +8,7 @@
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
 #include "simd/noise_loops.hpp"
+#include "simd/waves_loops.hpp"
 
 namespace dch::detail {
 
@@ -17,7 +18,7 @@ const ForceKernels& force_kernels_portable() {
       lj_pair_functions_of<Portable<double>>, mesh_kernels,
       born_kernels<Portable<float>>,          motion_kernels,
       all_pairs_kernels<Portable<float>>,     noise_kernels,
-      bond_kernels<Portable<double>>};
+      bond_kernels<Portable<double>>,         wave_kernels<Portable<double>>};
   return kKernels;
 }
 

@@ -8,6 +8,7 @@
 #include "simd/mesh_loops.hpp"
 #include "simd/motion_loops.hpp"
 #include "simd/noise_loops.hpp"
+#include "simd/waves_loops.hpp"
 
 namespace dch::detail {
 
@@ -16,7 +17,7 @@ const ForceKernels& force_kernels_sse42() {
                                          lj_pair_functions_of<SseDouble>, mesh_kernels,
                                          born_kernels<SseFloat>,          motion_kernels,
                                          all_pairs_kernels<SseFloat>,     noise_kernels,
-                                         bond_kernels<SseDouble>};
+                                         bond_kernels<SseDouble>,         wave_kernels<SseDouble>};
   return kKernels;
 }
 

@@ -10,15 +10,23 @@ namespace OpenMMDCH {
 
 /// The drop-in: while it is enabled, the NonbondedForces of each Context that is made, its GBSAOBCForces and
 /// the CustomGBForces that openmm.app writes are computed on DCH's lists, on the platforms Reference and CPU,
-/// without a change to the System. What is not covered keeps
-/// OpenMM's own kernel, and the reason is written to standard error, once each.
+/// without a change to the System. What is not covered keeps OpenMM's own kernel, and the reason is written
+/// to standard error, once each.
 ///
 /// It is enabled from the start if the environment variable OPENMM_DCH is 1. Contexts that are made already
 /// are not affected. Safe to call from several threads.
 
+/// Of the CPU platform; Reference is in double always.
+enum class DropInPrecision {
+  Mixed,  ///< pairs and meshes in single precision, sums in double
+  Double  ///< all in double; reciprocal space by OpenMM, implicit solvent on one thread
+};
+
+/// @param precision  in Contexts from now on, of DCHNonbondedForces too
 /// @throws OpenMMException if OpenMM's platform CPU is missing, and if a platform of this program lacks the
 ///   kernels: their plugins are not loaded, or were before OpenMM's own.
-void enableDropIn();
+void enableDropIn(DropInPrecision precision = DropInPrecision::Mixed);
+/// Contexts from now on are OpenMM's own again, DCHNonbondedForces in mixed precision.
 void disableDropIn();
 bool isDropInEnabled();
 

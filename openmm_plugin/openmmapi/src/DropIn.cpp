@@ -34,7 +34,7 @@ std::string reasonWithoutKernel(const std::string& platform) {
 
 }  // namespace
 
-void enableDropIn() {
+void enableDropIn(DropInPrecision precision) {
   DropInRegistry& registry = DropInRegistry::get();
   for (const std::string name : {"Reference", "CPU"})
     if (hasPlatformOfOpenMM(name) && !registry.hasPlatform(name))
@@ -46,10 +46,14 @@ void enableDropIn() {
     throw OpenMM::OpenMMException(
         "openmm_dch: OpenMM has no platform CPU here; see whether the environment variable OPENMM_PLUGIN_DIR "
         "names a folder without OpenMM's own plugins");
+  registry.setDouble(precision == DropInPrecision::Double);
   registry.setEnabled(true);
 }
 
-void disableDropIn() { DropInRegistry::get().setEnabled(false); }
+void disableDropIn() {
+  DropInRegistry::get().setDouble(false);
+  DropInRegistry::get().setEnabled(false);
+}
 
 bool isDropInEnabled() { return DropInRegistry::get().isEnabled(); }
 

@@ -36,6 +36,16 @@ bool DropInRegistry::isEnabled() {
   return enabled;
 }
 
+void DropInRegistry::setDouble(bool value) {
+  const Lock lock(mutex);
+  isAllDouble = value;
+}
+
+bool DropInRegistry::isDouble() {
+  const Lock lock(mutex);
+  return isAllDouble;
+}
+
 void DropInRegistry::addPlatform(const std::string& name) {
   const Lock lock(mutex);
   platforms.insert(name);

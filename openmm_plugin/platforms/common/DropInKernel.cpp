@@ -13,24 +13,17 @@ using OpenMM::NonbondedForce;
 
 /// Why OpenMM's own kernel computes a force, "" if ours does.
 std::string reasonForNative(const NonbondedForce& force) {
-  switch (force.getNonbondedMethod()) {
-    case NonbondedForce::Ewald:
-      return "the method Ewald is not covered; PME is, and is faster";
-    case NonbondedForce::LJPME:
-      return "the method LJPME is not covered";
-    default:
-      break;
-  }
+  if (force.getNonbondedMethod() == NonbondedForce::LJPME) return "the method LJPME is not covered";
   if (force.getUseSwitchingFunction() && force.getSwitchingDistance() <= 0 &&
       force.getUseDispersionCorrection() && force.usesPeriodicBoundaryConditions())
     return "the dispersion correction has no value for a switching distance of 0";
   return "";
 }
 
-/// The same for what the splitting parameter of PME times the cutoff is.
+/// The same for what the splitting parameter of a lattice sum times the cutoff is.
 std::string reasonForNative(double splittingTimesCutoff) {
   constexpr double kMax = 6;  // of the series of dch::CoulombTerm
-  return splittingTimesCutoff <= kMax ? "" : "the splitting parameter of PME times the cutoff is over 6";
+  return splittingTimesCutoff <= kMax ? "" : "the splitting parameter times the cutoff is over 6";
 }
 
 OpenMM::CalcNonbondedForceKernel& kernelIn(OpenMM::Kernel& kernel) {
@@ -67,13 +60,14 @@ DropInKernel::~DropInKernel() {
 
 void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce& force) {
   std::string reason = reasonForNative(force);
-  if (force.getNonbondedMethod() != NonbondedForce::PME) sums.reciprocal.reset();
-  if (reason.empty() && sums.reciprocal) {
-    sums.reciprocal->initialize(system, force);
-    reason = reasonForNative(sums.reciprocal->splitting() * force.getCutoffDistance());
+  if (force.getNonbondedMethod() == NonbondedForce::PME) reciprocal = sums.mesh.get();
+  if (force.getNonbondedMethod() == NonbondedForce::Ewald) reciprocal = sums.waves.get();
+  if (reason.empty() && reciprocal) {
+    reciprocal->initialize(system, force);
+    reason = reasonForNative(reciprocal->splitting() * force.getCutoffDistance());
   }
   if (reason.empty()) {
-    sums.pairs->initialize(system, force, sums.reciprocal ? sums.reciprocal->splitting() : 0);
+    sums.pairs->initialize(system, force, reciprocal ? reciprocal->splitting() : 0);
   } else {
     giveToNative(system, force);
     DropInRegistry::get().sayOnce("NonbondedForce", reason);
@@ -84,6 +78,7 @@ void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce
 
 void DropInKernel::giveToNative(const OpenMM::System& system, const NonbondedForce& force) {
   sums = {};
+  reciprocal = nullptr;
   native = OpenMM::Kernel(nativeFactory.createKernelImpl(getName(), getPlatform(), context));
   kernelIn(native).initialize(system, force);
 }
@@ -93,7 +88,7 @@ void DropInKernel::rememberStatus(const std::string& reason) {
   const std::string ofOpenMM = hasLatticeSum ? "OpenMM" : "";
   DropInRegistry::get().remember(context.getOwner(), *owner,
                                  {0, owner->getName(), sums.pairs ? "DCH" : "OpenMM",
-                                  sums.reciprocal ? sums.reciprocal->computedBy() : ofOpenMM, reason});
+                                  reciprocal ? reciprocal->computedBy() : ofOpenMM, reason});
 }
 
 double DropInKernel::execute(OpenMM::ContextImpl& ofContext, bool includeForces, bool includeEnergy,
@@ -104,8 +99,8 @@ double DropInKernel::execute(OpenMM::ContextImpl& ofContext, bool includeForces,
   sums.pairs->follow(ofContext);
   double energy = 0;
   if (includeDirect) energy += sums.pairs->add(ofContext, includeEnergy);
-  if (includeReciprocal && sums.reciprocal)
-    energy += sums.reciprocal->add(ofContext, sums.pairs->parameters().particles());
+  if (includeReciprocal && reciprocal)
+    energy += reciprocal->add(ofContext, sums.pairs->parameters().particles());
   return energy;
 }
 
@@ -126,12 +121,12 @@ void DropInKernel::copyParametersToContext(OpenMM::ContextImpl& ofContext, const
 void DropInKernel::getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
   if (!sums.pairs)
     return native.getAs<OpenMM::CalcNonbondedForceKernel>().getPMEParameters(alpha, nx, ny, nz);
-  if (!sums.reciprocal)
+  if (!reciprocal || !reciprocal->gridSize())
     throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
-  alpha = sums.reciprocal->splitting();
-  nx = sums.reciprocal->gridSize()[0];
-  ny = sums.reciprocal->gridSize()[1];
-  nz = sums.reciprocal->gridSize()[2];
+  alpha = reciprocal->splitting();
+  nx = reciprocal->gridSize()[0];
+  ny = reciprocal->gridSize()[1];
+  nz = reciprocal->gridSize()[2];
 }
 
 void DropInKernel::getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {

@@ -16,7 +16,7 @@ namespace OpenMMDCH {
 
 struct SumsOfPlatform {
   std::unique_ptr<NonbondedSum> pairs;
-  std::unique_ptr<ReciprocalSum> reciprocal;
+  std::unique_ptr<ReciprocalSum> mesh, waves;  ///< for PME, and for Ewald
 };
 
 /// OpenMM's NonbondedForce by the sums that a platform has of ours, or by OpenMM's own kernel where
@@ -46,7 +46,8 @@ class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
   OpenMM::ContextImpl& context;
   const OpenMM::KernelFactory& nativeFactory;
   const OpenMM::NonbondedForce* owner = nullptr;
-  SumsOfPlatform sums;  ///< null if OpenMM's kernel computes the force, the second without a lattice sum too
+  SumsOfPlatform sums;                  ///< null if OpenMM's kernel computes the force
+  ReciprocalSum* reciprocal = nullptr;  ///< one of them; null without a lattice sum too
   OpenMM::Kernel native;
 };
 

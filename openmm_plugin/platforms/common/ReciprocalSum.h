@@ -12,15 +12,15 @@
 
 namespace OpenMMDCH {
 
-/// The part of a particle mesh Ewald sum in reciprocal space, on a platform on the processor.
+/// The part of a lattice sum in reciprocal space, on a platform on the processor.
 class ReciprocalSum {
  public:
   virtual ~ReciprocalSum() = default;
 
-  /// Grid and splitting are those that OpenMM chooses; a platform may have a finer grid.
-  void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force);
-  double splitting() const { return alpha; }
-  const int* gridSize() const { return grid; }
+  virtual void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) = 0;
+  double splitting() const { return alpha; }  ///< [1/nm]
+  /// Three numbers, or null for a sum without a grid.
+  virtual const int* gridSize() const { return nullptr; }
   /// Adds forces to those of the Context [kJ/mol/nm] and returns the energy [kJ/mol], that of each particle
   /// with itself taken away.
   double add(OpenMM::ContextImpl& context, const std::vector<DCHParameterSet::Particle>& particles);
@@ -28,13 +28,10 @@ class ReciprocalSum {
   virtual std::string computedBy() const = 0;
 
  protected:
-  /// The grid is known.
-  virtual void start(int particles) = 0;
   /// @return the energy, that of each charge with itself included
-  virtual double addMesh(OpenMM::ContextImpl& context, const std::vector<double>& charges) = 0;
+  virtual double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) = 0;
 
   double alpha = 0;
-  int grid[3]{};
 
  private:
   std::vector<double> chargesNow;

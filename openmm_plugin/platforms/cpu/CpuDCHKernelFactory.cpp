@@ -12,10 +12,12 @@
 
 #include "BornKernel.h"
 #include "CpuBornSum.h"
+#include "CpuMeshSum.h"
 #include "CpuNonbondedSum.h"
-#include "CpuReciprocalSum.h"
 #include "DCHNonbondedKernel.h"
+#include "DoubleMeshSum.h"
 #include "DropInKernel.h"
+#include "EwaldSum.h"
 #include "NecklaceContactKernel.h"
 #include "PoolExecutor.h"
 #include "internal/DropInRegistry.h"
@@ -28,19 +30,16 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
                                        OpenMM::ContextImpl& context) const override {
     OpenMM::ThreadPool& threads = OpenMM::CpuPlatform::getPlatformData(context).threads;
     if (name == OpenMMDCH::CalcDCHNonbondedForceKernel::Name())
-      return new OpenMMDCH::DCHNonbondedKernel(name, platform,
-                                               std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads));
+      return new OpenMMDCH::DCHNonbondedKernel(
+          name, platform, std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads, isDouble()));
     if (name == OpenMM::CalcNonbondedForceKernel::Name())
-      return OpenMMDCH::makeNonbondedKernel(name, platform, context,
-                                            {std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads),
-                                             std::make_unique<OpenMMDCH::CpuReciprocalSum>(threads)},
-                                            native);
+      return OpenMMDCH::makeNonbondedKernel(name, platform, context, sumsFor(threads), native);
     if (name == OpenMM::CalcGBSAOBCForceKernel::Name())
-      return OpenMMDCH::makeBornKernel<OpenMMDCH::GBSAOBCKernel>(
-          name, platform, context, std::make_unique<OpenMMDCH::CpuBornSum>(threads), native);
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::GBSAOBCKernel>(name, platform, context, bornSumFor(threads),
+                                                                 native);
     if (name == OpenMM::CalcCustomGBForceKernel::Name())
-      return OpenMMDCH::makeBornKernel<OpenMMDCH::CustomGBKernel>(
-          name, platform, context, std::make_unique<OpenMMDCH::CpuBornSum>(threads), native);
+      return OpenMMDCH::makeBornKernel<OpenMMDCH::CustomGBKernel>(name, platform, context,
+                                                                  bornSumFor(threads), native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
       return new OpenMMDCH::NecklaceContactKernel(name, platform,
                                                   std::make_unique<OpenMMDCH::PoolExecutor>(threads));
@@ -48,6 +47,22 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
   }
 
  private:
+  static bool isDouble() { return OpenMMDCH::DropInRegistry::get().isDouble(); }
+  static OpenMMDCH::SumsOfPlatform sumsFor(OpenMM::ThreadPool& threads) {
+    OpenMMDCH::SumsOfPlatform sums;
+    sums.pairs = std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads, isDouble());
+    sums.waves = std::make_unique<OpenMMDCH::EwaldSum>(std::make_unique<OpenMMDCH::PoolExecutor>(threads));
+    if (isDouble())
+      sums.mesh = std::make_unique<OpenMMDCH::DoubleMeshSum>();
+    else
+      sums.mesh = std::make_unique<OpenMMDCH::CpuMeshSum>(threads);
+    return sums;
+  }
+  static std::unique_ptr<OpenMMDCH::BornSum> bornSumFor(OpenMM::ThreadPool& threads) {
+    if (isDouble()) return std::make_unique<OpenMMDCH::BornSum>();
+    return std::make_unique<OpenMMDCH::CpuBornSum>(threads);
+  }
+
   OpenMM::CpuKernelFactory native;
 };
 

@@ -24,7 +24,7 @@ void CpuNonbondedSum::initialize(const OpenMM::System& system, const OpenMM::Non
 void CpuNonbondedSum::parametersChanged() {
   if (keeper)
     makeForces();
-  else
+  else if (!isDouble)
     makeForcesOfAllPairs();
 }
 
@@ -83,7 +83,7 @@ double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   if (!keeper->fits(state.box)) return addAllPairs(state);
   const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
   const auto precision =
-      forces->fits_single() ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
+      forces->fits_single() && !isDouble ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
   if (!includeEnergy) {
     forces->add_forces(pairs, precision, state.forces, charges);
     return 0;
@@ -93,6 +93,7 @@ double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
 }
 
 double CpuNonbondedSum::addWithoutCutoff(const HostState& state, bool includeEnergy) {
+  if (isDouble) return addAllPairs(state);
   found.assign(state.positions.size(), {});
   const double energy = forcesOfAllPairs->add_forces(state.positions, found, includeEnergy);
   const auto isFinite = [](const dch::Vec3& force) { return std::isfinite(norm2(force)); };

@@ -19,7 +19,8 @@ namespace OpenMMDCH {
 /// in the few boxes where lists cannot be made, all pairs in double.
 class CpuNonbondedSum : public NonbondedSum {
  public:
-  explicit CpuNonbondedSum(OpenMM::ThreadPool& threads) : executor(threads) {}
+  /// @param asDouble  all in double, on the same threads
+  CpuNonbondedSum(OpenMM::ThreadPool& threads, bool asDouble) : executor(threads), isDouble(asDouble) {}
 
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
                   double splitting) override;
@@ -37,6 +38,7 @@ class CpuNonbondedSum : public NonbondedSum {
   double addAllPairs(const HostState& state);
 
   PoolExecutor executor;
+  bool isDouble;
   std::optional<ClusterPairKeeper> keeper;             ///< with a cutoff
   std::optional<dch::LennardJones> forces;             ///< the same
   std::optional<dch::AllPairForces> forcesOfAllPairs;  ///< without one

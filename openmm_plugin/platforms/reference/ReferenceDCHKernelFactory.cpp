@@ -11,10 +11,11 @@
 
 #include "BornKernel.h"
 #include "DCHNonbondedKernel.h"
+#include "DoubleMeshSum.h"
 #include "DropInKernel.h"
+#include "EwaldSum.h"
 #include "NecklaceContactKernel.h"
 #include "ReferenceNonbondedSum.h"
-#include "ReferenceReciprocalSum.h"
 #include "internal/DropInRegistry.h"
 
 namespace {
@@ -27,10 +28,11 @@ class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
       return new OpenMMDCH::DCHNonbondedKernel(name, platform,
                                                std::make_unique<OpenMMDCH::ReferenceNonbondedSum>());
     if (name == OpenMM::CalcNonbondedForceKernel::Name())
-      return OpenMMDCH::makeNonbondedKernel(name, platform, context,
-                                            {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(),
-                                             std::make_unique<OpenMMDCH::ReferenceReciprocalSum>()},
-                                            native);
+      return OpenMMDCH::makeNonbondedKernel(
+          name, platform, context,
+          {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(), std::make_unique<OpenMMDCH::DoubleMeshSum>(),
+           std::make_unique<OpenMMDCH::EwaldSum>(nullptr)},
+          native);
     if (name == OpenMM::CalcGBSAOBCForceKernel::Name())
       return OpenMMDCH::makeBornKernel<OpenMMDCH::GBSAOBCKernel>(
           name, platform, context, std::make_unique<OpenMMDCH::BornSum>(), native);

@@ -6,7 +6,10 @@ import warnings
 from . import force as _force
 
 
-def enable():
+_PRECISIONS = {"mixed": _force.DropInPrecision_Mixed, "double": _force.DropInPrecision_Double}
+
+
+def enable(precision="mixed"):
     """Has the NonbondedForces of all Contexts that are made from now on computed on DCH's lists, and their
     GBSAOBCForces and CustomGBForces as openmm.app writes them.
 
@@ -14,13 +17,19 @@ def enable():
     OpenMM's own kernel, and the reason is written to standard error, once. The environment variable OPENMM_DCH=1 does
     the same from the start.
 
+    precision is that of the platform CPU: "mixed" (pairs in single precision, sums in double) or "double", which takes
+    longer: reciprocal space is OpenMM's function on one thread then, and implicit solvent has one thread too. Reference
+    is in double always.
+
     Warns the first time if Contexts were made after the import of the package, which keep what they have. Raises
-    OpenMMException if the kernels are missing.
+    OpenMMException if the kernels are missing, and ValueError for another precision.
     """
+    if precision not in _PRECISIONS:
+        raise ValueError(f"openmm_dch.enable(): precision is {precision!r}; give one of {sorted(_PRECISIONS)}")
     if _force.countOfForcesBeforeDropIn() > 0:
         warnings.warn("openmm_dch.enable(): Contexts that were made before keep OpenMM's own forces; call enable() "
                       "first, or context.reinitialize(preserveState=True) of each", stacklevel=2)
-    _force.enableDropIn()
+    _force.enableDropIn(_PRECISIONS[precision])
 
 
 def disable():

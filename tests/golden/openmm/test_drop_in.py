@@ -66,6 +66,20 @@ class DropInTest(unittest.TestCase):
                     self.assertLess(relative_error(expected[1], forces), TOLERANCE[platform])
             self.assertEqual(openmm.XmlSerializer.serialize(system), untouched)
 
+    def test_in_double(self):
+        self.assertRaisesRegex(ValueError, "precision is 'single'.*double.*mixed", openmm_dch.enable, "single")
+        system, positions, _ = pme_water()
+        ours, _, _ = water_box()
+        openmm_dch.replaceNonbonded(ours)
+        for each in (system, ours):
+            expected = energy_and_forces(context_of(each, "Reference"), positions)
+            errors = []
+            for precision in ("double", "mixed"):
+                openmm_dch.enable(precision)
+                errors.append(relative_error(expected[1], energy_and_forces(context_of(each, "CPU"), positions)[1]))
+            self.assertLess(errors[0], 1e-10)
+            self.assertGreater(errors[1], 1e-8)
+
     def test_forces_of_our_own_are_named_too(self):
         system, _, _ = water_box()
         openmm_dch.replaceNonbonded(system)
@@ -142,7 +156,7 @@ class ScriptTest(unittest.TestCase):
               "system, positions, _ = water_box()\n"
               "force = [f for f in system.getForces() if isinstance(f, openmm.NonbondedForce)][0]\n"
               "contexts = []\n"
-              "for method in (force.CutoffPeriodic, force.Ewald, force.Ewald):\n"
+              "for method in (force.CutoffPeriodic, force.LJPME, force.LJPME):\n"
               "    force.setNonbondedMethod(method)\n"
               "    contexts.append(context_of(system, 'CPU'))\n"
               "loaded = 'openmm_dch' in sys.modules\n"
@@ -154,8 +168,8 @@ class ScriptTest(unittest.TestCase):
         for script in (self.SCRIPT, looks_first + self.SCRIPT):
             out, err = run_script(script, OPENMM_DCH="1")
             self.assertEqual(out, "True DCH OpenMM OpenMM\n", err)
-            self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method Ewald is not covered; "
-                                  "PME is, and is faster\n")
+            self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method LJPME is not "
+                                  "covered\n")
 
     def test_where_there_is_no_openmm_the_variable_does_no_harm(self):
         out, err = run_script("import sys\n"

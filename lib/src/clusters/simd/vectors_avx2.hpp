@@ -113,6 +113,7 @@ struct Avx2Double {
   static constexpr int kLanes = 4, kRegisters = 4;
 
   static V zero() { return _mm256_setzero_pd(); }
+  static V load(const double* p) { return _mm256_loadu_pd(p); }
   static V set1(double v) { return _mm256_set1_pd(v); }
   static V add(V a, V b) { return _mm256_add_pd(a, b); }
   static V sub(V a, V b) { return _mm256_sub_pd(a, b); }

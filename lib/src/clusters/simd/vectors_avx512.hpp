@@ -128,6 +128,7 @@ struct Avx512Double {
   static constexpr int kLanes = 8, kRegisters = 2;
 
   static V zero() { return _mm512_setzero_pd(); }
+  static V load(const double* p) { return _mm512_loadu_pd(p); }
   static V set1(double v) { return _mm512_set1_pd(v); }
   static V add(V a, V b) { return _mm512_add_pd(a, b); }
   static V sub(V a, V b) { return _mm512_sub_pd(a, b); }

@@ -22,6 +22,9 @@ class DropInRegistry {
 
   void setEnabled(bool value);
   bool isEnabled();
+  /// Of kernels of ours that are made from now on, on platforms that have a choice.
+  void setDouble(bool value);
+  bool isDouble();
   /// A platform now has the kernels.
   void addPlatform(const std::string& name);
   bool hasPlatform(const std::string& name);
@@ -42,7 +45,7 @@ class DropInRegistry {
   DropInRegistry();
 
   std::mutex mutex;
-  bool enabled, wasEnabled;
+  bool enabled, wasEnabled, isAllDouble = false;
   int natives = 0;
   std::set<std::string> platforms, said;
   std::map<std::pair<const OpenMM::Context*, const OpenMM::Force*>, NonbondedStatus> statusOf;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ReferenceReciprocalSum.h"
+#include "DoubleMeshSum.h"
 
 #include <openmm/reference/ReferencePME.h>
 #include <openmm/reference/ReferencePlatform.h>
@@ -11,14 +11,14 @@ constexpr int kOrder = 5;  // of the splines, as in OpenMM
 
 }  // namespace
 
-void ReferenceReciprocalSum::start(int particles) {
+void DoubleMeshSum::start(int particles) {
   OpenMM::pme_t made = nullptr;
   OpenMM::pme_init(&made, alpha, particles, grid, kOrder, 1);
   function.reset(static_cast<void*>(made),
                  [](void* kept) { OpenMM::pme_destroy(static_cast<OpenMM::pme_t>(kept)); });
 }
 
-double ReferenceReciprocalSum::addMesh(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
+double DoubleMeshSum::addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
   auto& data = *static_cast<OpenMM::ReferencePlatform::PlatformData*>(context.getPlatformData());
   double energy = 0;
   OpenMM::pme_exec(static_cast<OpenMM::pme_t>(function.get()), *data.positions, *data.forces, charges,

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#ifndef OPENMM_DCH_REFERENCE_RECIPROCAL_SUM_H_
-#define OPENMM_DCH_REFERENCE_RECIPROCAL_SUM_H_
+#ifndef OPENMM_DCH_DOUBLE_MESH_SUM_H_
+#define OPENMM_DCH_DOUBLE_MESH_SUM_H_
 
 #include <memory>
 
-#include "ReciprocalSum.h"
+#include "MeshSum.h"
 
 namespace OpenMMDCH {
 
 /// By OpenMM's own function, in double, on one thread.
-class ReferenceReciprocalSum : public ReciprocalSum {
+class DoubleMeshSum : public MeshSum {
  public:
   std::string computedBy() const override { return "OpenMM"; }
 
  protected:
   void start(int particles) override;
-  double addMesh(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
+  double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
 
  private:
   std::shared_ptr<void> function;  ///< what OpenMM's function keeps

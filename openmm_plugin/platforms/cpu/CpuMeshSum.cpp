@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "CpuReciprocalSum.h"
+#include "CpuMeshSum.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace OpenMMDCH {
 
-void CpuReciprocalSum::start(int) {
+void CpuMeshSum::start(int) {
   withErrorsOfHost([&] {
     mesh.emplace(std::array<int, 3>{grid[0], grid[1], grid[2]}, alpha, PairPotential::coulombConstant());
   });
@@ -18,7 +18,7 @@ void CpuReciprocalSum::start(int) {
   std::copy(sizes.begin(), sizes.end(), grid);
 }
 
-double CpuReciprocalSum::addMesh(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
+double CpuMeshSum::addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
   const HostState state = hostStateOf(context, true);
   return withErrorsOfHost(
       [&] { return mesh->add_forces(state.positions, charges, state.box, state.forces); });

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#ifndef OPENMM_DCH_MESH_SUM_H_
+#define OPENMM_DCH_MESH_SUM_H_
+
+#include "ReciprocalSum.h"
+
+namespace OpenMMDCH {
+
+/// Particle mesh Ewald.
+class MeshSum : public ReciprocalSum {
+ public:
+  /// Grid and splitting are those that OpenMM chooses; a platform may have a finer grid.
+  void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) override;
+  const int* gridSize() const override { return grid; }
+
+ protected:
+  /// The grid is known.
+  virtual void start(int particles) = 0;
+
+  int grid[3]{};
+};
+
+}  // namespace OpenMMDCH
+
+#endif
