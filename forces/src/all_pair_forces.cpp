@@ -109,9 +109,10 @@ AllPairForces::AllPairForces(Span<const LennardJonesParticle> particles, Span<co
   if (!(std::isfinite(constant) && constant >= 0))
     throw InvalidParameter("the constant of all pairs is " + detail::describe(constant) +
                            "; it must be finite and not negative");
-  for (Numbers* numbers : {&all.half_sigma, &all.root_epsilon, &all.charge, &all.high[0], &all.high[1],
-                           &all.high[2], &all.low[0], &all.low[1], &all.low[2]})
+  for (Numbers* numbers : {&all.half_sigma, &all.root_epsilon, &all.charge})
     numbers->resize(all.blocks * kBlock);
+  for (ThreeNumbers* three : {&all.high, &all.low})
+    for (Numbers& numbers : *three) numbers.resize(all.blocks * kBlock);
   for (std::size_t i = 0; i < all.count; ++i) {
     const auto [epsilon, sigma] = particles[i];
     check_number("epsilon", i, epsilon, false);

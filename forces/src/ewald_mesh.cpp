@@ -104,7 +104,7 @@ struct EwaldMesh::Impl {
     energies.resize(planes());
   }
 
-  std::size_t planes() const { return static_cast<std::size_t>(shape.x / 2 + 1); }
+  std::size_t planes() const { return static_cast<std::size_t>(shape.x) / 2 + 1; }
   int workers() const { return executor ? executor->threads() : 1; }
   void prepare(const Box& now);
   double weight(double x, double y, double z) const;

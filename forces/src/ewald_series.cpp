@@ -57,7 +57,7 @@ std::vector<double> fit(const F& f, int terms, double& error) {
       sum += values[static_cast<std::size_t>(j)] * std::cos(kPi * k * (j + 0.5) / terms);
     chebyshev.push_back((k == 0 ? 1.0 : 2.0) / terms * sum);
   }
-  const std::vector<double> powers = powers_of(chebyshev);
+  std::vector<double> powers = powers_of(chebyshev);
   constexpr int kSamples = 200;
   for (int k = 0; k <= kSamples; ++k) {
     const double u = 2.0 * k / kSamples - 1;

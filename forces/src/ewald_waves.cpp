@@ -116,15 +116,15 @@ void EwaldWaves::Impl::find_sums() {
   const std::size_t parts = (blocks() + kBlocksOfPart - 1) / kBlocksOfPart;
   detail::Turns turns(static_cast<int>(parts));
   detail::run_parts(executor, static_cast<int>(by_worker.size()), [&](int worker) {
-    auto& [block, lanes] = by_worker[static_cast<std::size_t>(worker)];
+    Worker& own = by_worker[static_cast<std::size_t>(worker)];
     for (int part = turns.take(); part >= 0; part = turns.take()) {
-      lanes.assign(sums.size() * kWaveLanes, 0);
+      own.lanes.assign(sums.size() * kWaveLanes, 0);
       const auto first = static_cast<std::size_t>(part) * kBlocksOfPart;
       for (std::size_t b = first; b < std::min(first + kBlocksOfPart, blocks()); ++b)
-        kernels.gather(take(b, block), lanes.data());
+        kernels.gather(take(b, own.block), own.lanes.data());
       turns.in_turn(part, [&] {
         for (std::size_t s = 0; s < sums.size(); ++s)
-          for (std::size_t k = 0; k < kWaveLanes; ++k) sums[s] += lanes[s * kWaveLanes + k];
+          for (std::size_t k = 0; k < kWaveLanes; ++k) sums[s] += own.lanes[s * kWaveLanes + k];
       });
     }
   });

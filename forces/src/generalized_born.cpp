@@ -124,8 +124,7 @@ detail::BornConstants BornSums::constants() const {
   return all;
 }
 
-void BornSums::sort(const ClusterPairs& pairs, Span<const double> numbers, Slots& slots,
-                    float padding) const {
+void BornSums::sort(const ClusterPairs& pairs, Span<const double> numbers, Slots& slots, float padding) {
   slots.resize(static_cast<std::size_t>(pairs.clusters()));
   for (std::size_t c = 0; c < slots.size(); ++c) {
     for (float& number : slots[c].slot) number = padding;

@@ -72,7 +72,7 @@ SignChanges sign_changes(const Value& value, const Slope& slope, const SignChang
     double high = is_last ? low : turns.at[static_cast<std::size_t>(k)];
     const int sign_high = is_last ? last_sign : sign(value(high));
     if (sign_low * sign_high < 0) {
-      walk.stretch(low, sign_low);
+      walk.stretch(low, sign_low);  // NOLINT(readability-suspicious-call-argument): low is where it begins
       if (is_last) {
         high = low > 0 ? 2 * low : 1;
         while (high < kMaxMagnitude && sign(value(high)) != sign_high) high *= 2;
@@ -141,15 +141,16 @@ DistanceOrder::DistanceOrder(const PairPath& first, const PairPath& second) {
 }
 
 int DistanceOrder::sign_after(double time) const {
-  const auto end = changes_.begin() + count_;
-  const auto passed = std::upper_bound(changes_.begin(), end, time) - changes_.begin();
+  const double* const first = changes_.data();
+  const auto passed = std::upper_bound(first, first + count_, time) - first;
   return passed % 2 == 0 ? first_sign_ : -first_sign_;
 }
 
 double DistanceOrder::next_change(double time) const {
-  const auto end = changes_.begin() + count_;
-  const auto next = std::upper_bound(changes_.begin(), end, time);
-  return next == end ? kNever : *next;
+  const double* const end = changes_.data() + count_;
+  const double* const next = std::upper_bound(changes_.data(), end, time);
+  if (next == end) return kNever;
+  return *next;
 }
 
 }  // namespace dch::kinetic

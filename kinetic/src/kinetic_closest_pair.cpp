@@ -30,6 +30,7 @@ constexpr double kMaxCutoff = 0.01 * kMaxListRadius;
 /// A distance within which the share of points kShareNear have a neighbor, by a sample of them.
 double sample_neighbor_distance(const Box& box, const std::vector<FlightPlan>& plans, double now) {
   std::vector<Vec3> at;
+  at.reserve(plans.size());
   for (const FlightPlan& plan : plans) at.push_back(box.wrap(position_at(plan, now)));
   const std::size_t samples = std::min(kSamples, at.size());
   std::vector<double> nearest2(samples, kNever);

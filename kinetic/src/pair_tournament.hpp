@@ -63,7 +63,10 @@ class PairTournament {
     if (k < leaves_) return nodes_[k].winner;
     return is_there_[k - leaves_] ? static_cast<std::int32_t>(k - leaves_) : -1;
   }
-  double next(std::size_t k) const { return k < leaves_ ? nodes_[k].next : kNever; }
+  double next(std::size_t k) const {
+    if (k < leaves_) return nodes_[k].next;
+    return kNever;
+  }
   double next_of(std::size_t k) const { return std::min({nodes_[k].fails, next(2 * k), next(2 * k + 1)}); }
 
   std::size_t leaves_ = 2;  ///< a power of two; leaf k has the number leaves_ + k, the root 1

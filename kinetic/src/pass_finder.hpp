@@ -37,8 +37,8 @@ class PassFinder {
   }
 
  private:
-  std::optional<PassingContact> closed_form(std::int32_t i, std::int32_t j, Vec3 apart, Vec3 rate,
-                                            double before2, double after2) const;
+  std::optional<PassingContact> closed_form(std::int32_t i, std::int32_t j, Vec3 d, Vec3 v, double before2,
+                                            double after2) const;
   /// Whether a frame shows the pair: where rounding may decide, as lists do.
   bool is_shown(double distance2, const detail::PairFilter& frame, std::int32_t i, std::int32_t j) const {
     if (distance2 > out_above_) return false;

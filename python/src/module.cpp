@@ -21,7 +21,7 @@ py::object add_error(py::module_& m, const char* name, const py::object& base, c
 
 /// Errors of the library, the more special ones last, which are tried first.
 void add_errors(py::module_& m) {
-  const py::object value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
+  const auto value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
   const py::object invalid =
       add_error<dch::Error>(m, "InvalidParameter", value_error,
                             "An argument that does not fit; the message names value, limit and remedy.");
@@ -31,6 +31,7 @@ void add_errors(py::module_& m) {
   add_error<dch::CutoffTooLarge>(
       m, "CutoffTooLarge", invalid,
       "A cutoff beyond half the smallest height of the cell, where that is the limit.");
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11's signature
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -8,7 +8,7 @@
 
 namespace dch::python {
 
-Request::Request(Doubles cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half,
+Request::Request(const Doubles& cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half,
                  std::optional<Ints> exclusions)
     : types_(std::move(types)), radii_(std::move(radii)), half_(half), excluded_(std::move(exclusions)) {
   if (!radii_) cutoffs_ = cutoffs_of(cutoffs);

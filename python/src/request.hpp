@@ -18,7 +18,7 @@ class Request {
  public:
   /// @param exclusions pairs of particles (m, 2) that are left out
   /// @throws InvalidParameter for cutoffs as TypeCutoffs, for exclusions of another shape
-  Request(Doubles cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half,
+  Request(const Doubles& cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half,
           std::optional<Ints> exclusions);
 
   /// For n particles; holds until the next call for another number of them.

@@ -17,10 +17,10 @@ namespace {
 
 /// Coefficients for y = s^2/r^2 up to kBornFarRatio2, by Chebyshev's points: of sum k/(2k+1) y^(k-1), within
 /// 9e-8, and of sum k (2k+2)/(2k+1) y^(k-1), within 3e-8. Highest power first.
-constexpr float kFarIntegral[] = {0.887233264f, 0.347113218f, 0.456125209f,
-                                  0.428014239f, 0.400009533f, 0.333333307f};
-constexpr float kFarSlope[] = {17.5690884f, 3.26414936f, 5.91667302f, 4.41134255f,
-                               3.42967669f, 2.39998639f, 1.33333336f};
+inline constexpr float kFarIntegral[] = {0.887233264f, 0.347113218f, 0.456125209f,
+                                         0.428014239f, 0.400009533f, 0.333333307f};
+inline constexpr float kFarSlope[] = {17.5690884f, 3.26414936f, 5.91667302f, 4.41134255f,
+                                      3.42967669f, 2.39998639f, 1.33333336f};
 
 template <class S, int kTerms>
 typename S::V born_series(const float (&term)[kTerms], typename S::V y) {

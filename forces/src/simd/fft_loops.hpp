@@ -85,8 +85,9 @@ void fft_step(const FftPlan::Step& step, std::size_t width, float sign, ComplexA
     Elements<kRadix> twiddle;
     ComplexArray in[kRadix], out[kRadix];
     for (int k = 0; k < kRadix; ++k) {
-      twiddle.re[k] = step.twiddles[static_cast<std::size_t>(2 * (kRadix * p + k))];
-      twiddle.im[k] = sign * step.twiddles[static_cast<std::size_t>(2 * (kRadix * p + k) + 1)];
+      const std::size_t number = 2 * static_cast<std::size_t>(kRadix * p + k);
+      twiddle.re[k] = step.twiddles[number];
+      twiddle.im[k] = sign * step.twiddles[number + 1];
       const std::size_t source = width * static_cast<std::size_t>(p + step.rows * k);
       const std::size_t target = width * static_cast<std::size_t>(kRadix * p + k);
       in[k] = {from.re + source, from.im + source};

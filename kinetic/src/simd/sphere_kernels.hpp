@@ -26,7 +26,7 @@ struct alignas(64) Flight {
 
 /// What kernels have to know of a box.
 struct NearestImages {
-  explicit NearestImages(const Images& images);
+  explicit NearestImages(const Images& of);
 
   double sure2;  ///< square of a displacement that is surely the nearest image [length^2]
   Vec3 periods;  ///< of an orthorhombic box, infinite along open axes; 0 in other boxes

@@ -25,8 +25,8 @@ using detail::kWidth;
 using detail::load;
 using detail::store;
 using Masks __attribute__((vector_size(kWidth * sizeof(double)))) = std::int64_t;
-constexpr std::size_t kLanes = kWidth;
-constexpr double kNone = std::numeric_limits<double>::infinity();
+inline constexpr std::size_t kLanes = kWidth;
+inline constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// A bit for each lane.
 inline unsigned bits_of(const Masks& masks) {
@@ -114,8 +114,8 @@ struct Flights {
 }
 
 /// Adds what brings the pairs of the marked lanes to their nearest images.
-[[gnu::noinline]] void shift_lanes(unsigned far, const NearestImages& box, const Vectors& present,
-                                   Vectors& apart) {
+[[gnu::noinline]] inline void shift_lanes(unsigned far, const NearestImages& box, const Vectors& present,
+                                          Vectors& apart) {
   double at[3][kLanes], to[3][kLanes];
   store(present.x, at[0]);
   store(present.y, at[1]);
@@ -154,8 +154,9 @@ inline void time_of_contact(const Vectors& r, const Vectors& v, const Doubles& d
   time = meets ? (zero + now < at ? at : zero + now) : zero + kNone;
 }
 
-double contact_times(const Flight* flights, std::int32_t id, const std::int32_t* row, std::size_t count,
-                     const NearestImages& box, const ContactLaw& law, double* times) {
+inline double contact_times(const Flight* flights, std::int32_t id, const std::int32_t* row,
+                            std::size_t count, const NearestImages& box, const ContactLaw& law,
+                            double* times) {
   const Flight self = flights[id];
   const Doubles zero{};
   Doubles least = zero + kNone;
@@ -196,7 +197,7 @@ struct Balls {
   Balls(const Ball* balls, const LaneIds& lanes) {
     if constexpr (kLanes == 8) {
       for (std::size_t k = 0; k < 4; ++k) {
-        const double* const second = reinterpret_cast<const double*>(balls + lanes.id[(k + 4) % kLanes]);
+        const auto* const second = reinterpret_cast<const double*>(balls + lanes.id[(k + 4) % kLanes]);
         __builtin_memcpy(&field[k], balls + lanes.id[k], sizeof(Ball));
         __builtin_memcpy(reinterpret_cast<char*>(&field[k]) + sizeof(Ball), second, sizeof(Ball));
       }
@@ -213,8 +214,8 @@ struct Balls {
 };
 
 /// Which of the marked lanes have an image within reach.
-[[gnu::noinline]] unsigned find_near_images(unsigned far, const NearestImages& box, const Vectors& apart,
-                                            const Doubles& reach2) {
+[[gnu::noinline]] inline unsigned find_near_images(unsigned far, const NearestImages& box,
+                                                   const Vectors& apart, const Doubles& reach2) {
   unsigned touch = 0;
   for (; far != 0; far &= far - 1) {
     const int lane = __builtin_ctz(far);
@@ -224,8 +225,8 @@ struct Balls {
   return touch;
 }
 
-std::size_t find_touching(const Ball* balls, std::int32_t id, const std::int32_t* row, std::size_t count,
-                          const NearestImages& box, std::int32_t* found) {
+inline std::size_t find_touching(const Ball* balls, std::int32_t id, const std::int32_t* row,
+                                 std::size_t count, const NearestImages& box, std::int32_t* found) {
   const Ball self = balls[id];
   std::size_t size = 0;
   for (std::size_t k = 0; k < count; k += kLanes) {

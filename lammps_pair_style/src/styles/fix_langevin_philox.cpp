@@ -82,7 +82,8 @@ void FixLangevinPhilox::read_keywords(int narg, char** arg) {
       is_zeroed_ = value == "yes";
     } else if (keyword == "angmom" || keyword == "gjf" || keyword == "omega" || keyword == "tally") {
       if (value != "no")
-        error->all(FLERR, name_ + "it has no '" + keyword + " " + value + "'; use fix langevin");
+        error->all(FLERR, name_ + "it has no '" + std::string(arg[at]).append(" ").append(value) +
+                              "'; use fix langevin");
     } else {
       error->all(FLERR, name_ + "unknown keyword '" + keyword + "'; there are scale and zero");
     }

@@ -45,7 +45,7 @@ HomeImages::HomeImages(Span<const Vec3> given, const Box& box)
   }
 }
 
-CellImages::CellImages(const Box& box, const Multiples& low, const Multiples& high) : low_(low), width_{} {
+CellImages::CellImages(const Box& box, const Multiples& low, const Multiples& high) : low_(low) {
   for (std::size_t k = 0; k < 3; ++k) width_[k] = high[k] - low[k] + 1;
   const Lattice lattice(box);
   std::array<Vec3, 3> integers{};

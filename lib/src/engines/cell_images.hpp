@@ -48,7 +48,7 @@ class CellImages {
   const std::vector<Vec3>& vectors() const { return vectors_; }             ///< by number [length]
 
  private:
-  Multiples low_, width_;
+  Multiples low_, width_{};
   std::vector<HomeImages::Shift> shifts_;
   std::vector<Vec3> vectors_;
 };

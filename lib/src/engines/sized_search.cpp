@@ -209,6 +209,7 @@ UnlistedPair SizedSearch::unlisted_pair(const UnlistedQuestion& question) {
   const UnlistedPairs pairs(question, positions_, box_, error);
   return with_metric(box_, [&](const auto& metric) {
     std::vector<LeafCrescents<std::decay_t<decltype(metric)>>> crescents;
+    crescents.reserve(structures.size());
     for (const Structure* structure : structures) crescents.emplace_back(metric, *structure);
     return pairs.find([&](const Crescent& crescent) {
       const std::int32_t i = crescent.particle;

@@ -114,7 +114,7 @@ struct Surroundings {
         const TwoPoints::Pair x = two[k];
         least[k] = x < least[k] ? x : least[k];
         most[k] = x > most[k] ? x : most[k];
-        differences[k] += x - x;
+        differences[k] += x - x;  // NOLINT(misc-redundant-expression): see above
       }
     };
     const std::size_t n = positions.size();

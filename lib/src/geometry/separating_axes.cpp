@@ -32,7 +32,7 @@ class Origin {
       reach += std::abs(dot(g, axis));
       magnitudes += magnitude(g, axis);
     }
-    const double count = static_cast<double>(generators_.size());
+    const auto count = static_cast<double>(generators_.size());
     const double margin = margin_ > 0 ? margin_ * std::sqrt(norm2(axis)) : 0;
     const double error = (count + 16) * (kEpsilon * (magnitudes + margin) +
                                          std::numeric_limits<double>::min() * (1 + margin_));

@@ -29,7 +29,7 @@ BrickBins bricks_of(const BrickCell& box, const CellLayout::Axes& axes, const Ce
 CellBins::CellBins(const Box& box, const CellLayout& layout, const CellRounding& rounding)
     : box_(&box), layout_(layout), round_(rounding) {
   if (!layout.has_right_angles() || box.kind() == Box::Kind::triclinic) return;
-  const BrickCell cell = box.any_periodic() ? OrthorhombicMetric(box).brick() : OpenMetric(box).brick();
+  const BrickCell cell = box.any_periodic() ? OrthorhombicMetric(box).brick() : OpenMetric::brick();
   bricks_ = bricks_of(cell, layout.axes(), round_);
   bin_points_ = bin_points(instruction_set());
 }

@@ -47,7 +47,7 @@ void GridSearch::take(Span<const Vec3> positions, const Box& box, Span<const std
 /// In one pass. Returns a bound on WrapError::reach of the positions [length].
 double GridSearch::take_and_check(Span<const Vec3> positions, const PositionCheck& check) {
   // Cells for lists as the last ones, of a point that is in order at least.
-  Group* const group = groups_.size() == 1 && groups_[0].last.reach > 0 ? &groups_[0] : nullptr;
+  Group* const group = groups_.size() == 1 && groups_[0].last.reach > 0 ? groups_.data() : nullptr;
   std::optional<CellBins> bins;
   if (group != nullptr) fine_ = group->last.fine;
   if (group != nullptr && !positions.empty() && check.reach_by_box({positions.data(), 1}))
@@ -89,7 +89,7 @@ std::optional<CellBins> GridSearch::start_cells(Group& group, Span<const Vec3> p
                                                          : CellUse::alone);
   // As GridRows rounds the first layer; others are rounded for each layer that they meet.
   CellRounding rounding;
-  if (&group == &groups_[0] && !positions.empty())
+  if (&group == groups_.data() && !positions.empty())
     rounding = {box_.wrap(positions[0]), finest_unit(widest_in(layout, half_stencil(layout, own)))};
   const std::size_t n = groups_.size() > 1 ? group.particle.size() : positions.size();
   if (!group.layer.start(n, box_, layout, rounding)) return std::nullopt;

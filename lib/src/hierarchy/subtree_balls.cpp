@@ -72,8 +72,8 @@ void SubtreeBalls::add_point(const Structure& structure, std::int32_t slot) {
   with_metric(structure.box, [&](const auto& metric) {
     const Vec3 at = structure.points.position[slot];
     const Vec3 offset = metric.displacement(structure.levels[1].position[leaf], at);
-    const float x = static_cast<float>(offset.x), y = static_cast<float>(offset.y),
-                z = static_cast<float>(offset.z);
+    const auto x = static_cast<float>(offset.x), y = static_cast<float>(offset.y),
+               z = static_cast<float>(offset.z);
     const float corner[3] = {x, y, z};
     if (slot % kBlock == 0) {  // the first one of a block
       boxes_.add(leaf, slot / kBlock, {{x, y, z}, {x, y, z}});

@@ -87,7 +87,6 @@ LeafCrescents<Metric>::LeafCrescents(const Metric& metric, const Structure& stru
       structure_(structure),
       motion_(structure.pending ? structure.motion : 0),
       others_(structure.leaves.largest_extent),
-      singletons_(0),
       shortest_(structure.box.shortest_period()) {
   if (!structure.pending) return;
   const double certified =

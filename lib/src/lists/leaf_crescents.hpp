@@ -39,10 +39,11 @@ class LeafCrescents {
 
   const Metric& metric_;
   const Structure& structure_;
-  double motion_;      ///< of nodes of level 1 since parents were in order, at most [length]
-  double others_;      ///< how far from its center, where edges were made, a leaf's points may be [length]
-  double singletons_;  ///< how much farther than coverage says a singleton may be from its parent [length]
-  double shortest_;    ///< period of the box [length]
+  double motion_;  ///< of nodes of level 1 since parents were in order, at most [length]
+  double others_;  ///< how far from its center, where edges were made, a leaf's points may be [length]
+  double singletons_ =
+      0;             ///< how much farther than coverage says a singleton may be from its parent [length]
+  double shortest_;  ///< period of the box [length]
 };
 
 }  // namespace dch::detail

@@ -91,6 +91,7 @@ double shift_error_of(const ListScene& scene, std::size_t s, double unit, bool o
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): parts_ are what find_with() works on
 void LeafRows::find(const ListScene& scene, const std::vector<const PairFilter*>& filters,
                     const std::vector<NeighborList*>& out) {
   with_metric(scene.box, [&](const auto& metric) { find_with(metric, scene, filters, out); });

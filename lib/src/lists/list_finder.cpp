@@ -90,7 +90,7 @@ void distribute_pairs(const NeighborList& found, std::size_t n, ListKind kind, s
 
 void ListFinder::find(const ListTask& task, Span<const ListParams> requests, const FindRows& find_rows,
                       const std::vector<NeighborList*>& out) {
-  const auto farthest = std::max_element(
+  const auto* const farthest = std::max_element(
       requests.begin(), requests.end(),
       [](const ListParams& a, const ListParams& b) { return a.list_radius() < b.list_radius(); });
   const bool alike = std::all_of(requests.begin(), requests.end(), [&](const ListParams& request) {

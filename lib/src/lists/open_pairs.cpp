@@ -69,7 +69,7 @@ void apply_edits(Span<const RowEdit> edits, std::int32_t* ids, Span<std::int32_t
   }
   by = 0;
   const RowEdit* edit = edits.begin();
-  for (std::size_t segment = static_cast<std::size_t>(edit->segment); segment + 1 < ends.size(); ++segment) {
+  for (auto segment = static_cast<std::size_t>(edit->segment); segment + 1 < ends.size(); ++segment) {
     for (; edit != edits.end() && edit->segment == static_cast<std::int32_t>(segment); ++edit)
       by += more_by(*edit);
     ends[segment + 1] += by;

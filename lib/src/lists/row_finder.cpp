@@ -94,8 +94,9 @@ void RowFinder::make_room(std::int32_t count) {
 
 /// Writes the rows of a group as the kernels find them, and notes where each segment ends and what they leave
 /// open.
-void RowFinder::write_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first,
-                            std::int32_t last, std::int32_t* to) {
+void RowFinder::write_group(
+    const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
+    std::int32_t* to) {  // NOLINT(readability-non-const-parameter): kernels write there
   const ListLimits& limits = request.limits;
   const bool take_open = request.filter->params().superset || limits.per_pair;
   RowLimits all = limits.for_rows(limits.all, take_open);

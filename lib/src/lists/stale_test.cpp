@@ -32,8 +32,9 @@ template <class Expected>
 bool any_beyond(Span<const Vec3> now, Span<const Vec3> then, std::size_t first, std::size_t end,
                 const Expected& expected, double allowed2) {
   const auto is_beyond = [&](Vec3 a, Vec3 b) { return norm2(a - expected(b)) <= allowed2 ? 0 : 1; };
-  return std::transform_reduce(std::next(now.begin(), first), std::next(now.begin(), end),
-                               std::next(then.begin(), first), 0, std::plus<>(), is_beyond) != 0;
+  const auto begin = static_cast<std::ptrdiff_t>(first), after = static_cast<std::ptrdiff_t>(end);
+  return std::transform_reduce(std::next(now.begin(), begin), std::next(now.begin(), after),
+                               std::next(then.begin(), begin), 0, std::plus<>(), is_beyond) != 0;
 }
 
 }  // namespace

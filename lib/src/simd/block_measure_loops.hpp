@@ -14,7 +14,7 @@ using Masks __attribute__((vector_size(kWidth * sizeof(double)))) = std::int64_t
 using Floats __attribute__((vector_size(kWidth * sizeof(float)))) = float;
 
 /// A number for each point of a block, in as many registers as that takes.
-constexpr int kRegisters = kBlock / kWidth;
+inline constexpr int kRegisters = kBlock / kWidth;
 using Lanes = Doubles[kRegisters];
 
 /// One coordinate of all points: wraps it, and makes it relative to the center. Marks points not in the cell.

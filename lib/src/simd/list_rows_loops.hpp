@@ -8,8 +8,8 @@
 namespace dch::detail {
 namespace {
 
-constexpr std::int32_t kAhead = 768;     ///< entries that memory is asked for before they are written
-constexpr std::int32_t kIdsInLine = 16;  ///< of a cache line
+inline constexpr std::int32_t kAhead = 768;     ///< entries that memory is asked for before they are written
+inline constexpr std::int32_t kIdsInLine = 16;  ///< of a cache line
 
 // NOLINTBEGIN(bugprone-easily-swappable-parameters): the signatures are those of ListKernels
 

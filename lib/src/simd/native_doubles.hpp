@@ -11,11 +11,11 @@ namespace dch::detail {
 namespace {
 
 #if defined(__AVX512F__)
-constexpr int kWidth = 8;
+inline constexpr int kWidth = 8;
 #elif defined(__AVX__)
-constexpr int kWidth = 4;
+inline constexpr int kWidth = 4;
 #else
-constexpr int kWidth = 2;
+inline constexpr int kWidth = 2;
 #endif
 
 using Doubles __attribute__((vector_size(kWidth * sizeof(double)))) = double;

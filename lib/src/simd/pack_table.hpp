@@ -15,7 +15,7 @@ struct PackTable {
     }
   }
 };
-constexpr PackTable kPack;
+inline constexpr PackTable kPack;
 
 }  // namespace
 }  // namespace dch::detail

@@ -191,9 +191,9 @@ bool readTable(const CustomGBForce& force, int index, const std::string& name, i
   if (width != height || width < 1 || (index > 0 && width != side)) return false;
   side = width;
   rows.resize(values.size());
-  for (int a = 0; a < side; ++a)
-    for (int b = 0; b < side; ++b)
-      rows[static_cast<std::size_t>(a * side + b)] = values[static_cast<std::size_t>(a + side * b)];
+  const auto count = static_cast<std::size_t>(side);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b) rows[a * count + b] = values[a + count * b];
   return true;
 }
 
@@ -241,7 +241,7 @@ std::string readMethod(const Force& force, BornModel& model) {
 }  // namespace
 
 std::string readModel(const GBSAOBCForce& force, BornModel& model) {
-  const std::string reason = readMethod(force, model);
+  std::string reason = readMethod(force, model);
   if (!reason.empty()) return reason;
   model.countsInside = true;
   const double solute = force.getSoluteDielectric(), solvent = force.getSolventDielectric();
@@ -265,7 +265,7 @@ void readChanges(const GBSAOBCForce& force, BornModel& model) {
 std::string readModel(const CustomGBForce& force, BornModel& model) {
   model.form = formOf(force, model);
   if (model.form < 0) return "a CustomGBForce other than those that openmm.app writes is not covered";
-  const std::string reason = readMethod(force, model);
+  std::string reason = readMethod(force, model);
   if (!reason.empty()) return reason;
   model.hct = forms()[static_cast<std::size_t>(model.form)].hct;
   readChanges(force, model);

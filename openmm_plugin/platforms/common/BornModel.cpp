@@ -90,7 +90,8 @@ ValueAndSlope integralOfPair(const BornModel& model, const BornModel::Particle& 
   ValueAndSlope all = descreening(r, particle.offsetRadius, other.scaledRadius, model.countsInside);
   const dch::BornNecks& necks = model.necks;
   if (necks.kinds == 0 || r > particle.offsetRadius + other.offsetRadius + necks.reach) return all;
-  const auto k = static_cast<std::size_t>(particle.kind * necks.kinds + other.kind);
+  const std::size_t k = static_cast<std::size_t>(particle.kind) * static_cast<std::size_t>(necks.kinds) +
+                        static_cast<std::size_t>(other.kind);
   const ValueAndSlope more = neck(r, necks.at[k], necks.height[k]);
   return {all.value + necks.scale * more.value, all.slope + necks.scale * more.slope};
 }

@@ -33,9 +33,11 @@ class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
   double execute(OpenMM::ContextImpl& ofContext, bool includeForces, bool includeEnergy, bool includeDirect,
                  bool includeReciprocal) override;
   // Before OpenMM 8.2, and from then on. The one that the host has not overrides nothing.
+  // NOLINTBEGIN(modernize-use-override)
   void copyParametersToContext(OpenMM::ContextImpl& ofContext, const OpenMM::NonbondedForce& force);
   void copyParametersToContext(OpenMM::ContextImpl& ofContext, const OpenMM::NonbondedForce& force,
                                int firstParticle, int lastParticle, int firstException, int lastException);
+  // NOLINTEND(modernize-use-override)
   void getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const override;
   void getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const override;
 

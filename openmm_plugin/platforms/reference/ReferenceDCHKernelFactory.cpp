@@ -53,7 +53,6 @@ class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
 extern "C" OPENMM_EXPORT void registerPlatforms() {}
 
 extern "C" OPENMM_EXPORT void registerKernelFactories() {
-  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): a Platform deletes its factories
   for (int k = 0; k < OpenMM::Platform::getNumPlatforms(); ++k) {
     OpenMM::Platform& platform = OpenMM::Platform::getPlatform(k);
     // By name: the CPU platform is a ReferencePlatform too.
@@ -64,6 +63,7 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
           OpenMM::CalcNonbondedForceKernel::Name(), OpenMM::CalcGBSAOBCForceKernel::Name(),
           OpenMM::CalcCustomGBForceKernel::Name()})
       platform.registerKernelFactory(name, factory);
+    // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): a Platform deletes its factories
     OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
   }
 }

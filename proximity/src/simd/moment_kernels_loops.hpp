@@ -49,7 +49,7 @@ inline void sum_moments_of(const MomentTask& task, std::int32_t k, int lane) {
   }
 }
 
-void sum_moments(const MomentTask& task) {
+inline void sum_moments(const MomentTask& task) {
   for (std::int32_t k = 0; k < task.count; k += kWidth) sum_moments_of(task, k, k % kMomentLanes);
 }
 

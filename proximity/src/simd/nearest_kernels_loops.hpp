@@ -44,7 +44,7 @@ struct NearestLoops {
 
   static std::int32_t select(const BoxAndReach& box, const NearBlocks& blocks, std::int32_t count,
                              std::int32_t* block, float* gap2) {
-    const Floats reach2 = all<Floats>(box.reach2);
+    const auto reach2 = all<Floats>(box.reach2);
     Ints number = numbers_from(0);
     std::int32_t found = 0;
     for (std::int32_t first = 0; first < count; first += kLanes, number += kLanes) {
@@ -81,8 +81,8 @@ struct NearestLoops {
 
   static std::int32_t search(const NearestTask& task, const NearPoints& points, std::int32_t first,
                              std::int32_t last, NearestFound& found) {
-    const Floats x = all<Floats>(task.at[0]), y = all<Floats>(task.at[1]), z = all<Floats>(task.at[2]);
-    const Floats reach2 = all<Floats>(task.reach2);
+    const auto x = all<Floats>(task.at[0]), y = all<Floats>(task.at[1]), z = all<Floats>(task.at[2]);
+    const auto reach2 = all<Floats>(task.reach2);
     const Ints own = all<Ints>(task.own_slot);
     std::int32_t count = found.count;
     for (; first < last && count <= found.room - kLanes; first += kLanes) {

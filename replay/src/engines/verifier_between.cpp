@@ -44,6 +44,7 @@ void Verifier::check_between(const Interval& interval) {
                                          interval.places[static_cast<std::size_t>(contact.j)]);
   });
   std::vector<std::int64_t> sampled_ids;
+  sampled_ids.reserve(sample.size());
   for (const std::int32_t atom : sample) sampled_ids.push_back(interval.ids[static_cast<std::size_t>(atom)]);
   std::sort(sampled_ids.begin(), sampled_ids.end());
   const auto is_sampled = [&](std::int64_t id) {

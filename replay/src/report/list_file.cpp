@@ -61,6 +61,7 @@ void ListFile::append(const IntervalRecord& interval, const std::vector<BetweenC
   if (contacts.empty()) return;
   const auto write = [&](const char* name, auto value) {
     std::vector<decltype(value(contacts[0]))> values;
+    values.reserve(contacts.size());
     for (const BetweenContact& contact : contacts) values.push_back(value(contact));
     file_.append(fmt::format("between/{}", name), 0, values);
   };

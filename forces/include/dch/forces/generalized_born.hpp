@@ -96,7 +96,7 @@ class BornSums {
   void check(const ClusterPairs& pairs, std::initializer_list<std::size_t> sizes) const;
   void prepare(const ClusterPairs& pairs);
   detail::BornConstants constants() const;
-  void sort(const ClusterPairs& pairs, Span<const double> numbers, Slots& slots, float padding) const;
+  static void sort(const ClusterPairs& pairs, Span<const double> numbers, Slots& slots, float padding);
   void sort_kinds(const ClusterPairs& pairs);
   static const detail::BornKernels& kernels();
   detail::BornConstants constants_of(const BornEnergy& energy) const;

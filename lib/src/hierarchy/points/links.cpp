@@ -66,7 +66,7 @@ std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int3
   if (nearest == kNone) {
     nearest = points.add_block(leaf);
     std::int32_t chain = nearest;
-    points.append(chain, first);
+    points.append(chain, first);  // NOLINT(readability-suspicious-call-argument): it comes before the others
     first = chain;
   }
   const std::int32_t slot = slot_of_id[point] = points.push(nearest, point, at);
