@@ -20,13 +20,14 @@ namespace {
 
 class Random {
  public:
+  explicit Random(std::uint64_t seed = 1) : engine_(seed) {}
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
   Vec3 in_cube(double half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
 
  private:
-  std::mt19937_64 engine_{1};
+  std::mt19937_64 engine_;
 };
 
 /// Spheres of diameter 1 on a simple cubic lattice, at a packing fraction.
@@ -187,37 +188,75 @@ BENCHMARK(list_of_a_frame)->Apply(intervals);
 BENCHMARK(contacts_between)->Apply(intervals);
 BENCHMARK(events_between)->Apply(intervals);
 
-/// Points of a cube that fly through it and on, until they have been past each other.
-void reference_counts(benchmark::State& state) {
-  const auto points = static_cast<double>(state.range(0));
-  const double half = 1.5 * std::cbrt(points);
-  Random random;
+double half_of_cube(std::int64_t points, int octaves) {
+  return std::ldexp(1.5 * std::cbrt(static_cast<double>(points)), octaves);
+}
+
+/// Points of a cube that fly through it and on, until they have been past each other. On their way the cube
+/// shrinks by so many octaves, and grows again: so all pairs pass the distances of as many more levels.
+std::vector<FlightPlan> passing_plans(std::int64_t points, int octaves, Random random) {
+  const double shrunk = std::ldexp(1, -octaves);
+  const double half = half_of_cube(points, octaves);
   std::vector<FlightPlan> plans;
-  for (std::int64_t k = 0; k < state.range(0); ++k) {
+  for (std::int64_t k = 0; k < points; ++k) {
     const Vec3 at = random.in_cube(half);
-    plans.push_back({0, at, random.in_cube(1) - (1 / half) * at, {}});
+    plans.push_back({0, at, random.in_cube(shrunk) - (1 / half) * at, {}});
   }
+  return plans;
+}
+
+/// Motion is linear, so no distance is larger in between than at both ends of a span.
+double largest_distance(const KineticEdges& points) {
+  double largest2 = 0;
+  const auto count = static_cast<std::int32_t>(points.size());
+  for (std::int32_t a = 0; a < count; ++a)
+    for (std::int32_t b = a + 1; b < count; ++b)
+      largest2 = std::max(largest2, norm2(points.position(b) - points.position(a)));
+  return std::sqrt(largest2);
+}
+
+void count_events_of_reference(benchmark::State& state, int octaves, std::uint64_t seed) {
+  const auto points = static_cast<double>(state.range(0));
+  const std::vector<FlightPlan> plans = passing_plans(state.range(0), octaves, Random(seed));
   KineticParams params;
   params.cutoff = 1;
   KineticCounters counted;
   int levels = 0;
+  double alpha = 0;
   for (auto _ : state) {
     const auto hierarchy = make_kinetic_hierarchy(params, plans, 0);
     levels = hierarchy->levels();
-    hierarchy->advance_to(6 * half);
+    alpha = largest_distance(*hierarchy) / params.cutoff;
+    hierarchy->advance_to(6 * half_of_cube(state.range(0), octaves));
     if (!hierarchy->validate().empty()) state.SkipWithError("the hierarchy is not valid");
     levels = std::max(levels, hierarchy->levels());
+    alpha = std::max(alpha, largest_distance(*hierarchy) / params.cutoff);
     counted = hierarchy->counters();
   }
   const auto events = static_cast<double>(counted.events());
   state.SetItemsProcessed(state.iterations() * counted.events());
   state.counters["events"] = events;
   state.counters["external"] = static_cast<double>(counted.external);
+  state.counters["levels"] = levels;
+  state.counters["lg_alpha"] = std::log2(alpha);
   state.counters["over_n2_levels"] = events / (points * points * levels);
   state.counters["certificates_a_point"] = static_cast<double>(counted.most_certificates) / points;
   state.counters["made_an_event"] = static_cast<double>(counted.made) / events;
 }
+
+void reference_counts(benchmark::State& state) { count_events_of_reference(state, 0, 1); }
 BENCHMARK(reference_counts)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Arg(400)->Unit(benchmark::kMillisecond);
+
+/// The same of other sets of as many points, and of sets that shrink.
+void reference_seeds(benchmark::State& state) {
+  count_events_of_reference(state, static_cast<int>(state.range(1)),
+                            static_cast<std::uint64_t>(state.range(2)));
+}
+BENCHMARK(reference_seeds)
+    ->ArgsProduct({{25, 50, 100, 200}, {0}, {2, 3}})
+    ->ArgsProduct({{50}, {4, 8, 16, 24}, {1, 2, 3}})
+    ->ArgsProduct({{25, 100, 200}, {16}, {1}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dch::kinetic

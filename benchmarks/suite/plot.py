@@ -111,7 +111,8 @@ def y_axis(x, y, title):
 
 
 def curves(plot):
-    """A line from point to point as they are given, with a mark at each that names its values."""
+    """A line from point to point as they are given, with a mark at each that names its values, and beside it the second
+    one in the series that are to be labelled."""
     values = [point for points in plot["series"].values() for point in points]
     left = 36 + LETTER * 6
     x = Axis([p[0] for p in values], left, left + PLOT_WIDTH, plot.get("logarithmic_x", False))
@@ -122,6 +123,8 @@ def curves(plot):
         path = " ".join(f"{x.at(a):.1f},{y.at(b):.1f}" for a, b in points)
         parts.append(f"<polyline points='{path}' fill='none' stroke='{color}' stroke-opacity='.5'/>")
         parts += [mark(x.at(a), y.at(b), color, f"{name}: {a:.4g}, {b:.3g}") for a, b in points]
+        if name in plot.get("labelled", ()):
+            parts += [text(x.at(a) + 6, y.at(b) + 12, f"{b:,.6g}", "start") for a, b in points]
     parts += legend(plot["series"], x.end)
     height = max(TOP + PLOT_HEIGHT, TOP + 18 * len(plot["series"])) + BOTTOM
     return document(x.end + 36 + width_of(plot["series"]), height, parts)

@@ -138,6 +138,15 @@ class Plots(unittest.TestCase):
         self.assertLess(row_x, row_y)
         self.assertEqual(row_y, row_y_too)
 
+    def test_marks_of_labelled_series_tell_their_values(self):
+        one = {"series": {"a": [[1, 46611.0], [2, 9.0]], "b": [[1, 777.0]]}, "x": "x", "y": "y", "logarithmic": True}
+        plain, labelled = plot.svg(one), plot.svg({**one, "labelled": ["a"]})
+        words = [t.text for t in xml.etree.ElementTree.fromstring(labelled).iter(SVG + "text")]
+        self.assertIn("46,611", words)
+        self.assertIn("9", words)
+        self.assertNotIn("777", words)
+        self.assertNotIn("46,611", plain)
+
     def test_labels_do_not_overlap(self):
         for low, high in ((1.0, 1.7), (0.02, 4.0), (1e-9, 1e3), (4000.0, 1e6)):
             axis = plot.Axis([low, high], 0, plot.PLOT_WIDTH, True)
