@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <dch/hierarchy/hierarchy.hpp>
+#include <dch/proximity/kept_nearest.hpp>
 #include <dch/proximity/nearest.hpp>
 
 namespace dch::bench {
@@ -100,6 +101,38 @@ void hierarchy(benchmark::State& state) {
   state.SetItemsProcessed(3 * state.iterations() * state.range(1));
 }
 
+/// The same with a grid, whose upkeep is part of the time.
+void kept_nearest(benchmark::State& state) {
+  const Course course(state.range(0), state.range(1));
+  double sum = 0;
+  KeptNearestWork work;
+  for (auto _ : state) {
+    state.PauseTiming();
+    HierarchyParams params;
+    params.radius = 1.5;
+    Hierarchy points(params);
+    points.build(course.start, Box::none());
+    KeptNearest kept;
+    kept.update(points.kept_view());
+    NearestRows row;
+    std::int32_t changed[2] = {};
+    state.ResumeTiming();
+    follow<std::int32_t>(
+        course, [&](std::size_t k) { return changed[0] = points.insert(course.added[k]); },
+        [&](std::int32_t id) { points.remove(changed[1] = id); },
+        [&](std::size_t k) {
+          kept.update(points.kept_view(), {changed, 2});
+          kept.of_positions({&course.asked[k], 1}, {}, row);
+          sum += row.distance2[0];
+        });
+    work = kept.work();
+  }
+  state.counters["descents"] = static_cast<double>(work.descents);
+  state.counters["grids"] = static_cast<double>(work.grids);
+  state.counters["sum"] = sum / static_cast<double>(state.iterations());
+  state.SetItemsProcessed(3 * state.iterations() * state.range(1));
+}
+
 void nanoflann_dynamic(benchmark::State& state) {
   const Course course(state.range(0), state.range(1));
   double sum = 0;
@@ -141,6 +174,7 @@ void nanoflann_dynamic(benchmark::State& state) {
       ->Args({1000000, 1000000}) \
       ->Unit(benchmark::kMillisecond)
 BENCHMARK(hierarchy)->DCH_RUNS;
+BENCHMARK(kept_nearest)->DCH_RUNS;
 BENCHMARK(nanoflann_dynamic)->DCH_RUNS;
 
 }  // namespace

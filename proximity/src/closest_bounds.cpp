@@ -33,6 +33,7 @@ void ClosestBounds::set_all(std::vector<Pair> pairs, std::int64_t asked_at) {
 
 void ClosestBounds::forget_all(const std::vector<char>& is_there) {
   std::vector<double> bounds;
+  bounds.reserve(is_there.size());
   for (const char is_one_there : is_there) bounds.push_back(is_one_there ? -kFar : kFar);
   set_all(std::vector<Pair>(is_there.size()), 0);
   bounds_ = Tournament<double>(std::move(bounds));
@@ -74,8 +75,8 @@ void ClosestBounds::shrink_all(double by) {
 }
 
 const ClosestBounds::Pair& ClosestBounds::closest() {
-  static constexpr Pair kNone{};
-  if (pairs_.empty()) return kNone;
+  static constexpr Pair kNoPair{};
+  if (pairs_.empty()) return kNoPair;
   while (pairs_.top().a >= 0 && is_stale(pairs_.winner())) demote(pairs_.winner());
   return pairs_.top();
 }

@@ -12,9 +12,9 @@
 #include <dch/base/error.hpp>
 #include <dch/proximity/kept_closest_pair.hpp>
 
-#include "close_grid.hpp"
 #include "closest_bounds.hpp"
 #include "closest_candidate.hpp"
+#include "closest_cells.hpp"
 #include "displacements.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
@@ -38,8 +38,6 @@ constexpr double kReach = 4;
 constexpr double kSteps = 16;
 /// Of all points, the share of those that are asked when all at once take no longer.
 constexpr std::size_t kShareOfAll = 8;
-/// A grid is made when as many points as this share of all have asked by descent: these took longer.
-constexpr std::int64_t kShareOfDescents = 32;
 
 }  // namespace
 
@@ -58,7 +56,8 @@ struct KeptClosestPair::Impl {
   void ask_all(const HierarchyView& view, Executor* executor);
   template <class Ask>
   void settle(const Ask& ask);
-  bool ask_grid(const Structure& structure, std::int32_t id, double reach, detail::ClosestCandidate& nearest);
+  bool ask_cells(const Structure& structure, std::int32_t id, double reach,
+                 detail::ClosestCandidate& nearest);
   double known_distance(const Structure& structure) const;
 
   void add_work(const NearestWork& more) {
@@ -77,9 +76,9 @@ struct KeptClosestPair::Impl {
   std::vector<std::int32_t> changed;  ///< in this call: they ask first
   ClosestBounds bounds;
   ClosestBounds::Pair last;
-  detail::CloseGrid grid;     ///< of `seen`, or empty
-  std::int64_t descents = 0;  ///< since it was made, or tried to
-  double motion = 0;          ///< by how much distances may have shrunk since the call before [length]
+  detail::ClosestCells cells;  ///< of `seen`, or empty
+  double slack = 0;            ///< by which distances may be off [length]
+  double motion = 0;           ///< by how much distances may have shrunk since the call before [length]
 };
 
 void KeptClosestPair::Impl::take_all(const Structure& structure) {
@@ -87,10 +86,10 @@ void KeptClosestPair::Impl::take_all(const Structure& structure) {
   seen = structure.raw;
   were_there.assign(seen.size(), 0);
   for (std::size_t k = 0; k < seen.size(); ++k)
-    were_there[k] = structure.contains(static_cast<std::int32_t>(k));
+    were_there[k] = structure.contains(static_cast<std::int32_t>(k)) ? 1 : 0;
   bounds.forget_all(were_there);
   changed.clear();
-  grid.clear();
+  cells.forget();
   last = {};
   motion = 0;
 }
@@ -100,7 +99,7 @@ void KeptClosestPair::Impl::grow(const Structure& structure) {
   seen.resize(ids);
   were_there.resize(ids, 0);
   bounds.grow(ids);
-  if (!grid.empty()) grid.grow(ids);
+  cells.grow(ids);
 }
 
 /// A point that is where it was has nothing to ask.
@@ -109,10 +108,10 @@ void KeptClosestPair::Impl::look_at(const Structure& structure, std::int32_t id)
   const auto k = static_cast<std::size_t>(id);
   const bool is_there_now = structure.contains(id);
   if (is_there_now == is_there(id) && (!is_there_now || seen[k] == structure.raw[k])) return;
-  if (!grid.empty() && is_there(id)) grid.remove(id);
-  were_there[k] = is_there_now;
+  if (is_there(id)) cells.remove(id);
+  were_there[k] = is_there_now ? 1 : 0;
   seen[k] = structure.raw[k];
-  if (!grid.empty() && is_there_now) grid.insert(id, seen[k]);
+  if (is_there_now) cells.insert(id, seen[k]);
   if (is_there_now) {
     bounds.note_change(id, now);
     changed.push_back(id);
@@ -144,7 +143,7 @@ void KeptClosestPair::Impl::compare_all(const Structure& structure) {
   if (jump2 > 0) {
     motion = (2 * std::sqrt(jump2) + 4 * rounding) * detail::kInflate;
     bounds.shrink_all(motion);
-    grid.clear();
+    cells.clear();
   }
   for (const auto& [id, square] : moved) {
     if (square >= jump2) {
@@ -194,28 +193,20 @@ void KeptClosestPair::Impl::settle(const Ask& ask) {
     if (is_there(id)) ask(id, 0.0);
 }
 
-/// Asks a grid, after it has been made where that pays. Returns false if there is none for that reach.
-bool KeptClosestPair::Impl::ask_grid(const Structure& structure, std::int32_t id, double reach,
-                                     detail::ClosestCandidate& nearest) {
-  if (!grid.serves(reach)) {
-    if (!std::isfinite(reach) || descents * kShareOfDescents < static_cast<std::int64_t>(seen.size()))
-      return false;
-    descents = 0;
-    grid.make(box, seen, were_there, reach, detail::WrapError(box).bound(structure.largest_reach));
-    if (!grid.serves(reach)) return false;
-  }
+/// Returns false if cells have no answer.
+bool KeptClosestPair::Impl::ask_cells(const Structure& structure, std::int32_t id, double reach,
+                                      detail::ClosestCandidate& nearest) {
   const Vec3 at = seen[static_cast<std::size_t>(id)];
-  grid.for_each_near(at, reach, [&](std::int32_t other) {
-    ++work.nearest.points;
+  return cells.for_each_within(structure, at, reach, slack, [&](std::int32_t other) {
     if (other != id) nearest.add(box.distance2(at, seen[static_cast<std::size_t>(other)]), other);
   });
-  return true;
 }
 
 ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_ask_all, Executor* executor) {
   const Structure& structure = view.structure();
   const NearestWork before = work.nearest;
   const double known = known_distance(structure);
+  slack = detail::WrapError(box).bound(structure.largest_reach);
   if (may_ask_all && !structure.balls && bounds.count_below(known) > structure.count() / kShareOfAll)
     ask_all(view, executor);  // those that changed too
   std::optional<detail::SubtreeBalls> measured;
@@ -226,7 +217,7 @@ ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_
         if (!structure.balls) measured.emplace(structure);
         descent.emplace(metric, structure, measured ? *measured : *structure.balls);
       }
-      ++descents;
+      cells.note_descent();
       descent->search(seen[static_cast<std::size_t>(id)], id, 0, best);
     };
     detail::ClosestCandidate nearest;
@@ -235,13 +226,14 @@ ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_
       const double distance = std::min(known, std::sqrt(closest2));
       const double reach = distance > 0 ? kReach * distance + kSteps * motion : kFar;
       nearest.clear(reach * reach);
-      if (!ask_grid(structure, id, reach, nearest)) descend(id, nearest);
+      if (!ask_cells(structure, id, reach, nearest)) descend(id, nearest);
       if (nearest.id() < 0) return bounds.set_none_within(id, reach);
       const auto [a, b] = std::minmax({id, nearest.id()});
       bounds.set_nearest(id, {nearest.limit2(), a, b}, now);
     });
     if (descent) add_work(descent->work);
   });
+  add_work(cells.take_work());
   last = bounds.closest();
   is_whole = true;
   const NearestWork& after = work.nearest;

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <vector>
 
-#include <dch/base/error.hpp>
 #include <dch/proximity/nearest.hpp>
 
-#include "base/describe.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
-#include "geometry/space_filling_order.hpp"
 #include "hierarchy/subtree_balls.hpp"
 #include "leaf_nearest.hpp"
-#include "nearest_descent.hpp"
+#include "position_nearest.hpp"
 
 namespace dch {
 
@@ -34,24 +29,6 @@ struct Nearest::Impl {
 
 namespace {
 
-void check(const NearestParams& params) {
-  if (params.k < 1 || params.k > kMaxNearest)
-    throw InvalidParameter(std::to_string(params.k) + " nearest neighbors were asked for; ask for 1 to " +
-                           std::to_string(kMaxNearest));
-  if (!(std::isfinite(params.epsilon) && params.epsilon >= 0))
-    throw InvalidParameter("epsilon of a nearest neighbor query is " + detail::describe(params.epsilon) +
-                           "; it must be finite, and 0 for the nearest ones or more");
-}
-
-/// Rows to be filled, in the memory that there is if it is enough: new pages take long to come.
-void make_rows(std::size_t rows, std::int32_t k, NearestRows& out) {
-  const std::size_t entries = rows * static_cast<std::size_t>(k);
-  if (out.id.capacity() < entries || out.distance2.capacity() < entries) out = NearestRows();
-  out.k = k;
-  out.id.resize(entries);
-  out.distance2.resize(entries);
-}
-
 /// Of ids that are not there.
 void clear_rows_of_none(const detail::Structure& structure, NearestRows& rows) {
   const auto k = static_cast<std::ptrdiff_t>(rows.k);
@@ -59,34 +36,6 @@ void clear_rows_of_none(const detail::Structure& structure, NearestRows& rows) {
     std::fill_n(rows.id.begin() + id * k, k, -1);
     std::fill_n(rows.distance2.begin() + id * k, k, std::numeric_limits<double>::infinity());
   }
-}
-
-/// One position after the other.
-template <class Metric>
-class PositionNearest {
- public:
-  PositionNearest(const Metric& metric, const detail::Structure& structure, const detail::SubtreeBalls& balls,
-                  const NearestParams& params)
-      : params_(params), descent_(metric, structure, balls) {}
-
-  void search(Vec3 position, std::size_t row, NearestRows& rows) {
-    const std::size_t first = row * static_cast<std::size_t>(params_.k);
-    best_.clear(params_.k);
-    descent_.search(position, -1, params_.epsilon, best_);
-    best_.write(rows.id.data() + first, rows.distance2.data() + first);
-  }
-  NearestWork work() const { return descent_.work; }
-
- private:
-  const NearestParams& params_;
-  detail::NearestDescent<Metric> descent_;
-  detail::NearestCandidates best_;
-};
-
-void add(const NearestWork& more, NearestWork& sum) {
-  sum.nodes += more.nodes;
-  sum.blocks += more.blocks;
-  sum.points += more.points;
 }
 
 /// Shares queries among the threads of an executor, each with tools of its own, and adds up the work.
@@ -103,7 +52,7 @@ NearestWork share_queries(Executor* executor, std::int32_t count, const Make& ma
   std::vector<NearestWork> work(static_cast<std::size_t>(parts));
   executor->run(parts, [&](int part) { work[static_cast<std::size_t>(part)] = do_part(part); });
   NearestWork sum;
-  for (const NearestWork& of_part : work) add(of_part, sum);
+  for (const NearestWork& of_part : work) detail::add(of_part, sum);
   return sum;
 }
 
@@ -115,9 +64,9 @@ Nearest::Nearest(Nearest&&) noexcept = default;
 Nearest& Nearest::operator=(Nearest&&) noexcept = default;
 
 void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
-  check(params);
+  detail::check(params);
   const detail::Structure& structure = impl_->structure;
-  make_rows(structure.slot_of_id.size(), params.k, rows);
+  detail::make_rows(structure.slot_of_id.size(), params.k, rows);
   clear_rows_of_none(structure, rows);
   const std::vector<std::int32_t> alone = structure.singleton_ids();
   const std::int32_t leaves = structure.levels[1].size();
@@ -134,16 +83,13 @@ void Nearest::of_points(const NearestParams& params, NearestRows& rows) const {
 }
 
 void Nearest::of_positions(Span<const Vec3> positions, const NearestParams& params, NearestRows& rows) const {
-  check(params);
+  detail::check(params);
   const detail::Structure& structure = impl_->structure;
   detail::check_positions(positions, structure.box);
-  make_rows(positions.size(), params.k, rows);
-  // Queries near each other look at the same subtrees, which are in the cache then.
-  std::vector<std::int32_t> order{0};
-  if (positions.size() != 1)
-    order = detail::space_filling_order(positions, structure.box, structure.base_radius);
+  detail::make_rows(positions.size(), params.k, rows);
+  const std::vector<std::int32_t> order = detail::order_of_queries(positions, structure);
   detail::with_metric(structure.box, [&](const auto& metric) {
-    using Tool = PositionNearest<std::decay_t<decltype(metric)>>;
+    using Tool = detail::PositionNearest<std::decay_t<decltype(metric)>>;
     rows.work = share_queries<Tool>(
         params.executor, static_cast<std::int32_t>(positions.size()),
         [&] { return Tool(metric, structure, impl_->balls(), params); },

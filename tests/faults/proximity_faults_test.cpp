@@ -2,6 +2,7 @@
 //
 // Queries of trees of points, neighbors at any radius, nearest neighbors and spanning trees hold nothing when
 // memory did not suffice, and give the same answer as ever when asked again.
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <dch/proximity/closest_pair.hpp>
 #include <dch/proximity/far_sums.hpp>
 #include <dch/proximity/k_center.hpp>
+#include <dch/proximity/kept_nearest.hpp>
 #include <dch/proximity/nearest.hpp>
 #include <dch/proximity/neighbors_within.hpp>
 #include <dch/proximity/point_tree.hpp>
@@ -116,6 +118,41 @@ TEST(ProximityFaults, NearestNeighborsOnThreads) {
   const auto pool = make_thread_pool(3);
   Hierarchy hierarchy = small_hierarchy();
   sweep_nearest(hierarchy.view(), pool.get());
+}
+
+/// By a grid and by descent, after points have come and gone.
+TEST(ProximityFaults, NearestNeighborsThatAreKept) {
+  struct Subject {
+    Hierarchy hierarchy{params_for()};
+    KeptNearest kept;
+    Answer answer;
+  };
+  const Scene scene(60), others(20, 9);
+  const auto make = [&] {
+    auto subject = std::make_unique<Subject>();
+    subject->hierarchy.build(scene.points, Box::none());
+    subject->kept.update(subject->hierarchy.kept_view());
+    subject->hierarchy.remove(7);
+    subject->hierarchy.insert({0.1, 0.2, 0.3});
+    for (int k = 0; k < 30; ++k) subject->hierarchy.insert({0.1, 0.2, 0.4});
+    subject->hierarchy.kept_view();
+    return subject;
+  };
+  const auto ask = [&](auto& subject) {
+    subject->kept.update(subject->hierarchy.kept_view(), std::vector<std::int32_t>{7});
+    subject->answer = answer_of(subject->kept.of_positions(others.points, {3}));
+  };
+  const auto expected = make();
+  ask(expected);
+  EXPECT_GE(expected->kept.work().by_grid, 1);
+  EXPECT_GE(expected->kept.work().descents, 1);
+  expect_sound(sweep(make, ask,
+                     [&](auto& subject, Ending ending) -> std::string {
+                       if (ending == Ending::threw)
+                         subject->answer = answer_of(subject->kept.of_positions(others.points, {3}));
+                       return subject->answer == expected->answer ? "" : after(ending, "another answer");
+                     }),
+               5);
 }
 
 TEST(ProximityFaults, SpanningTreesAndTheirClusters) {

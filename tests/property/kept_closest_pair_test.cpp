@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <dch/base/error.hpp>
@@ -22,6 +21,7 @@
 
 #include "effort.hpp"
 #include "error_message.hpp"
+#include "places.hpp"
 #include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
@@ -43,25 +43,6 @@ Answer of_all_pairs(const HierarchyView& view) {
 }
 
 Answer of(const ClosestPoints& found) { return {found.distance2, found.a, found.b}; }
-
-/// Where points are, to tell which of them have changed.
-class Places {
- public:
-  std::vector<std::int32_t> changed(const HierarchyView& view) {
-    std::vector<std::int32_t> ids;
-    std::vector<std::pair<bool, Vec3>> now;
-    for (std::int32_t id = 0; id < static_cast<std::int32_t>(view.capacity()); ++id) {
-      const auto k = static_cast<std::size_t>(id);
-      now.emplace_back(view.contains(id), view.contains(id) ? view.position(id) : Vec3{});
-      if (k >= places_.size() || places_[k] != now[k]) ids.push_back(id);
-    }
-    places_ = std::move(now);
-    return ids;
-  }
-
- private:
-  std::vector<std::pair<bool, Vec3>> places_;
-};
 
 TEST(KeptClosestPairs, EqualAllPairsInRandomScenes) {
   for (int k = 0; k < effort(400); ++k) {
@@ -161,6 +142,10 @@ struct Uniform {
     hierarchy->build(positions, box);
   }
   Vec3 somewhere() { return {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)}; }
+  /// Of a hundred, on a line.
+  Vec3 in_cluster() {
+    return Vec3{static_cast<double>(random.below(100)) * side / 100, 5, 5} + random.in_cube(0.002);
+  }
 
   scenes::Random random{74};
   double side;
@@ -231,6 +216,31 @@ TEST(KeptClosestPairs, ManyThatChangeLookAtFewOthers) {
   }
   EXPECT_LE(kept.work().nearest.nodes - before.nodes, 10000 * 20);
   EXPECT_LE(kept.work().nearest.points - before.points, 10000 * 20);
+}
+
+/// Half of the points in clusters, whose cells have too many where cells suit the density of the others: the
+/// next grid has cells that suit the distance asked for. All points that come and go are of clusters.
+TEST(KeptClosestPairs, OfPointsInClustersLookAtFewOthers) {
+  Uniform scene(10000);
+  for (int k = 0; k < 10000; ++k) scene.positions.push_back(scene.in_cluster());
+  scene.hierarchy->build(scene.positions, scene.box);
+  KeptClosestPair kept;
+  kept.find(scene.hierarchy->kept_view());
+  KeptClosestWork before;
+  for (int step = 0; step < 60; ++step) {
+    std::vector<std::int32_t> changed;
+    for (int k = 0; k < 100; ++k) {
+      changed.push_back(10000 + static_cast<std::int32_t>(scene.random.below(10000)));
+      scene.hierarchy->remove(changed.back());
+      scene.hierarchy->insert(scene.in_cluster());
+    }
+    const ClosestPoints found = kept.find(scene.hierarchy->kept_view(), changed);
+    if (step % 20 == 19) {
+      EXPECT_EQ(of(found), of(closest_pair(PointTree(scene.hierarchy->view()))));
+    }
+    if (step == 19) before = kept.work();
+  }
+  EXPECT_LE(kept.work().nearest.nodes - before.nearest.nodes, 4000 * 20);
 }
 
 /// All on one spot: each is as close to each. The points of a few are compared, not those of all.

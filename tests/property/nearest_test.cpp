@@ -21,6 +21,7 @@
 #include "error_message.hpp"
 #include "hierarchy/structure.hpp"
 #include "instruction_sets.hpp"
+#include "nearest_oracle.hpp"
 #include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
@@ -29,23 +30,6 @@ namespace dch {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-struct Neighbor {
-  double distance2;
-  std::int32_t id;
-  bool operator<(const Neighbor& other) const {
-    return distance2 != other.distance2 ? distance2 < other.distance2 : id < other.id;
-  }
-};
-
-/// The oracle: all points of the set but one, sorted.
-std::vector<Neighbor> sorted_by_distance(const HierarchyView& view, Vec3 from, std::int32_t self) {
-  std::vector<Neighbor> all;
-  for (std::int32_t id = 0; id < static_cast<std::int32_t>(view.capacity()); ++id)
-    if (view.contains(id) && id != self) all.push_back({view.box().distance2(from, view.position(id)), id});
-  std::sort(all.begin(), all.end());
-  return all;
-}
 
 /// Queries of a scene as it is, with parameters drawn at random.
 class NearestQueries {
@@ -61,7 +45,7 @@ class NearestQueries {
     for (std::int32_t id = 0; id < static_cast<std::int32_t>(view.capacity()); ++id) {
       const auto expected =
           view.contains(id) ? sorted_by_distance(view, view.position(id), id) : std::vector<Neighbor>();
-      ASSERT_NO_FATAL_FAILURE(check_row(rows, static_cast<std::size_t>(id), expected, 0));
+      ASSERT_NO_FATAL_FAILURE(check_row(rows, static_cast<std::size_t>(id), expected, 0, scene_.what()));
     }
   }
   void check_positions(const HierarchyView& view) {
@@ -72,7 +56,8 @@ class NearestQueries {
     params.epsilon = scene_.random.below(2) == 0 ? 0 : scene_.random.uniform(0, 2);
     const NearestRows rows = Nearest(view).of_positions(queries, params);
     for (std::size_t q = 0; q < queries.size(); ++q)
-      ASSERT_NO_FATAL_FAILURE(check_row(rows, q, sorted_by_distance(view, queries[q], -1), params.epsilon));
+      ASSERT_NO_FATAL_FAILURE(
+          check_row(rows, q, sorted_by_distance(view, queries[q], -1), params.epsilon, scene_.what()));
   }
 
  private:
@@ -82,26 +67,6 @@ class NearestQueries {
     params.executor = threads_.get();
     return params;
   }
-  void check_row(const NearestRows& rows, std::size_t row, const std::vector<Neighbor>& expected,
-                 double epsilon) {
-    const Span<const std::int32_t> ids = rows.row(row);
-    for (std::size_t j = 0; j < ids.size(); ++j) {
-      const double distance2 = rows.distance2[row * ids.size() + j];
-      const std::string where = scene_.what() + ", row " + std::to_string(row) + ", neighbor " +
-                                std::to_string(j) + " of " + std::to_string(ids.size());
-      if (j >= expected.size()) {
-        ASSERT_EQ(ids[j], -1) << where;
-        ASSERT_EQ(distance2, kNowhere) << where;
-      } else if (epsilon == 0) {
-        ASSERT_EQ(ids[j], expected[j].id) << where;
-        ASSERT_EQ(distance2, expected[j].distance2) << where;
-      } else {
-        ASSERT_GE(ids[j], 0) << where;
-        ASSERT_LE(std::sqrt(distance2), (1 + epsilon) * std::sqrt(expected[j].distance2)) << where;
-      }
-    }
-  }
-
   ProximityScene& scene_;
   std::unique_ptr<Executor> threads_;
 };
