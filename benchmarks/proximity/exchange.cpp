@@ -66,6 +66,14 @@ void follow(const Course& course, const Insert& insert, const Remove& remove, co
   }
 }
 
+Hierarchy hierarchy_of(const Course& course) {
+  HierarchyParams params;
+  params.radius = 1.5;
+  Hierarchy points(params);
+  points.build(course.start, Box::none());
+  return points;
+}
+
 void hierarchy(benchmark::State& state) {
   const Course course(state.range(0), state.range(1));
   double sum = 0;
@@ -73,10 +81,7 @@ void hierarchy(benchmark::State& state) {
   const std::size_t late = course.asked.size() - course.asked.size() / 10;
   for (auto _ : state) {
     state.PauseTiming();
-    HierarchyParams params;
-    params.radius = 1.5;
-    Hierarchy points(params);
-    points.build(course.start, Box::none());
+    Hierarchy points = hierarchy_of(course);
     points.kept_view();
     NearestRows row;
     work = {};
@@ -108,10 +113,7 @@ void kept_nearest(benchmark::State& state) {
   KeptNearestWork work;
   for (auto _ : state) {
     state.PauseTiming();
-    HierarchyParams params;
-    params.radius = 1.5;
-    Hierarchy points(params);
-    points.build(course.start, Box::none());
+    Hierarchy points = hierarchy_of(course);
     KeptNearest kept;
     kept.update(points.kept_view());
     NearestRows row;

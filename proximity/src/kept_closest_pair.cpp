@@ -4,14 +4,13 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <dch/base/error.hpp>
 #include <dch/proximity/kept_closest_pair.hpp>
 
+#include "changed_ids.hpp"
 #include "closest_bounds.hpp"
 #include "closest_candidate.hpp"
 #include "closest_cells.hpp"
@@ -262,11 +261,7 @@ ClosestPoints KeptClosestPair::find(const HierarchyView& view, Executor* executo
 
 ClosestPoints KeptClosestPair::find(const HierarchyView& view, Span<const std::int32_t> changed) {
   Impl& kept = *impl_;
-  for (const std::int32_t id : changed)
-    if (id < 0 || static_cast<std::size_t>(id) >= view.capacity())
-      throw InvalidParameter("point " + std::to_string(id) + " is said to have changed, and ids are 0.." +
-                             std::to_string(view.capacity()) +
-                             " (exclusive); name those of points that came, went or moved");
+  detail::check_changed(changed, view);
   if (kept.must_take_all(view.structure())) return find(view);
   kept.is_whole = false;
   ++kept.now;

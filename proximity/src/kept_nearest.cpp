@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <dch/base/error.hpp>
 #include <dch/proximity/kept_nearest.hpp>
 
+#include "changed_ids.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/position_check.hpp"
 #include "hierarchy/structure.hpp"
@@ -227,11 +227,7 @@ void KeptNearest::update(const HierarchyView& view) {
 
 void KeptNearest::update(const HierarchyView& view, Span<const std::int32_t> changed) {
   Impl& kept = *impl_;
-  for (const std::int32_t id : changed)
-    if (id < 0 || static_cast<std::size_t>(id) >= view.capacity())
-      throw InvalidParameter("point " + std::to_string(id) + " is said to have changed, and ids are 0.." +
-                             std::to_string(view.capacity()) +
-                             " (exclusive); name those of points that came, went or moved");
+  detail::check_changed(changed, view);
   if (kept.must_take_all(view.structure())) return update(view);
   kept.is_whole = false;
   kept.measured.reset();

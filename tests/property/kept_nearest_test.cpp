@@ -127,7 +127,7 @@ TEST(KeptNearest, HasTheSmallestIdsOfMany) {
   }
 }
 
-/// In a box of 16 n^(1/3) cells and more along each axis, of points that are given in any image.
+/// Of points and positions that are given in any image.
 TEST(KeptNearest, TakesPointsInAnyImage) {
   scenes::Random random(76);
   const Box box = Box::orthorhombic({20, 17, 19});
