@@ -68,12 +68,14 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
   scratch.lanes.resize(static_cast<std::size_t>(workers));
   scratch.earlier.resize(clusters);
   if (has_charges_) scratch.charge.resize(clusters);
+  if (has_dispersion_) scratch.dispersion.resize(clusters);
   if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
   detail::run_parts(executor_, workers, [&](int worker) {
     const ClusterPairs::Range own = detail::share(pairs.clusters(), worker, workers);
     scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
     if (functions.wants_lanes) scratch.lanes[static_cast<std::size_t>(worker)].resize(clusters);
     if (has_charges_) detail::sort_by_slot(pairs, charges, charge_unit_, own, scratch.charge);
+    if (has_dispersion_) detail::sort_by_slot(pairs, dispersion_, dispersion_unit_, own, scratch.dispersion);
     if (mixes_) detail::sort_by_slot(pairs, half_sigma_, 1, own, scratch.half_sigma);
     if (mixes_) detail::sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
@@ -99,6 +101,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
                                              mixes_ ? scratch.half_sigma.data()->slot : nullptr,
                                              mixes_ ? scratch.root_epsilon.data()->slot : nullptr,
                                              has_charges_ ? scratch.charge.data()->slot : nullptr,
+                                             has_dispersion_ ? scratch.dispersion.data()->slot : nullptr,
                                              constants<Real>(),
                                              force.data(),
                                              functions.wants_lanes ? lanes.data()->numbers : nullptr,

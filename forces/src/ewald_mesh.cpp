@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,7 @@ struct Scratch {
 struct EwaldMesh::Impl {
   MeshShape shape;
   double splitting, constant;
+  LatticeSum of;
   detail::FftPlan along_x, along_y, along_z;
   const detail::MeshKernels& kernels = detail::force_kernels(instruction_set()).mesh;
   std::array<std::vector<double>, 3> moduli;
@@ -81,6 +83,7 @@ struct EwaldMesh::Impl {
   Box box;  ///< that the influence function is of
   std::array<Vec3, 3> reciprocal;
   double scale = 0;                ///< of the influence function
+  double of_mean = 0;              ///< the weight of the wave without length, which exerts no force
   AlignedVector<float> influence;  ///< [x][z][y], x up to half of its size
   AlignedVector<float> mesh, spectrum_re, spectrum_im;
   AlignedVector<MeshPoint> points;
@@ -88,10 +91,11 @@ struct EwaldMesh::Impl {
   std::vector<Scratch> scratch;
   std::vector<double> energies;  ///< by plane
 
-  Impl(const std::array<int, 3>& sizes, double splitting_now, double constant_now)
+  Impl(const std::array<int, 3>& sizes, double splitting_now, double constant_now, LatticeSum of_what)
       : shape(shape_of(sizes)),
         splitting(splitting_now),
         constant(constant_now),
+        of(of_what),
         along_x(sizes[0]),
         along_y(sizes[1]),
         along_z(sizes[2]) {
@@ -108,6 +112,7 @@ struct EwaldMesh::Impl {
   int workers() const { return executor ? executor->threads() : 1; }
   void prepare(const Box& now);
   double weight(double x, double y, double z) const;
+  double energy_of_mean(Span<const double> charges) const;
   void find_influence(int x);
   void place(Span<const Vec3> positions, Span<const double> charges);
   void spread();
@@ -131,7 +136,10 @@ void EwaldMesh::Impl::prepare(const Box& now) {
     for (auto& numbers : of_worker.numbers) numbers.resize(wanted);
   if (now == box) return;
   reciprocal = reciprocal_vectors(now);
-  scale = constant / (kPi * now.volume());
+  const double cubed = kPi * std::sqrt(kPi) * splitting * splitting * splitting;
+  const bool is_dispersion = of == LatticeSum::dispersion;
+  scale = is_dispersion ? -constant * cubed / (3 * now.volume()) : constant / (kPi * now.volume());
+  of_mean = is_dispersion ? scale : 0;
   box = Box();  // what is thrown meanwhile leaves part of an influence function
   in_shares(planes(), [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t x = begin; x < end; ++x) find_influence(static_cast<int>(x));
@@ -139,11 +147,23 @@ void EwaldMesh::Impl::prepare(const Box& now) {
   box = now;
 }
 
-/// constant e^(-(pi m / splitting)^2) / (pi volume m^2) for a wave m, 0 for m = 0.
+/// Of a wave m, with b = pi |m| / splitting: constant e^(-b^2) / (pi volume m^2), or of dispersion -constant
+/// (sqrt(pi) splitting)^3 / (3 volume) ((1 - 2 b^2) e^(-b^2) + 2 sqrt(pi) b^3 erfc(b)). 0 for m = 0.
 double EwaldMesh::Impl::weight(double x, double y, double z) const {
   const double m2 = norm2(x * reciprocal[0] + y * reciprocal[1] + z * reciprocal[2]);
   if (m2 == 0) return 0;
-  return scale * std::exp(-kPi * kPi * m2 / (splitting * splitting)) / m2;
+  const double b2 = kPi * kPi * m2 / (splitting * splitting);
+  if (of == LatticeSum::coulomb) return scale * std::exp(-b2) / m2;
+  const double b = std::sqrt(b2);
+  return scale * ((1 - 2 * b2) * std::exp(-b2) + 2 * std::sqrt(kPi) * b2 * b * std::erfc(b));
+}
+
+/// Of the wave without length, in double: coefficients of dispersion have one sign, so on the mesh it would
+/// drown the others.
+double EwaldMesh::Impl::energy_of_mean(Span<const double> charges) const {
+  if (of_mean == 0) return 0;
+  const double sum = std::accumulate(charges.begin(), charges.end(), 0.0);
+  return 0.5 * of_mean * sum * sum;
 }
 
 /// Weights over the moduli of splines. The shortest wave along an axis of even size has two signs, which a
@@ -248,7 +268,7 @@ void EwaldMesh::Impl::hand_out(Span<const double> charges, Span<Vec3> forces) {
   });
 }
 
-EwaldMesh::EwaldMesh(std::array<int, 3> sizes, double splitting, double constant) {
+EwaldMesh::EwaldMesh(std::array<int, 3> sizes, double splitting, double constant, LatticeSum of) {
   for (int& size : sizes) {
     if (size < detail::kSplineOrder || size > kMaxSize)
       throw InvalidParameter("a mesh of " + std::to_string(size) +
@@ -262,7 +282,7 @@ EwaldMesh::EwaldMesh(std::array<int, 3> sizes, double splitting, double constant
   if (!(std::isfinite(constant) && constant >= 0))
     throw InvalidParameter("the constant of a mesh is " + detail::describe(constant) +
                            "; it must be finite and not negative");
-  impl_ = std::make_unique<Impl>(sizes, splitting, constant);
+  impl_ = std::make_unique<Impl>(sizes, splitting, constant, of);
 }
 
 EwaldMesh::~EwaldMesh() = default;
@@ -285,7 +305,7 @@ double EwaldMesh::add_forces(Span<const Vec3> positions, Span<const double> char
   impl_->prepare(box);
   impl_->place(positions, charges);
   impl_->spread();
-  const double energy = impl_->convolve();
+  const double energy = impl_->convolve() + impl_->energy_of_mean(charges);
   impl_->hand_out(charges, forces);
   return energy;
 }

@@ -24,6 +24,25 @@ double force_factor(double x) {
   return 4 / std::sqrt(kPi) * sum;
 }
 
+/// (1 - e^-y (1 + y + y^2 / 2! + ...)) / y^n with n terms in brackets; near 0 from the terms left out, which
+/// are all positive.
+double rest_of_exponential(int n, double y) {
+  double power = 1, sum = 0;
+  if (y > n + 3) {
+    for (int k = 0; k < n; ++k) {
+      sum += power;
+      power *= y / (k + 1);
+    }
+    return (1 - std::exp(-y) * sum) / std::pow(y, n);
+  }
+  for (int k = 1; k <= n; ++k) power /= k;
+  for (int k = 0; k < 40; ++k) {
+    sum += power;
+    power *= y / (n + k + 1);
+  }
+  return std::exp(-y) * sum;
+}
+
 /// Coefficients of powers of u of the sum of c_k T_k(u), by T_(k+1) = 2 u T_k - T_(k-1).
 std::vector<double> powers_of(const std::vector<double>& chebyshev) {
   const std::size_t n = chebyshev.size();
@@ -74,6 +93,17 @@ EwaldSeries make_ewald_series(double splitting, double cutoff, int terms) {
   EwaldSeries series;
   series.energy = fit([&](double u) { return splitting * energy_factor(x(u)); }, terms, series.error);
   series.force = fit([&](double u) { return scale3 * force_factor(x(u)); }, terms, series.error);
+  return series;
+}
+
+EwaldSeries make_dispersion_series(double splitting, double cutoff, int terms) {
+  const double scale2 = splitting * splitting, most = scale2 * cutoff * cutoff;
+  const auto y = [&](double u) { return most * std::max(0.0, (u + 1) / 2); };
+  EwaldSeries series;
+  series.energy = fit([&](double u) { return rest_of_exponential(3, y(u)); }, terms, series.error);
+  series.force =
+      fit([&](double u) { return 6 * scale2 * rest_of_exponential(4, y(u)); }, terms, series.error);
+  series.energy[0] -= rest_of_exponential(3, most);
   return series;
 }
 

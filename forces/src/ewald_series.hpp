@@ -18,4 +18,9 @@ struct EwaldSeries {
 /// <= 6.
 EwaldSeries make_ewald_series(double splitting, double cutoff, int terms);
 
+/// The same of dispersion: what reciprocal space holds of two coefficients of 1 / splitting^3 each, but for
+/// its sign, (1 - e^(-x^2) (1 + x^2 + x^4 / 2)) / x^6 with x = splitting r, less that at the cutoff, and the
+/// force of that over r. Errors are below 5e-7 for 14 terms and x < 3.6, below 5e-9 for 26 and x <= 6.
+EwaldSeries make_dispersion_series(double splitting, double cutoff, int terms);
+
 }  // namespace dch::detail

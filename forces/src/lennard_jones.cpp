@@ -137,6 +137,8 @@ void LennardJones::set_switch(double from) {
     throw InvalidParameter(
         "a switching function beside an Ewald sum without series is not available; drop either or set "
         "by_series");
+  if (has_dispersion_)
+    throw InvalidParameter("a switching function beside a lattice sum of dispersion is not available");
   if (shifted_)
     throw InvalidParameter("a switched energy is 0 at the cutoff by itself; do not have it shifted");
   switch_from_ = from;
@@ -217,10 +219,56 @@ void LennardJones::make_series(const CoulombTerm& term) {
   has_series_ = true;
 }
 
+void LennardJones::check_dispersion(const DispersionTerm& term) const {
+  if (!(std::isfinite(term.splitting) && term.splitting > 0))
+    throw InvalidParameter("the splitting parameter of dispersion is " + detail::describe(term.splitting) +
+                           "; it must be finite and positive");
+  for (std::size_t i = 0; i < term.coefficients.size(); ++i)
+    if (!std::isfinite(term.coefficients[i]))
+      throw InvalidParameter("the coefficient of dispersion of particle " + std::to_string(i) + " is " +
+                             detail::describe(term.coefficients[i]) + "; it must be finite");
+  if (!has_series_)
+    throw InvalidParameter(
+        "a lattice sum of dispersion was asked for, but none of charges by a series; call "
+        "set_coulomb() with splitting and by_series first");
+  if (switch_from_ >= 0)
+    throw InvalidParameter("a lattice sum of dispersion beside a switching function is not available");
+  if (!mixes_ && !shifted_)
+    throw InvalidParameter(
+        "a lattice sum of dispersion lowers energies by what they are at the cutoff; have "
+        "those of Lennard-Jones pairs shifted too");
+}
+
+void LennardJones::set_dispersion(const DispersionTerm& term) {
+  check_dispersion(term);
+  constexpr double kMaxErrorSingle = 5e-7, kMaxError = 5e-9;
+  using detail::kEwaldTerms;
+  const double cutoff = largest_cutoff_;
+  detail::EwaldSeries exact = detail::make_dispersion_series(term.splitting, cutoff, kEwaldTerms<double>);
+  detail::EwaldSeries single = detail::make_dispersion_series(term.splitting, cutoff, kEwaldTerms<float>);
+  if (!(exact.error <= kMaxError))
+    throw InvalidParameter("the splitting parameter " + detail::describe(term.splitting) +
+                           " of dispersion times the cutoff " + detail::describe(cutoff) +
+                           " is over 6, for which the series has too few terms");
+  dispersion_unit_ = term.splitting * term.splitting * term.splitting;
+  fits_single_ = fits_single_ && single.error <= kMaxErrorSingle &&
+                 std::all_of(term.coefficients.begin(), term.coefficients.end(), [&](double coefficient) {
+                   const double number = dispersion_unit_ * coefficient;
+                   return fits_in_single(number * number);
+                 });
+  dispersion_ = term.coefficients;
+  dispersion_force_ = std::move(exact.force);
+  dispersion_energy_ = std::move(exact.energy);
+  dispersion_force_single_ = std::move(single.force);
+  dispersion_energy_single_ = std::move(single.energy);
+  has_dispersion_ = true;
+}
+
 detail::ForceKind LennardJones::kind() const {
   using detail::ForceKind;
   const bool is_switched = switch_from_ >= 0;
   if (!has_charges_) return is_switched ? ForceKind::switched : ForceKind::lennard_jones;
+  if (has_dispersion_) return ForceKind::ewald_dispersion;
   if (splitting_ > 0 && is_switched) return ForceKind::switched_ewald;
   if (splitting_ > 0) return has_series_ ? ForceKind::ewald_series : ForceKind::ewald;
   // Bare charges are those in a reaction field of strength 0.
@@ -247,6 +295,13 @@ detail::LjConstants<Real> LennardJones::constants() const {
     all.ewald_force[k] = static_cast<Real>((kSingle ? force_series_single_ : force_series_)[k]);
     all.ewald_energy[k] = static_cast<Real>((kSingle ? energy_series_single_ : energy_series_)[k]);
   }
+  if (!has_dispersion_) return all;
+  all.over_cutoff2 = static_cast<Real>(1 / (largest_cutoff_ * largest_cutoff_));
+  for (std::size_t k = 0; k < std::size_t{detail::kEwaldTerms<Real>}; ++k) {
+    all.dispersion_force[k] = static_cast<Real>((kSingle ? dispersion_force_single_ : dispersion_force_)[k]);
+    all.dispersion_energy[k] =
+        static_cast<Real>((kSingle ? dispersion_energy_single_ : dispersion_energy_)[k]);
+  }
   return all;
 }
 
@@ -271,6 +326,10 @@ void LennardJones::check(const Pairs& pairs, std::size_t forces, std::size_t cha
     throw InvalidParameter("the pairs have " + std::to_string(pairs.types) +
                            " types, but Lennard-Jones pairs are given for " + std::to_string(types_) +
                            "; give one for each pair of types");
+  if (has_dispersion_ && dispersion_.size() != pairs.particles)
+    throw InvalidParameter(std::to_string(dispersion_.size()) +
+                           " coefficients of dispersion given for pairs of " +
+                           std::to_string(pairs.particles) + " particles; give one each");
   if (mixes_ && half_sigma_.size() != pairs.particles)
     throw InvalidParameter("Lennard-Jones parameters of " + std::to_string(half_sigma_.size()) +
                            " particles given for pairs of " + std::to_string(pairs.particles) +

@@ -42,8 +42,9 @@ struct Found {
   std::vector<Vec3> forces;
 };
 
-Found by_mesh(std::array<int, 3> sizes, const Charges& charges, Executor* executor = nullptr) {
-  EwaldMesh mesh(sizes, kSplitting, kConstant);
+Found by_mesh(std::array<int, 3> sizes, const Charges& charges, Executor* executor = nullptr,
+              LatticeSum of = LatticeSum::coulomb) {
+  EwaldMesh mesh(sizes, kSplitting, kConstant, of);
   mesh.set_executor(executor);
   Found found{0, std::vector<Vec3>(charges.at.size())};
   found.energy = mesh.add_forces(charges.at, charges.charge, kBox, found.forces);
@@ -57,8 +58,14 @@ Vec3 wave(int x, int y, int z) {
   return (x / volume) * cross(b, c) + (y / volume) * cross(c, a) + (z / volume) * cross(a, b);
 }
 
-double weight_of(double m2) {
+double weight_of(double m2, LatticeSum of) {
   const double pi = std::acos(-1.0);
+  if (of == LatticeSum::dispersion) {
+    // The Fourier transform of 1 / r^6 beyond x = splitting r of about 1 (Essmann et al., 1995).
+    const double b = pi * std::sqrt(m2) / kSplitting;
+    const double shape = (1 - 2 * b * b) * std::exp(-b * b) + 2 * std::sqrt(pi) * b * b * b * std::erfc(b);
+    return -kConstant * std::pow(pi, 1.5) * std::pow(kSplitting, 3) / (3 * kBox.volume()) * shape;
+  }
   return m2 == 0
              ? 0
              : kConstant * std::exp(-pi * pi * m2 / (kSplitting * kSplitting)) / (pi * kBox.volume() * m2);
@@ -94,7 +101,7 @@ Complex seen(double at, int m, int size, bool slope) {
 
 /// Smooth particle mesh Ewald as its authors wrote it: what the charges are on the mesh, seen from each wave.
 /// Forces are the energy's slopes, by splines' slopes.
-Found plainly(const std::array<int, 3>& n, const Charges& charges) {
+Found plainly(const std::array<int, 3>& n, const Charges& charges, LatticeSum of) {
   Found found{0, std::vector<Vec3>(charges.at.size())};
   const std::size_t count = charges.at.size();
   std::vector<Vec3> at;
@@ -114,7 +121,8 @@ Found plainly(const std::array<int, 3>& n, const Charges& charges) {
         double weight = 0;
         for (int s = 0; s < 8; ++s)
           weight += weight_of(norm2(wave(either(x, n[0], (s & 1) != 0), either(y, n[1], (s & 2) != 0),
-                                         either(z, n[2], (s & 4) != 0)))) /
+                                         either(z, n[2], (s & 4) != 0))),
+                              of) /
                     8;
         const double influence = weight / (modulus(x, n[0]) * modulus(y, n[1]) * modulus(z, n[2]));
         Complex total = 0;
@@ -143,17 +151,18 @@ Found plainly(const std::array<int, 3>& n, const Charges& charges) {
 TEST(EwaldMeshTest, EqualsTheMethodWrittenPlainly) {
   const RestoreInstructionSet restore;
   const Charges charges = make_charges(7, 1);
-  // All radices, alone and together, odd sizes and the least ones.
-  for (const std::array<int, 3> sizes :
-       {std::array<int, 3>{10, 9, 14}, {7, 5, 12}, {16, 15, 8}, {5, 6, 7}, {8, 20, 5}}) {
-    const Found expected = plainly(sizes, charges);
-    for (const InstructionSet set : supported_sets()) {
-      set_instruction_set(set);
-      const Found found = by_mesh(sizes, charges);
-      EXPECT_NEAR(found.energy / expected.energy, 1, 2e-6) << name(set) << sizes[0];
-      EXPECT_LT(force_error(found.forces, expected.forces), 3e-6) << name(set) << sizes[0];
+  for (const LatticeSum of : {LatticeSum::coulomb, LatticeSum::dispersion})
+    // All radices, alone and together, odd sizes and the least ones.
+    for (const std::array<int, 3> sizes :
+         {std::array<int, 3>{10, 9, 14}, {7, 5, 12}, {16, 15, 8}, {5, 6, 7}, {8, 20, 5}}) {
+      const Found expected = plainly(sizes, charges, of);
+      for (const InstructionSet set : supported_sets()) {
+        set_instruction_set(set);
+        const Found found = by_mesh(sizes, charges, nullptr, of);
+        EXPECT_NEAR(found.energy / expected.energy, 1, 2e-6) << name(set) << sizes[0];
+        EXPECT_LT(force_error(found.forces, expected.forces), 3e-6) << name(set) << sizes[0];
+      }
     }
-  }
 }
 
 TEST(EwaldMeshTest, FinerMeshesComeNearTheSumOverWaves) {
@@ -165,7 +174,7 @@ TEST(EwaldMeshTest, FinerMeshesComeNearTheSumOverWaves) {
     for (int y = -kMost; y <= kMost; ++y)
       for (int z = -kMost; z <= kMost; ++z) {
         const Vec3 m = wave(x, y, z);
-        const double weight = weight_of(norm2(m));
+        const double weight = weight_of(norm2(m), LatticeSum::coulomb);
         if (weight < 1e-12) continue;
         Complex total = 0;
         for (std::size_t i = 0; i < charges.at.size(); ++i)
@@ -187,16 +196,63 @@ TEST(EwaldMeshTest, FinerMeshesComeNearTheSumOverWaves) {
   EXPECT_LT(last, 1e-4);
 }
 
+/// What reciprocal space holds of two particles at a distance, or of one with itself: energy, and force / r.
+std::array<double, 2> far_dispersion(double r2) {
+  const double y = kSplitting * kSplitting * r2;
+  if (r2 == 0) return {std::pow(kSplitting, 6) / 6, 0};
+  const double shorter = 1 + y + y * y / 2, longer = shorter + y * y * y / 6;
+  return {(1 - std::exp(-y) * shorter) / std::pow(r2, 3), 6 * (1 - std::exp(-y) * longer) / std::pow(r2, 4)};
+}
+
+/// All images up to some distance, and those beyond as if they were everywhere.
+TEST(EwaldMeshTest, DispersionComesNearTheSumOverImages) {
+  Charges atoms = make_charges(12, 5);
+  for (double& coefficient : atoms.charge) coefficient = 1 + 0.2 * coefficient;
+  const auto n = atoms.at.size();
+  Found expected{0, std::vector<Vec3>(n)};
+  constexpr double kFar = 36;
+  double products = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const double product = kConstant * atoms.charge[i] * atoms.charge[j];
+      products += product;
+      const Vec3 apart = kBox.nearest_image(atoms.at[i] - atoms.at[j]);
+      constexpr int kMost = 10;
+      for (int x = -kMost; x <= kMost; ++x)
+        for (int y = -kMost; y <= kMost; ++y)
+          for (int z = -kMost; z <= kMost; ++z) {
+            const Vec3 d = apart + x * kBox.vector(0) + y * kBox.vector(1) + z * kBox.vector(2);
+            if (norm2(d) > kFar * kFar) continue;
+            const auto [energy, force] = far_dispersion(norm2(d));
+            expected.energy -= 0.5 * product * energy;
+            expected.forces[i] = expected.forces[i] - (product * force) * d;
+          }
+    }
+  const double pi = std::acos(-1.0);
+  expected.energy -= 0.5 * products * 4 * pi / (3 * std::pow(kFar, 3) * kBox.volume());
+  double last = 2;
+  for (const int size : {12, 24, 48}) {
+    const Found found = by_mesh({size, size, size}, atoms, nullptr, LatticeSum::dispersion);
+    const double error = force_error(found.forces, expected.forces);
+    EXPECT_LT(error, last / 8);
+    EXPECT_NEAR(found.energy / expected.energy, 1, std::max(error, 1e-6));
+    last = error;
+  }
+  EXPECT_LT(last, 1e-4);
+}
+
 TEST(EwaldMeshTest, ThreadsGiveTheSameBits) {
   const Charges charges = make_charges(500, 3);
-  const Found alone = by_mesh({18, 21, 20}, charges);
-  for (const int threads : {2, 5, 40}) {
-    const auto pool = make_thread_pool(threads);
-    const Found found = by_mesh({18, 21, 20}, charges, pool.get());
-    EXPECT_EQ(found.energy, alone.energy);
-    for (std::size_t i = 0; i < alone.forces.size(); ++i)
-      EXPECT_TRUE(found.forces[i].x == alone.forces[i].x && found.forces[i].y == alone.forces[i].y &&
-                  found.forces[i].z == alone.forces[i].z);
+  for (const LatticeSum of : {LatticeSum::coulomb, LatticeSum::dispersion}) {
+    const Found alone = by_mesh({18, 21, 20}, charges, nullptr, of);
+    for (const int threads : {2, 5, 40}) {
+      const auto pool = make_thread_pool(threads);
+      const Found found = by_mesh({18, 21, 20}, charges, pool.get(), of);
+      EXPECT_EQ(found.energy, alone.energy);
+      for (std::size_t i = 0; i < alone.forces.size(); ++i)
+        EXPECT_TRUE(found.forces[i].x == alone.forces[i].x && found.forces[i].y == alone.forces[i].y &&
+                    found.forces[i].z == alone.forces[i].z);
+    }
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Switched Lennard-Jones forces, charges in a reaction field and parameters mixed from those of particles, on
-// one thread and several, equal those of all pairs in plain double.
+// Switched Lennard-Jones forces, charges in a reaction field, what a lattice sum of dispersion leaves and
+// parameters mixed from those of particles, on one thread and several, equal those of all pairs in plain
+// double.
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -23,6 +24,7 @@ struct Terms {
   bool has_charges = false;
   double quadratic = 0, offset = 0;
   double splitting = 0;
+  double of_dispersion = 0;  ///< splitting
 };
 
 /// A gas of particles of several kinds, no two too close to each other, with charges.
@@ -51,6 +53,21 @@ Gas make_gas(const Box& box, std::size_t n, int kinds, std::uint64_t seed) {
   return gas;
 }
 
+/// Any number: mixing rules for dispersion are not those of Lennard-Jones.
+double coefficient_of(const LennardJonesParticle& p) {
+  return 2 * std::pow(p.sigma, 3) * std::sqrt(p.epsilon) + 0.1;
+}
+
+double lennard_jones_energy(double sigma, double epsilon, double r) {
+  return 4 * epsilon * (std::pow(sigma / r, 12) - std::pow(sigma / r, 6));
+}
+
+/// What reciprocal space has of two coefficients of 1.
+double far_energy(double splitting, double r) {
+  const double y = std::pow(splitting * r, 2);
+  return (1 - std::exp(-y) * (1 + y + y * y / 2)) / std::pow(r, 6);
+}
+
 /// By the formulas, with a numerical look at nothing but pairs.
 LennardJonesResult all_pairs_of(const Gas& gas, const Box& box, const Terms& terms) {
   LennardJonesResult result;
@@ -70,6 +87,14 @@ LennardJonesResult all_pairs_of(const Gas& gas, const Box& box, const Terms& ter
         const double slope = (-30 * std::pow(t, 2) + 60 * std::pow(t, 3) - 30 * std::pow(t, 4)) / width;
         force = value * force - slope * energy;
         energy *= value;
+      }
+      if (terms.of_dispersion > 0) {
+        const double product = coefficient_of(gas.particles[i]) * coefficient_of(gas.particles[j]);
+        energy +=
+            product * (far_energy(terms.of_dispersion, r) - far_energy(terms.of_dispersion, kGasCutoff));
+        energy -= lennard_jones_energy(sigma, epsilon, kGasCutoff);
+        const double y = std::pow(terms.of_dispersion * r, 2);
+        force += product * 6 * (1 - std::exp(-y) * (1 + y + y * y / 2 + y * y * y / 6)) / std::pow(r, 7);
       }
       result.sums.energy += energy;
       if (terms.has_charges) {
@@ -94,8 +119,9 @@ LennardJones potential_of(const Gas& gas, const Terms& terms, bool by_particle) 
   for (const LennardJonesParticle& a : gas.of_kind)
     for (const LennardJonesParticle& b : gas.of_kind)
       matrix.push_back({std::sqrt(a.epsilon * b.epsilon), 0.5 * (a.sigma + b.sigma), kGasCutoff});
-  LennardJones potential =
-      by_particle ? LennardJones(kGasCutoff, gas.particles) : LennardJones(static_cast<int>(side), matrix);
+  LennardJones potential = by_particle
+                               ? LennardJones(kGasCutoff, gas.particles)
+                               : LennardJones(static_cast<int>(side), matrix, terms.of_dispersion > 0);
   CoulombTerm coulomb;
   coulomb.constant = 3.5;
   coulomb.cutoffs.assign(by_particle ? 1 : side * side, kGasCutoff);
@@ -105,6 +131,9 @@ LennardJones potential_of(const Gas& gas, const Terms& terms, bool by_particle) 
   coulomb.by_series = true;
   if (terms.has_charges) potential.set_coulomb(coulomb);
   if (terms.switch_from >= 0) potential.set_switch(terms.switch_from);
+  DispersionTerm dispersion{terms.of_dispersion, {}};
+  for (const LennardJonesParticle& p : gas.particles) dispersion.coefficients.push_back(coefficient_of(p));
+  if (terms.of_dispersion > 0) potential.set_dispersion(dispersion);
   return potential;
 }
 
@@ -134,10 +163,12 @@ void expect_equal(const LennardJonesResult& expected, const ClusterPairs& pairs,
 }
 
 TEST(LennardJonesMixingTest, EqualsAllPairs) {
-  const std::vector<Terms> all_terms{{-1, false, 0, 0},     {-1, true, 0, 0},       {-1, true, 0.03, 0.5},
-                                     {1.9, false, 0, 0},    {0, true, 0.03, 0.5},   {1.2, true, 0, 0},
-                                     {-1, true, 0, 0, 1.1}, {1.6, true, 0, 0, 0.9}, {-1, true, 0, 0, 1.45},
-                                     {-1, true, 0, 0, 1.8}};
+  const std::vector<Terms> all_terms{
+      {-1, false, 0, 0},         {-1, true, 0, 0},           {-1, true, 0.03, 0.5},
+      {1.9, false, 0, 0},        {0, true, 0.03, 0.5},       {1.2, true, 0, 0},
+      {-1, true, 0, 0, 1.1},     {1.6, true, 0, 0, 0.9},     {-1, true, 0, 0, 1.45},
+      {-1, true, 0, 0, 1.8},     {-1, true, 0, 0, 1.1, 0.9}, {-1, true, 0, 0, 0.3, 1.45},
+      {-1, true, 0, 0, 1.1, 1.8}};
   for (const Box& box : {Box::none(), Box::triclinic({7, 0, 0}, {1, 7, 0}, {0.5, -1, 7})})
     for (const int kinds : {1, 2, 6}) {
       const Box scatter = box.any_periodic() ? box : Box::orthorhombic({7, 7, 7});
@@ -158,7 +189,8 @@ TEST(LennardJonesMixingTest, EqualsAllPairs) {
         for (const bool by_particle : {false, true}) {
           LennardJones potential = potential_of(gas, all_terms[t], by_particle);
           // With 14 terms the series reaches that far.
-          EXPECT_EQ(potential.fits_single(), all_terms[t].splitting * kGasCutoff < 3.6);
+          EXPECT_EQ(potential.fits_single(),
+                    std::max(all_terms[t].splitting, all_terms[t].of_dispersion) * kGasCutoff < 3.6);
           const std::vector<double> charges = all_terms[t].has_charges ? gas.charges : std::vector<double>();
           const std::string what = std::to_string(kinds) + " kinds, terms " + std::to_string(t) +
                                    (by_particle ? ", by particle" : ", by type");
@@ -222,6 +254,25 @@ TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
   plain.set_switch(1);
   EXPECT_THROW(plain.set_coulomb(coulomb(1, 2, 0, 0)), InvalidParameter);
 
+  const DispersionTerm dispersion{1, {1, 1}};
+  LennardJones mixed(2, two), by_type({1, 1, 2}, true), unshifted({1, 1, 2}), twice(2, two);
+  for (LennardJones* const each : {&mixed, &by_type, &unshifted, &twice})
+    each->set_coulomb({1, 1, {2}, 0, 0, true});
+  EXPECT_THROW(LennardJones(2, two).set_dispersion(dispersion), InvalidParameter);
+  EXPECT_THROW(ewald.set_dispersion(dispersion), InvalidParameter);
+  EXPECT_THROW(unshifted.set_dispersion(dispersion), InvalidParameter);
+  for (const double bad : {0.0, -1.0, nan, 3.2})
+    EXPECT_THROW(mixed.set_dispersion({bad, {1, 1}}), InvalidParameter) << bad;
+  EXPECT_THROW(mixed.set_dispersion({1, {1, nan}}), InvalidParameter);
+  mixed.set_dispersion(dispersion);
+  by_type.set_dispersion(dispersion);
+  EXPECT_THROW(mixed.set_switch(1), InvalidParameter);
+  twice.set_switch(1);
+  EXPECT_THROW(twice.set_dispersion(dispersion), InvalidParameter);
+  EXPECT_TRUE(mixed.fits_single());
+  by_type.set_dispersion({1, {1, 1e-30}});
+  EXPECT_FALSE(by_type.fits_single());
+
   const std::vector<Vec3> points(3);
   HierarchyParams params;
   params.radius = 2;
@@ -237,9 +288,14 @@ TEST(LennardJonesMixingTest, RefusesWhatDoesNotFit) {
   make_pair_list(
       list, 2, points, Box::none(), {}, [](std::int32_t, std::int32_t) { return true; }, one_by_one);
   std::vector<Vec3> forces(3);
+  const std::vector<double> three(3);
   LennardJones mixing(2, two), switched({1, 1, 2});
   switched.set_switch(1);
   EXPECT_THROW(mixing.add_forces(pairs, ForcePrecision::double_precision, forces), InvalidParameter);
+  by_type.set_dispersion(dispersion);
+  EXPECT_THROW(by_type.add_forces(pairs, ForcePrecision::double_precision, forces, three), InvalidParameter);
+  by_type.set_dispersion({1, {1, 1, 1}});
+  EXPECT_THROW(by_type.add_forces(one_by_one, points, Box::none(), forces, three), InvalidParameter);
   EXPECT_THROW(switched.add_forces(one_by_one, points, Box::none(), forces), InvalidParameter);
 }
 

@@ -25,10 +25,10 @@ struct Separations {
   typename S::V r2[S::kRegisters], s[S::kRegisters];
 };
 
-/// Charges of a row's cluster, for the pairs of each register.
+/// Charges of a row's cluster and its coefficients of dispersion, for the pairs of each register.
 template <class S>
 struct RowCharges {
-  typename S::V of_i[S::kRegisters];
+  typename S::V of_i[S::kRegisters], dispersion_of_i[S::kRegisters];
 };
 
 template <class S, LjParameters kParameters, ForceKind kKind>
@@ -112,11 +112,14 @@ void apply(const LjTask<typename S::Real>& task, const ClusterPairs::Entry& entr
   Coordinates<S> force;
   for (int p = 0; p < S::kRegisters; ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
-    V charge = S::zero();
+    Products<S> products{S::zero(), S::zero()};
     if constexpr (has_charges(kKind))
-      charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
+      products.charge = S::mul(charges.of_i[p], S::repeat(task.charge + 4 * entry.cluster));
+    if constexpr (has_dispersion(kKind))
+      products.dispersion =
+          S::mul(charges.dispersion_of_i[p], S::repeat(task.dispersion + 4 * entry.cluster));
     const PairTerms<S> terms =
-        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, charge, constants);
+        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, products, constants);
     // The force on J, which the displacement points to.
     force.x[p] = S::mul(terms.force, dx);
     force.y[p] = S::mul(terms.force, dy);
@@ -155,6 +158,9 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& task, LjSums& sum
     coefficient.choose_i(row.cluster);
     if constexpr (has_charges(kKind))
       for (int p = 0; p < S::kRegisters; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
+    if constexpr (has_dispersion(kKind))
+      for (int p = 0; p < S::kRegisters; ++p)
+        charges.dispersion_of_i[p] = S::spread(task.dispersion + 4 * row.cluster, p);
     RowSums<S> sum;
     for (int p = 0; p < S::kRegisters; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
     sum.energy = sum.coulomb_energy = S::zero();
@@ -210,7 +216,8 @@ constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
      lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
      lj_functions_that_mix<S, ForceKind::switched>,
      lj_functions_that_mix<S, ForceKind::switched_reaction_field>,
-     lj_functions_that_mix<S, ForceKind::ewald_series>, lj_functions_that_mix<S, ForceKind::switched_ewald>},
+     lj_functions_that_mix<S, ForceKind::ewald_series>, lj_functions_that_mix<S, ForceKind::switched_ewald>,
+     lj_functions_that_mix<S, ForceKind::ewald_dispersion>},
     kWantsLanes<S>};
 
 }  // namespace

@@ -63,7 +63,8 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
   if constexpr (has_charges(kKind))
     charge = S::mul(S::mul(S::gather(task.charge, i), S::gather(task.charge, j)),
                     S::set1(task.charge_unit * task.charge_unit));
-  const PairTerms<S> terms = pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, charge, constants);
+  const PairTerms<S> terms =
+      pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, {charge, S::zero()}, constants);
   const V fx = S::mul(terms.force, dx), fy = S::mul(terms.force, dy), fz = S::mul(terms.force, dz);
   if constexpr (kSums) {
     sum.energy = S::add(sum.energy, terms.energy);
@@ -124,6 +125,7 @@ constexpr LjFunctions<LjPairTask> lj_pair_functions_of{
     {lj_pair_functions_of_kind<S, ForceKind::lennard_jones>,
      lj_pair_functions_of_kind<S, ForceKind::plain>,
      lj_pair_functions_of_kind<S, ForceKind::ewald>,
+     {},
      {},
      {},
      {},

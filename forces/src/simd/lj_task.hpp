@@ -22,9 +22,9 @@ struct LjCoefficients {
 /// Which terms act: Lennard-Jones alone; with charges, whose energy is q_i q_j / r, what an Ewald sum leaves
 /// of that, q_i q_j erfc(splitting r) / r, or that with a reaction field, q_i q_j (1/r + quadratic r^2 -
 /// offset); and Lennard-Jones multiplied by a switching function, alone, with charges and their reaction
-/// field, or with what an Ewald sum leaves. `ewald` takes erfc from a formula; `ewald_series` and
-/// `switched_ewald` take it from a series. Where there is a reaction field, a switch or a series, all pairs
-/// have one cutoff.
+/// field, or with what an Ewald sum leaves. `ewald` takes erfc from a formula; the others of an
+/// Ewald sum take it from a series. `ewald_dispersion` has what a lattice sum leaves of dispersion too. Where
+/// there is a reaction field, a switch or a series, all pairs have one cutoff.
 enum class ForceKind {
   lennard_jones,
   plain,
@@ -33,16 +33,19 @@ enum class ForceKind {
   switched,
   switched_reaction_field,
   ewald_series,
-  switched_ewald
+  switched_ewald,
+  ewald_dispersion
 };
-inline constexpr int kForceKinds = 8;
+inline constexpr int kForceKinds = 9;
 
 constexpr bool has_reaction_field(ForceKind kind) {
   return kind == ForceKind::reaction_field || kind == ForceKind::switched_reaction_field;
 }
 constexpr bool has_ewald(ForceKind kind) {
-  return kind == ForceKind::ewald || kind == ForceKind::ewald_series || kind == ForceKind::switched_ewald;
+  return kind == ForceKind::ewald || kind == ForceKind::ewald_series || kind == ForceKind::switched_ewald ||
+         kind == ForceKind::ewald_dispersion;
 }
+constexpr bool has_dispersion(ForceKind kind) { return kind == ForceKind::ewald_dispersion; }
 constexpr bool has_charges(ForceKind kind) {
   return kind == ForceKind::plain || has_ewald(kind) || has_reaction_field(kind);
 }
@@ -52,7 +55,8 @@ constexpr bool is_switched(ForceKind kind) {
 }
 /// Whether all pairs and charges have the same cutoff.
 constexpr bool has_one_cutoff(ForceKind kind) {
-  return has_reaction_field(kind) || is_switched(kind) || kind == ForceKind::ewald_series;
+  return has_reaction_field(kind) || is_switched(kind) || kind == ForceKind::ewald_series ||
+         has_dispersion(kind);
 }
 /// Whether charges may have a cutoff of their own.
 constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !has_one_cutoff(kind); }
@@ -73,6 +77,9 @@ struct LjConstants {
   Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
   Real series_scale = 0;                 ///< EwaldSeries has powers of r^2 times this, less 1 [1/length^2]
   Real ewald_force[kEwaldTerms<Real>]{}, ewald_energy[kEwaldTerms<Real>]{};
+  Real dispersion_force[kEwaldTerms<Real>]{};   ///< a DispersionSeries
+  Real dispersion_energy[kEwaldTerms<Real>]{};  ///< the same, less its value at the cutoff
+  Real over_cutoff2 = 0;                        ///< with dispersion [1/length^2]
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.
@@ -89,6 +96,7 @@ struct LjTask {
   const Real* half_sigma;    ///< by slot, aligned; null unless parameters are mixed
   const Real* root_epsilon;  ///< the same: the product of two is 4 epsilon of the pair
   const Real* charge;        ///< by slot, aligned; null without charges
+  const Real* dispersion;    ///< coefficients by slot, aligned; null without a lattice sum of dispersion
   LjConstants<Real> constants;
   ClusterOfFour<Real>* force;  ///< by cluster; added to
   Real* lanes;              ///< kNumbersOfLanes by cluster, aligned, 0 before and after; null unless wanted

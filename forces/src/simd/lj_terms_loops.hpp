@@ -157,8 +157,9 @@ struct Constants {
         switch_from(S::set1(c.switch_from)),
         over_width(S::set1(c.over_width)),
         series_scale(S::set1(c.series_scale)),
+        over_cutoff2(S::set1(c.over_cutoff2)),
         series(&c) {}
-  typename S::V splitting, quadratic, offset, switch_from, over_width, series_scale;
+  typename S::V splitting, quadratic, offset, switch_from, over_width, series_scale, over_cutoff2;
   const LjConstants<typename S::Real>* series;
 };
 
@@ -249,13 +250,38 @@ void add_ewald(typename S::V r2, typename S::V s, typename S::V over_r, typename
   }
 }
 
+/// Takes away what reciprocal space holds of the dispersion of a pair, which attracts. All of the pair's
+/// energy but that of charges is lowered by its value at the cutoff; Lennard-Jones's by a table is so
+/// already.
+template <class S, bool kSums, class Coefficients>
+void add_dispersion(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
+                    typename S::V product, const Constants<S>& constants, PairTerms<S>& terms) {
+  using V = typename S::V;
+  const auto acts = S::less(S::zero(), s, 0xFFFF, 0);
+  const V u = S::msub(r2, constants.series_scale, S::set1(1));
+  const V far = S::keep(acts, series<S>(constants.series->dispersion_force, u));
+  terms.force = S::madd(product, far, terms.force);
+  if constexpr (kSums) {
+    V energy = S::mul(product, series<S>(constants.series->dispersion_energy, u));
+    if constexpr (Coefficients::kMixes)
+      energy = S::sub(energy, lennard_jones_terms<S, true>(coefficient, p, constants.over_cutoff2).energy);
+    terms.energy = S::add(terms.energy, S::keep(acts, energy));
+  }
+}
+
+/// Products of two particles' numbers.
+template <class S>
+struct Products {
+  typename S::V charge, dispersion;
+};
+
 /// S::over_root gives 1/r from these two, and 0 where s is.
 /// @param s inverse squared distances, 0 where nothing acts
-/// @param charge products of charges
 template <class S, bool kSums, ForceKind kKind, class Coefficients>
 PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
-                        typename S::V charge, const Constants<S>& constants) {
+                        const Products<S>& products, const Constants<S>& constants) {
   using V = typename S::V;
+  const V charge = products.charge;
   PairTerms<S> terms = lennard_jones_terms < S, kSums || is_switched(kKind) > (coefficient, p, s);
   if constexpr (kSums && !is_switched(kKind) && !Coefficients::kMixes) {
     const V above = S::keep(S::less(S::zero(), s, 0xFFFF, p), coefficient(kEnergyShift, p));
@@ -268,6 +294,8 @@ PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2
       add_reaction_field<S, kSums>(r2, s, over_r, charge, constants, terms);
     if constexpr (has_ewald(kKind) && has_one_cutoff(kKind))
       add_ewald<S, kSums>(r2, s, over_r, charge, constants, terms);
+    if constexpr (has_dispersion(kKind))
+      add_dispersion<S, kSums>(coefficient, p, r2, s, products.dispersion, constants, terms);
     if constexpr (has_two_cutoffs(kKind)) {
       const auto is_near = S::less(r2, coefficient(kCutoff2, p), 0xFFFF, p);
       const auto charges_are_near = S::less(r2, coefficient(kCoulombCutoff2, p), 0xFFFF, p);

@@ -58,6 +58,16 @@ struct CoulombTerm {
   bool by_series = false;       ///< how an Ewald sum takes erfc
 };
 
+/// Dispersion by a lattice sum, of which a pair within the cutoff is a part: reciprocal space (EwaldMesh,
+/// with LatticeSum::dispersion) holds -c_i c_j share / r^6 of any pair, share = 1 - e^(-x^2) (1 + x^2 + x^4 /
+/// 2) with x = splitting r, and here it is taken away again, so that Lennard-Jones alone is left. The energy
+/// of a pair is lowered by what it is at the cutoff, as Lennard-Jones's with `shifted` (Wennberg, Murtola,
+/// Pall, Abraham, Hess and Lindahl, J. Chem. Theory Comput. 11:5737, 2015).
+struct DispersionTerm {
+  double splitting = 0;              ///< > 0 [1/length]
+  std::vector<double> coefficients;  ///< c, one per particle [sqrt(energy) length^3]
+};
+
 /// Sums over the pairs, each counted once.
 struct LennardJonesSums {
   double energy = 0;               ///< [energy]
@@ -100,6 +110,11 @@ class LennardJones {
   /// @throws InvalidParameter unless 0 <= from < cutoff, and if the energy is shifted, cutoffs differ, that
   ///   of charges too, or charges act as in an Ewald sum without series.
   void set_switch(double from);
+  /// Has dispersion act by a lattice sum, beside charges that do, which may all be 0. For cluster pairs only.
+  /// @throws InvalidParameter for a splitting parameter that is not finite and positive or times the cutoff
+  ///   over 6, for a coefficient that is not finite, unless a CoulombTerm is set that asks for a series, with
+  ///   a switch, and where pairs are given by type but their energies are not shifted.
+  void set_dispersion(const DispersionTerm& term);
   /// Threads to compute forces of cluster pairs with; null for that of the caller alone. Not owned.
   void set_executor(Executor* executor) { executor_ = executor; }
 
@@ -113,7 +128,8 @@ class LennardJones {
   /// Adds the force on each particle to `forces`, which is indexed as the positions were [energy/length].
   /// O(entries).
   /// @param charges one per particle, or none if no CoulombTerm was set [charge]
-  /// @throws InvalidParameter if forces or charges are not one per particle, if the cutoff exceeds the radius
+  /// @throws InvalidParameter if forces, charges or coefficients are not one per particle, if the cutoff
+  /// exceeds the radius
   ///   that the pairs were made for, if they have more types than this, or if `precision` is mixed and not
   ///   fits_single().
   void add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
@@ -148,7 +164,7 @@ class LennardJones {
     std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its task
     std::vector<std::vector<Lanes<Real>>> lanes;          ///< the same before it is summed up, if wanted
     std::vector<ClusterOfFour<Real>> earlier;             ///< found by tasks before that of the cluster
-    std::vector<FourNumbers<Real>> charge, half_sigma, root_epsilon;
+    std::vector<FourNumbers<Real>> charge, dispersion, half_sigma, root_epsilon;
   };
   /// Each for all pairs of types: cutoff2, force12, force6, energy12, energy6, energy_shift, coulomb_cutoff2.
   template <class Real>
@@ -157,6 +173,7 @@ class LennardJones {
   void take_matrix(const std::vector<LennardJonesPair>& matrix, bool shifted);
   void check_coulomb_kind(const CoulombTerm& term) const;
   void make_series(const CoulombTerm& term);
+  void check_dispersion(const DispersionTerm& term) const;
   detail::ForceKind kind() const;
   detail::LjParameters parameters() const;
   template <class Real>
@@ -184,6 +201,12 @@ class LennardJones {
   /// Of what reciprocal space holds of charges, by power: forces, energies; in double and in single
   /// precision.
   std::vector<double> force_series_, energy_series_, force_series_single_, energy_series_single_;
+  bool has_dispersion_ = false;
+  double dispersion_unit_ = 1;      ///< what coefficients are multiplied by
+  std::vector<double> dispersion_;  ///< coefficients by particle
+  /// The same of dispersion.
+  std::vector<double> dispersion_force_, dispersion_energy_, dispersion_force_single_,
+      dispersion_energy_single_;
   double switch_from_ = -1;                        ///< negative: there is no switch
   bool mixes_ = false;                             ///< parameters are those of particles
   std::vector<double> half_sigma_, root_epsilon_;  ///< by particle then; 4 epsilon of a pair is the product
