@@ -19,7 +19,7 @@ class DCHNonbondedKernel : public CalcDCHNonbondedForceKernel {
       : CalcDCHNonbondedForceKernel(kernelName, onPlatform), sum(std::move(ofPlatform)) {}
 
   void initialize(const OpenMM::System& system, const DCHNonbondedForce& force) override {
-    sum->initialize(system, force.getParameters(), 0);
+    sum->initialize(system, force.getParameters(), {});
   }
   double execute(OpenMM::ContextImpl& context, bool, bool includeEnergy) override {
     sum->follow(context);

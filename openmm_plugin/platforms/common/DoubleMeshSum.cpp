@@ -21,8 +21,9 @@ void DoubleMeshSum::start(int particles) {
 double DoubleMeshSum::addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
   auto& data = *static_cast<OpenMM::ReferencePlatform::PlatformData*>(context.getPlatformData());
   double energy = 0;
-  OpenMM::pme_exec(static_cast<OpenMM::pme_t>(function.get()), *data.positions, *data.forces, charges,
-                   data.periodicBoxVectors, &energy);
+  const auto run = isOfDispersion() ? &OpenMM::pme_exec_dpme : &OpenMM::pme_exec;
+  run(static_cast<OpenMM::pme_t>(function.get()), *data.positions, *data.forces, charges,
+      data.periodicBoxVectors, &energy);
   return energy;
 }
 

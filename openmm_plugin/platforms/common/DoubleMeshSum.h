@@ -11,6 +11,7 @@ namespace OpenMMDCH {
 /// By OpenMM's own function, in double, on one thread.
 class DoubleMeshSum : public MeshSum {
  public:
+  using MeshSum::MeshSum;
   std::string computedBy() const override { return "OpenMM"; }
 
  protected:

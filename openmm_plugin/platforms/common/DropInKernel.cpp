@@ -13,16 +13,26 @@ using OpenMM::NonbondedForce;
 
 /// Why OpenMM's own kernel computes a force, "" if ours does.
 std::string reasonForNative(const NonbondedForce& force) {
-  if (force.getNonbondedMethod() == NonbondedForce::LJPME) return "the method LJPME is not covered";
+  if (force.getNonbondedMethod() == NonbondedForce::LJPME && force.getUseSwitchingFunction())
+    return "a switching function with the method LJPME is not covered";
   if (force.getUseSwitchingFunction() && force.getSwitchingDistance() <= 0 &&
       force.getUseDispersionCorrection() && force.usesPeriodicBoundaryConditions())
     return "the dispersion correction has no value for a switching distance of 0";
   return "";
 }
 
+void readGrid(const ReciprocalSum* sum, double& alpha, int& nx, int& ny, int& nz) {
+  if (!sum || !sum->gridSize())
+    throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
+  alpha = sum->splitting();
+  nx = sum->gridSize()[0];
+  ny = sum->gridSize()[1];
+  nz = sum->gridSize()[2];
+}
+
 /// The same for what the splitting parameter of a lattice sum times the cutoff is.
 std::string reasonForNative(double splittingTimesCutoff) {
-  constexpr double kMax = 6;  // of the series of dch::CoulombTerm
+  constexpr double kMax = 6;  // of the series of dch::CoulombTerm and dch::DispersionTerm
   return splittingTimesCutoff <= kMax ? "" : "the splitting parameter times the cutoff is over 6";
 }
 
@@ -60,14 +70,15 @@ DropInKernel::~DropInKernel() {
 
 void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce& force) {
   std::string reason = reasonForNative(force);
-  if (force.getNonbondedMethod() == NonbondedForce::PME) reciprocal = sums.mesh.get();
-  if (force.getNonbondedMethod() == NonbondedForce::Ewald) reciprocal = sums.waves.get();
-  if (reason.empty() && reciprocal) {
-    reciprocal->initialize(system, force);
-    reason = reasonForNative(reciprocal->splitting() * force.getCutoffDistance());
+  chooseReciprocal(force);
+  for (ReciprocalSum* const sum : {reciprocal, dispersion}) {
+    if (!reason.empty() || !sum) continue;
+    sum->initialize(system, force);
+    reason = reasonForNative(sum->splitting() * force.getCutoffDistance());
   }
   if (reason.empty()) {
-    sums.pairs->initialize(system, force, reciprocal ? reciprocal->splitting() : 0);
+    const auto splittingOf = [](const ReciprocalSum* sum) { return sum ? sum->splitting() : 0; };
+    sums.pairs->initialize(system, force, {splittingOf(reciprocal), splittingOf(dispersion)});
   } else {
     giveToNative(system, force);
     DropInRegistry::get().sayOnce("NonbondedForce", reason);
@@ -76,9 +87,16 @@ void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce
   rememberStatus(reason);
 }
 
+void DropInKernel::chooseReciprocal(const NonbondedForce& force) {
+  const auto method = force.getNonbondedMethod();
+  if (method == NonbondedForce::Ewald) reciprocal = sums.waves.get();
+  if (method == NonbondedForce::PME || method == NonbondedForce::LJPME) reciprocal = sums.mesh.get();
+  if (method == NonbondedForce::LJPME) dispersion = sums.dispersionMesh.get();
+}
+
 void DropInKernel::giveToNative(const OpenMM::System& system, const NonbondedForce& force) {
   sums = {};
-  reciprocal = nullptr;
+  reciprocal = dispersion = nullptr;
   native = OpenMM::Kernel(nativeFactory.createKernelImpl(getName(), getPlatform(), context));
   kernelIn(native).initialize(system, force);
 }
@@ -99,8 +117,8 @@ double DropInKernel::execute(OpenMM::ContextImpl& ofContext, bool includeForces,
   sums.pairs->follow(ofContext);
   double energy = 0;
   if (includeDirect) energy += sums.pairs->add(ofContext, includeEnergy);
-  if (includeReciprocal && reciprocal)
-    energy += reciprocal->add(ofContext, sums.pairs->parameters().particles());
+  for (ReciprocalSum* const sum : {reciprocal, dispersion})
+    if (includeReciprocal && sum) energy += sum->add(ofContext, sums.pairs->parameters().particles());
   return energy;
 }
 
@@ -121,16 +139,11 @@ void DropInKernel::copyParametersToContext(OpenMM::ContextImpl& ofContext, const
 void DropInKernel::getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
   if (!sums.pairs)
     return native.getAs<OpenMM::CalcNonbondedForceKernel>().getPMEParameters(alpha, nx, ny, nz);
-  if (!reciprocal || !reciprocal->gridSize())
-    throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
-  alpha = reciprocal->splitting();
-  nx = reciprocal->gridSize()[0];
-  ny = reciprocal->gridSize()[1];
-  nz = reciprocal->gridSize()[2];
+  readGrid(reciprocal, alpha, nx, ny, nz);
 }
 
 void DropInKernel::getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
-  if (sums.pairs) throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
+  if (sums.pairs) return readGrid(dispersion, alpha, nx, ny, nz);
   native.getAs<OpenMM::CalcNonbondedForceKernel>().getLJPMEParameters(alpha, nx, ny, nz);
 }
 

@@ -16,7 +16,9 @@ namespace OpenMMDCH {
 
 struct SumsOfPlatform {
   std::unique_ptr<NonbondedSum> pairs;
-  std::unique_ptr<ReciprocalSum> mesh, waves;  ///< for PME, and for Ewald
+  std::unique_ptr<ReciprocalSum> mesh;            ///< of charges, for PME and LJPME
+  std::unique_ptr<ReciprocalSum> dispersionMesh;  ///< for LJPME
+  std::unique_ptr<ReciprocalSum> waves;           ///< for Ewald
 };
 
 /// OpenMM's NonbondedForce by the sums that a platform has of ours, or by OpenMM's own kernel where
@@ -42,6 +44,7 @@ class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
   void getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const override;
 
  private:
+  void chooseReciprocal(const OpenMM::NonbondedForce& force);
   void giveToNative(const OpenMM::System& system, const OpenMM::NonbondedForce& force);
   void rememberStatus(const std::string& reason);
 
@@ -50,6 +53,7 @@ class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
   const OpenMM::NonbondedForce* owner = nullptr;
   SumsOfPlatform sums;                  ///< null if OpenMM's kernel computes the force
   ReciprocalSum* reciprocal = nullptr;  ///< one of them; null without a lattice sum too
+  ReciprocalSum* dispersion = nullptr;  ///< the same, of dispersion
   OpenMM::Kernel native;
 };
 

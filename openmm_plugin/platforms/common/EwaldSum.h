@@ -16,7 +16,8 @@ namespace OpenMMDCH {
 class EwaldSum : public ReciprocalSum {
  public:
   /// @param ofPlatform  its threads; null for the caller's alone
-  explicit EwaldSum(std::unique_ptr<dch::Executor> ofPlatform) : executor(std::move(ofPlatform)) {}
+  explicit EwaldSum(std::unique_ptr<dch::Executor> ofPlatform)
+      : ReciprocalSum(dch::LatticeSum::coulomb), executor(std::move(ofPlatform)) {}
 
   /// Splitting and wave numbers are those that OpenMM chooses.
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) override;

@@ -6,7 +6,8 @@
 namespace OpenMMDCH {
 
 void MeshSum::initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) {
-  OpenMM::NonbondedForceImpl::calcPMEParameters(system, force, alpha, grid[0], grid[1], grid[2], false);
+  OpenMM::NonbondedForceImpl::calcPMEParameters(system, force, alpha, grid[0], grid[1], grid[2],
+                                                isOfDispersion());
   start(system.getNumParticles());
 }
 

@@ -9,6 +9,8 @@ namespace OpenMMDCH {
 /// Particle mesh Ewald.
 class MeshSum : public ReciprocalSum {
  public:
+  using ReciprocalSum::ReciprocalSum;
+
   /// Grid and splitting are those that OpenMM chooses; a platform may have a finer grid.
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) override;
   const int* gridSize() const override { return grid; }

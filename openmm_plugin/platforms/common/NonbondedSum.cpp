@@ -15,7 +15,8 @@ namespace OpenMMDCH {
 namespace {
 
 double dispersionOf(const OpenMM::System& system, const OpenMM::NonbondedForce& force) {
-  const bool wanted = force.usesPeriodicBoundaryConditions() && force.getUseDispersionCorrection();
+  const bool wanted = force.usesPeriodicBoundaryConditions() && force.getUseDispersionCorrection() &&
+                      force.getNonbondedMethod() != OpenMM::NonbondedForce::LJPME;
   return wanted ? OpenMM::NonbondedForceImpl::calcDispersionCorrection(system, force) : 0;
 }
 
@@ -33,11 +34,11 @@ dch::Exclusions exclusionsOf(const OpenMM::NonbondedForce& force) {
 }  // namespace
 
 void NonbondedSum::initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
-                              double splitting) {
+                              const Splittings& splittings) {
   isPeriodic = force.usesPeriodicBoundaryConditions();
   exceptionsArePeriodic = isPeriodic && force.getExceptionsUsePeriodicBoundaryConditions();
   parameterSet.emplace(force);
-  pairPotential.emplace(force, splitting);
+  pairPotential.emplace(force, splittings);
   excludedPairs = exclusionsOf(force);
   dispersionCoefficient = dispersionOf(system, force);
 }
@@ -115,15 +116,14 @@ double NonbondedSum::addExceptions(const HostState& state) const {
 double NonbondedSum::addException(const HostState& state, const DCHParameterSet::Exception& exception) const {
   const auto i = static_cast<std::size_t>(exception.particle1);
   const auto j = static_cast<std::size_t>(exception.particle2);
-  double reciprocal = 0;  // charges there
-  if (potential().hasLatticeSum())
-    reciprocal = parameters().particles()[i].charge * parameters().particles()[j].charge;
-  if (!exception.acts() && reciprocal == 0) return 0;
+  const DCHParameterSet::Particle &a = parameters().particles()[i], &b = parameters().particles()[j];
+  const bool isInReciprocalSpace = potential().isInReciprocalSpace(a, b);
+  if (!exception.acts() && !isInReciprocalSpace) return 0;
   dch::Vec3 apart = state.positions[j] - state.positions[i];
   if (exceptionsArePeriodic) apart = state.box.nearest_image(apart);
   PairTerms terms;
   if (exception.acts()) terms = PairPotential::ofException(exception, norm2(apart));
-  if (reciprocal != 0) terms = terms - potential().inReciprocalSpace(reciprocal, norm2(apart));
+  if (isInReciprocalSpace) terms = terms - potential().inReciprocalSpace(a, b, norm2(apart));
   const dch::Vec3 force = terms.forceOverR * apart;
   state.forces[i] = state.forces[i] - force;
   state.forces[j] = state.forces[j] + force;

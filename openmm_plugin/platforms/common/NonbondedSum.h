@@ -23,9 +23,8 @@ class NonbondedSum {
   virtual ~NonbondedSum() = default;
 
   /// @param force  has been checked
-  /// @param splitting  of a lattice sum, 0 without one [1/nm]
   virtual void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
-                          double splitting);
+                          const Splittings& splittings);
   /// Takes parameters anew.
   /// @throws OpenMMException if numbers of particles or exceptions have changed
   void copyParameters(const OpenMM::System& system, const OpenMM::NonbondedForce& force);

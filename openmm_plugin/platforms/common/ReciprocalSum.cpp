@@ -12,10 +12,14 @@ double ReciprocalSum::add(OpenMM::ContextImpl& context,
   chargesNow.clear();
   double squares = 0;
   for (const DCHParameterSet::Particle& p : particles) {
-    chargesNow.push_back(p.charge);
-    squares += p.charge * p.charge;
+    const double charge = isOfDispersion() ? PairPotential::dispersionOf(p) : p.charge;
+    chargesNow.push_back(charge);
+    squares += charge * charge;
   }
-  const double ofThemselves = PairPotential::coulombConstant() * alpha / std::sqrt(std::acos(-1.0)) * squares;
+  if (squares == 0) return 0;
+  const double ofThemselves =
+      isOfDispersion() ? -std::pow(alpha, 6) / 12 * squares
+                       : PairPotential::coulombConstant() * alpha / std::sqrt(std::acos(-1.0)) * squares;
   return addWithThemselves(context, chargesNow) - ofThemselves;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <dch/forces/ewald_mesh.hpp>
+
 #include "internal/DCHParameterSet.h"
 
 namespace OpenMMDCH {
@@ -15,6 +17,8 @@ namespace OpenMMDCH {
 /// The part of a lattice sum in reciprocal space, on a platform on the processor.
 class ReciprocalSum {
  public:
+  /// @param ofWhat  charges, or coefficients of dispersion
+  explicit ReciprocalSum(dch::LatticeSum ofWhat) : what(ofWhat) {}
   virtual ~ReciprocalSum() = default;
 
   virtual void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) = 0;
@@ -28,9 +32,13 @@ class ReciprocalSum {
   virtual std::string computedBy() const = 0;
 
  protected:
+  /// @param charges  or coefficients of dispersion
   /// @return the energy, that of each charge with itself included
   virtual double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) = 0;
 
+  bool isOfDispersion() const { return what == dch::LatticeSum::dispersion; }
+
+  dch::LatticeSum what;
   double alpha = 0;
 
  private:

@@ -48,14 +48,17 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
 
  private:
   static bool isDouble() { return OpenMMDCH::DropInRegistry::get().isDouble(); }
+  static std::unique_ptr<OpenMMDCH::ReciprocalSum> meshFor(dch::LatticeSum what,
+                                                           OpenMM::ThreadPool& threads) {
+    if (isDouble()) return std::make_unique<OpenMMDCH::DoubleMeshSum>(what);
+    return std::make_unique<OpenMMDCH::CpuMeshSum>(what, threads);
+  }
   static OpenMMDCH::SumsOfPlatform sumsFor(OpenMM::ThreadPool& threads) {
     OpenMMDCH::SumsOfPlatform sums;
     sums.pairs = std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads, isDouble());
     sums.waves = std::make_unique<OpenMMDCH::EwaldSum>(std::make_unique<OpenMMDCH::PoolExecutor>(threads));
-    if (isDouble())
-      sums.mesh = std::make_unique<OpenMMDCH::DoubleMeshSum>();
-    else
-      sums.mesh = std::make_unique<OpenMMDCH::CpuMeshSum>(threads);
+    sums.mesh = meshFor(dch::LatticeSum::coulomb, threads);
+    sums.dispersionMesh = meshFor(dch::LatticeSum::dispersion, threads);
     return sums;
   }
   static std::unique_ptr<OpenMMDCH::BornSum> bornSumFor(OpenMM::ThreadPool& threads) {

@@ -11,7 +11,8 @@ namespace OpenMMDCH {
 
 void CpuMeshSum::start(int) {
   withErrorsOfHost([&] {
-    mesh.emplace(std::array<int, 3>{grid[0], grid[1], grid[2]}, alpha, PairPotential::coulombConstant());
+    mesh.emplace(std::array<int, 3>{grid[0], grid[1], grid[2]}, alpha,
+                 isOfDispersion() ? 1 : PairPotential::coulombConstant(), what);
   });
   mesh->set_executor(&executor);
   const std::array<int, 3> sizes = mesh->sizes();

@@ -14,7 +14,7 @@ namespace OpenMMDCH {
 /// By the library's mesh, in single precision, on the threads of the platform.
 class CpuMeshSum : public MeshSum {
  public:
-  explicit CpuMeshSum(OpenMM::ThreadPool& threads) : executor(threads) {}
+  CpuMeshSum(dch::LatticeSum ofWhat, OpenMM::ThreadPool& threads) : MeshSum(ofWhat), executor(threads) {}
   std::string computedBy() const override { return "DCH"; }
 
  protected:

@@ -16,8 +16,8 @@ constexpr std::size_t kMaxKinds = 4;
 }  // namespace
 
 void CpuNonbondedSum::initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
-                                 double splitting) {
-  NonbondedSum::initialize(system, force, splitting);
+                                 const Splittings& splittings) {
+  NonbondedSum::initialize(system, force, splittings);
   if (potential().hasCutoff()) keeper.emplace(potential().cutoffDistance(), exclusions(), executor);
 }
 
@@ -57,7 +57,7 @@ void CpuNonbondedSum::makeForces() {
       for (const auto& [b, kindB] : kinds)
         matrix[static_cast<std::size_t>(kindA) * side + static_cast<std::size_t>(kindB)] = {
             std::sqrt(a.second * b.second), 0.5 * (a.first + b.first), cutoff};
-    forces.emplace(static_cast<int>(side), matrix);
+    forces.emplace(static_cast<int>(side), matrix, potential().hasDispersionSum());
   } else {
     forces.emplace(cutoff, parametersOf);
     side = 1;
@@ -66,16 +66,23 @@ void CpuNonbondedSum::makeForces() {
   forces->set_executor(&executor);
   keeper->setTypes(std::move(kindOf), static_cast<int>(side));
   setCharges(side * side);
+  if (potential().hasDispersionSum()) setDispersion();
   if (potential().isSwitched()) forces->set_switch(potential().switchingDistance());
 }
 
 void CpuNonbondedSum::setCharges(std::size_t typePairs) {
   charges.clear();
-  if (!parameters().hasCharges()) return;
+  if (!parameters().hasCharges() && !potential().hasDispersionSum()) return;
   for (const auto& p : parameters().particles()) charges.push_back(p.charge);
   forces->set_coulomb({PairPotential::coulombConstant(), potential().splitting(),
                        std::vector<double>(typePairs, potential().cutoffDistance()),
                        potential().reactionFieldK(), potential().reactionFieldC(), true});
+}
+
+void CpuNonbondedSum::setDispersion() {
+  dch::DispersionTerm term{potential().dispersionSplitting(), {}};
+  for (const auto& p : parameters().particles()) term.coefficients.push_back(PairPotential::dispersionOf(p));
+  forces->set_dispersion(term);
 }
 
 double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {

@@ -23,7 +23,7 @@ class CpuNonbondedSum : public NonbondedSum {
   CpuNonbondedSum(OpenMM::ThreadPool& threads, bool asDouble) : executor(threads), isDouble(asDouble) {}
 
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
-                  double splitting) override;
+                  const Splittings& splittings) override;
 
  protected:
   double addPairs(const HostState& state, bool includeEnergy) override;
@@ -32,6 +32,7 @@ class CpuNonbondedSum : public NonbondedSum {
  private:
   void makeForces();
   void setCharges(std::size_t typePairs);
+  void setDispersion();
   void makeForcesOfAllPairs();
   /// In single precision, or in double where that has no value.
   double addWithoutCutoff(const HostState& state, bool includeEnergy);
@@ -43,7 +44,7 @@ class CpuNonbondedSum : public NonbondedSum {
   std::optional<dch::LennardJones> forces;             ///< the same
   std::optional<dch::AllPairForces> forcesOfAllPairs;  ///< without one
   std::vector<dch::Vec3> found;                        ///< the same
-  std::vector<double> charges;                         ///< empty if all are 0
+  std::vector<double> charges;  ///< empty if all are 0 and dispersion has no lattice sum
   std::vector<std::vector<dch::Vec3>> forcesByThread;  ///< of all pairs
 };
 

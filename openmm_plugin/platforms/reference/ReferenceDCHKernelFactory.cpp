@@ -30,7 +30,9 @@ class ReferenceDCHKernelFactory : public OpenMM::KernelFactory {
     if (name == OpenMM::CalcNonbondedForceKernel::Name())
       return OpenMMDCH::makeNonbondedKernel(
           name, platform, context,
-          {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(), std::make_unique<OpenMMDCH::DoubleMeshSum>(),
+          {std::make_unique<OpenMMDCH::ReferenceNonbondedSum>(),
+           std::make_unique<OpenMMDCH::DoubleMeshSum>(dch::LatticeSum::coulomb),
+           std::make_unique<OpenMMDCH::DoubleMeshSum>(dch::LatticeSum::dispersion),
            std::make_unique<OpenMMDCH::EwaldSum>(nullptr)},
           native);
     if (name == OpenMM::CalcGBSAOBCForceKernel::Name())

@@ -25,8 +25,27 @@ inline RadialTerms ewald_terms(double qq, double splitting, double r, bool far) 
   return {qq * share / r, qq * (share + (far ? -gauss : gauss)) / (r * r)};
 }
 
+/// What reciprocal space holds of two coefficients of dispersion, but for its sign.
+inline RadialTerms far_dispersion(double product, double splitting, double distance) {
+  const long double r = distance, y = splitting * splitting * r * r;
+  const long double shorter = 1 + y + y * y / 2, longer = shorter + y * y * y / 6;
+  const long double energy = product * (1 - std::exp(-y) * shorter) / std::pow(r, 6.0L);
+  return {static_cast<double>(energy),
+          static_cast<double>(6 * product * (1 - std::exp(-y) * longer) / std::pow(r, 7.0L))};
+}
+
+/// Of lattice sums, 0 without one [1/nm].
+struct OracleSplittings {
+  double charges = 0, dispersion = 0;
+};
+
+inline double dispersion_coefficient(double sigma, double epsilon) {
+  return 8 * std::pow(sigma / 2, 3) * 2 * std::sqrt(epsilon);
+}
+
 template <class Force>
-RadialTerms pair_terms(const Force& force, int i, int j, double r, double splitting) {
+RadialTerms pair_terms(const Force& force, int i, int j, double r, const OracleSplittings& splittings) {
+  const double splitting = splittings.charges;
   double qi, si, ei, qj, sj, ej;
   force.getParticleParameters(i, qi, si, ei);
   force.getParticleParameters(j, qj, sj, ej);
@@ -35,6 +54,15 @@ RadialTerms pair_terms(const Force& force, int i, int j, double r, double splitt
   if (force.getNonbondedMethod() == Force::NoCutoff)
     return {terms.energy + qq / r, terms.force + qq / (r * r)};
   const double rc = force.getCutoffDistance(), rs = force.getSwitchingDistance();
+  if (splittings.dispersion > 0) {
+    const double product = dispersion_coefficient(si, ei) * dispersion_coefficient(sj, ej);
+    const auto whole = [&](double at) {
+      const RadialTerms near = lennard_jones((si + sj) / 2, std::sqrt(ei * ej), at);
+      const RadialTerms far = far_dispersion(product, splittings.dispersion, at);
+      return RadialTerms{near.energy + far.energy, near.force + far.force};
+    };
+    terms = {whole(r).energy - whole(rc).energy, whole(r).force};
+  }
   if (force.getUseSwitchingFunction() && r > rs) {
     const double x = (r - rs) / (rc - rs);
     const double s = 1 - 10 * std::pow(x, 3) + 15 * std::pow(x, 4) - 6 * std::pow(x, 5);
@@ -67,11 +95,11 @@ void for_each_image(const Vec3& apart, const Vec3* box, const F& act) {
 }
 
 /// Energy and forces by all pairs of particles and all their images within the cutoff, and by all exceptions,
-/// in plain double. The dispersion correction is left out. `box` may be null. With a splitting it is the part
-/// of a lattice sum in direct space.
+/// in plain double. The dispersion correction is left out. `box` may be null. With splittings it is the part
+/// of lattice sums in direct space.
 template <class Force>
 Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, const Vec3* box,
-                     double splitting = 0) {
+                     const OracleSplittings& splittings = {}) {
   Evaluation result{0, std::vector<Vec3>(positions.size())};
   const auto act = [&](std::size_t i, std::size_t j, const Vec3& apart, const RadialTerms& terms) {
     const Vec3 f = apart * (terms.force / std::sqrt(apart.dot(apart)));
@@ -92,13 +120,17 @@ Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, con
     RadialTerms terms = lennard_jones(sigma, epsilon, r);
     if (qq != 0 || epsilon != 0)
       act(a, b, apart, {terms.energy + kCoulomb * qq / r, terms.force + kCoulomb * qq / (r * r)});
-    if (splitting > 0) {
-      double qi, qj;
-      force.getParticleParameters(i, qi, sigma, epsilon);
-      force.getParticleParameters(j, qj, sigma, epsilon);
-      terms = ewald_terms(kCoulomb * qi * qj, splitting, r, true);
+    double qi, si, ei, qj, sj, ej;
+    force.getParticleParameters(i, qi, si, ei);
+    force.getParticleParameters(j, qj, sj, ej);
+    if (splittings.charges > 0) {
+      terms = ewald_terms(kCoulomb * qi * qj, splittings.charges, r, true);
       act(a, b, apart, {-terms.energy, -terms.force});
     }
+    if (splittings.dispersion > 0)
+      act(a, b, apart,
+          far_dispersion(dispersion_coefficient(si, ei) * dispersion_coefficient(sj, ej),
+                         splittings.dispersion, r));
   }
   const double cutoff = force.getNonbondedMethod() == Force::NoCutoff
                             ? std::numeric_limits<double>::infinity()
@@ -109,7 +141,7 @@ Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, con
       const auto act_within_cutoff = [&](const Vec3& apart) {
         if (const double r2 = apart.dot(apart); r2 < cutoff * cutoff)
           act(i, j, apart,
-              pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2), splitting));
+              pair_terms(force, static_cast<int>(i), static_cast<int>(j), std::sqrt(r2), splittings));
       };
       for_each_image(positions[j] - positions[i], box, act_within_cutoff);
     }

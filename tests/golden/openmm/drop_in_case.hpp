@@ -36,12 +36,22 @@ inline double splitting_of_pme(Host& host) {
   return alpha;
 }
 
+/// Splitting and sizes of the grid.
+inline std::vector<double> parameters_of_ljpme(Host& host) {
+  double alpha;
+  int n[3];
+  force_in(host).getLJPMEParametersInContext(*host, alpha, n[0], n[1], n[2]);
+  return {alpha, 1.0 * n[0], 1.0 * n[1], 1.0 * n[2]};
+}
+
 /// Of OpenMM's choice; 0 without a lattice sum.
-inline double splitting_of(Host& host) {
+inline OracleSplittings splittings_of(Host& host) {
   const NonbondedForce& force = force_in(host);
-  if (force.getNonbondedMethod() == NonbondedForce::PME) return splitting_of_pme(host);
-  if (force.getNonbondedMethod() != NonbondedForce::Ewald) return 0;
-  return std::sqrt(-std::log(2 * force.getEwaldErrorTolerance())) / force.getCutoffDistance();
+  if (force.getNonbondedMethod() == NonbondedForce::PME) return {splitting_of_pme(host), 0};
+  if (force.getNonbondedMethod() == NonbondedForce::LJPME)
+    return {splitting_of_pme(host), parameters_of_ljpme(host)[0]};
+  if (force.getNonbondedMethod() != NonbondedForce::Ewald) return {};
+  return {std::sqrt(-std::log(2 * force.getEwaldErrorTolerance())) / force.getCutoffDistance(), 0};
 }
 
 /// Ewald sums are for rectangular boxes only.

@@ -88,7 +88,7 @@ TEST_P(LatticeSumTest, OffsetsAndUpdatesActInBothPartsOfPme) {
 TEST_P(LatticeSumTest, PmeFollowsMotionAndBox) {
   const std::unique_ptr<RandomSystem> made = random_system(NonbondedForce::PME, 77);
   const std::unique_ptr<Host> host = drop_in(made->system);
-  const double splitting = splitting_of(*host);
+  const OracleSplittings splittings = splittings_of(*host);
   dch::scenes::Random random(78);
   const OpenMM::NonbondedForce oracle = with_offsets_added(*made->force);
   for (int step = 0; step < 15; ++step) {
@@ -100,7 +100,7 @@ TEST_P(LatticeSumTest, PmeFollowsMotionAndBox) {
     (*host)->setPositions(made->positions);
     const Evaluation found = host->evaluate(1 << 0);
     // A pair at the cutoff may be taken or not in single precision.
-    EXPECT_LT(force_error(all_pairs(oracle, made->positions, now, splitting), found), 10 * tolerance())
+    EXPECT_LT(force_error(all_pairs(oracle, made->positions, now, splittings), found), 10 * tolerance())
         << step;
   }
 }

@@ -85,7 +85,7 @@ inline std::unique_ptr<RandomSystem> random_system(OpenMM::NonbondedForce::Nonbo
   OpenMM::NonbondedForce& force = *made->force;
   force.setNonbondedMethod(method);
   force.setCutoffDistance(1);
-  force.setUseSwitchingFunction(random.below(2) == 0);
+  force.setUseSwitchingFunction(random.below(2) == 0 && method != OpenMM::NonbondedForce::LJPME);
   force.setSwitchingDistance(random.uniform(0.5, 0.95));
   force.setUseDispersionCorrection(false);
   force.setExceptionsUsePeriodicBoundaryConditions(random.below(2) == 0);

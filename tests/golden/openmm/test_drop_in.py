@@ -156,6 +156,8 @@ class ScriptTest(unittest.TestCase):
               "system, positions, _ = water_box()\n"
               "force = [f for f in system.getForces() if isinstance(f, openmm.NonbondedForce)][0]\n"
               "contexts = []\n"
+              "force.setUseSwitchingFunction(True)\n"
+              "force.setSwitchingDistance(0.5)\n"
               "for method in (force.CutoffPeriodic, force.LJPME, force.LJPME):\n"
               "    force.setNonbondedMethod(method)\n"
               "    contexts.append(context_of(system, 'CPU'))\n"
@@ -168,8 +170,8 @@ class ScriptTest(unittest.TestCase):
         for script in (self.SCRIPT, looks_first + self.SCRIPT):
             out, err = run_script(script, OPENMM_DCH="1")
             self.assertEqual(out, "True DCH OpenMM OpenMM\n", err)
-            self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: the method LJPME is not "
-                                  "covered\n")
+            self.assertEqual(err, "openmm_dch: a NonbondedForce keeps OpenMM's own kernel: a switching function with "
+                                  "the method LJPME is not covered\n")
 
     def test_where_there_is_no_openmm_the_variable_does_no_harm(self):
         out, err = run_script("import sys\n"
