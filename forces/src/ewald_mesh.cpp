@@ -11,6 +11,7 @@
 
 #include "base/aligned_vector.hpp"
 #include "base/describe.hpp"
+#include "mesh_influence.hpp"
 #include "simd/force_kernels.hpp"
 #include "turns.hpp"
 
@@ -23,46 +24,12 @@ using detail::MeshPoint;
 using detail::MeshShape;
 
 constexpr int kMaxSize = 10000;
-const double kPi = std::acos(-1.0);
 
 MeshShape shape_of(const std::array<int, 3>& sizes) {
   constexpr std::size_t kLine = 16;
   const std::size_t wanted = static_cast<std::size_t>(sizes[2]) + detail::kSplineRow;
   return {sizes[0], sizes[1], sizes[2], (wanted + kLine - 1) / kLine * kLine};
 }
-
-/// Squared absolute values of the Fourier transform of the spline on so many points.
-std::vector<double> spline_moduli(int size, const detail::MeshKernels& kernels) {
-  float weight[detail::kSplineRow], slope[detail::kSplineRow];
-  kernels.spline(0, weight, slope);
-  std::vector<double> moduli;
-  for (int m = 0; m < size; ++m) {
-    double re = 0, im = 0;
-    for (int k = 0; k < detail::kSplineOrder; ++k) {
-      re += double{weight[k]} * std::cos(2 * kPi * m * k / size);
-      im += double{weight[k]} * std::sin(2 * kPi * m * k / size);
-    }
-    moduli.push_back(re * re + im * im);
-  }
-  // Splines of odd order have none of the shortest wave, which no mesh can tell from its neighbors.
-  const auto n = moduli.size();
-  for (std::size_t m = 0; m < n; ++m)
-    if (moduli[m] < 1e-7) moduli[m] = 0.5 * (moduli[(m + n - 1) % n] + moduli[(m + 1) % n]);
-  return moduli;
-}
-
-/// The vectors whose products with a position are its coordinates in units of the cell's vectors.
-std::array<Vec3, 3> reciprocal_vectors(const Box& box) {
-  std::array<Vec3, 3> vectors;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 normal = cross(box.vector((k + 1) % 3), box.vector((k + 2) % 3));
-    vectors[static_cast<std::size_t>(k)] = (1 / dot(box.vector(k), normal)) * normal;
-  }
-  return vectors;
-}
-
-/// Of a wave number on a mesh of so many points.
-double centered(int m, int size) { return m < (size + 1) / 2 ? m : m - size; }
 
 struct Scratch {
   AlignedVector<float> numbers[4];
@@ -74,16 +41,12 @@ struct Scratch {
 
 struct EwaldMesh::Impl {
   MeshShape shape;
-  double splitting, constant;
-  LatticeSum of;
   detail::FftPlan along_x, along_y, along_z;
   const detail::MeshKernels& kernels = detail::force_kernels(instruction_set()).mesh;
-  std::array<std::vector<double>, 3> moduli;
+  detail::MeshInfluence weights;
   Executor* executor = nullptr;
   Box box;  ///< that the influence function is of
   std::array<Vec3, 3> reciprocal;
-  double scale = 0;                ///< of the influence function
-  double of_mean = 0;              ///< the weight of the wave without length, which exerts no force
   AlignedVector<float> influence;  ///< [x][z][y], x up to half of its size
   AlignedVector<float> mesh, spectrum_re, spectrum_im;
   AlignedVector<MeshPoint> points;
@@ -91,15 +54,12 @@ struct EwaldMesh::Impl {
   std::vector<Scratch> scratch;
   std::vector<double> energies;  ///< by plane
 
-  Impl(const std::array<int, 3>& sizes, double splitting_now, double constant_now, LatticeSum of_what)
+  Impl(const std::array<int, 3>& sizes, detail::LatticeWeights of_waves)
       : shape(shape_of(sizes)),
-        splitting(splitting_now),
-        constant(constant_now),
-        of(of_what),
         along_x(sizes[0]),
         along_y(sizes[1]),
-        along_z(sizes[2]) {
-    for (std::size_t axis = 0; axis < 3; ++axis) moduli[axis] = spline_moduli(sizes[axis], kernels);
+        along_z(sizes[2]),
+        weights(sizes, of_waves, kernels) {
     const std::size_t half = planes() * shape.plane();
     mesh.resize(shape.row(shape.x, 0));
     influence.resize(half);
@@ -111,9 +71,7 @@ struct EwaldMesh::Impl {
   std::size_t planes() const { return static_cast<std::size_t>(shape.x) / 2 + 1; }
   int workers() const { return executor ? executor->threads() : 1; }
   void prepare(const Box& now);
-  double weight(double x, double y, double z) const;
   double energy_of_mean(Span<const double> charges) const;
-  void find_influence(int x);
   void place(Span<const Vec3> positions, Span<const double> charges);
   void spread();
   double convolve();
@@ -135,58 +93,22 @@ void EwaldMesh::Impl::prepare(const Box& now) {
   for (Scratch& of_worker : scratch)
     for (auto& numbers : of_worker.numbers) numbers.resize(wanted);
   if (now == box) return;
-  reciprocal = reciprocal_vectors(now);
-  const double cubed = kPi * std::sqrt(kPi) * splitting * splitting * splitting;
-  const bool is_dispersion = of == LatticeSum::dispersion;
-  scale = is_dispersion ? -constant * cubed / (3 * now.volume()) : constant / (kPi * now.volume());
-  of_mean = is_dispersion ? scale : 0;
+  weights.set_box(now);
+  reciprocal = detail::reciprocal_vectors(now);
   box = Box();  // what is thrown meanwhile leaves part of an influence function
   in_shares(planes(), [&](int, std::size_t begin, std::size_t end) {
-    for (std::size_t x = begin; x < end; ++x) find_influence(static_cast<int>(x));
+    for (std::size_t x = begin; x < end; ++x)
+      weights.fill_plane(static_cast<int>(x), influence.data() + x * shape.plane());
   });
   box = now;
-}
-
-/// Of a wave m, with b = pi |m| / splitting: constant e^(-b^2) / (pi volume m^2), or of dispersion -constant
-/// (sqrt(pi) splitting)^3 / (3 volume) ((1 - 2 b^2) e^(-b^2) + 2 sqrt(pi) b^3 erfc(b)). 0 for m = 0.
-double EwaldMesh::Impl::weight(double x, double y, double z) const {
-  const double m2 = norm2(x * reciprocal[0] + y * reciprocal[1] + z * reciprocal[2]);
-  if (m2 == 0) return 0;
-  const double b2 = kPi * kPi * m2 / (splitting * splitting);
-  if (of == LatticeSum::coulomb) return scale * std::exp(-b2) / m2;
-  const double b = std::sqrt(b2);
-  return scale * ((1 - 2 * b2) * std::exp(-b2) + 2 * std::sqrt(kPi) * b2 * b * std::erfc(b));
 }
 
 /// Of the wave without length, in double: coefficients of dispersion have one sign, so on the mesh it would
 /// drown the others.
 double EwaldMesh::Impl::energy_of_mean(Span<const double> charges) const {
-  if (of_mean == 0) return 0;
+  if (weights.of_mean() == 0) return 0;
   const double sum = std::accumulate(charges.begin(), charges.end(), 0.0);
-  return 0.5 * of_mean * sum * sum;
-}
-
-/// Weights over the moduli of splines. The shortest wave along an axis of even size has two signs, which a
-/// mesh cannot tell apart: the mean of both, so that waves and their mirror images weigh the same.
-void EwaldMesh::Impl::find_influence(int x) {
-  float* at = influence.data() + static_cast<std::size_t>(x) * shape.plane();
-  const double wx = centered(x, shape.x);
-  for (int z = 0; z < shape.z; ++z)
-    for (int y = 0; y < shape.y; ++y) {
-      const double wy = centered(y, shape.y), wz = centered(z, shape.z);
-      const bool both[3] = {2 * x == shape.x, 2 * y == shape.y, 2 * z == shape.z};
-      double mean = weight(wx, wy, wz);
-      if (both[0] || both[1] || both[2]) {
-        mean = 0;
-        for (int signs = 0; signs < 8; ++signs)
-          mean += weight(both[0] && (signs & 1) ? -wx : wx, both[1] && (signs & 2) ? -wy : wy,
-                         both[2] && (signs & 4) ? -wz : wz) /
-                  8;
-      }
-      *at++ = static_cast<float>(
-          mean / (moduli[0][static_cast<std::size_t>(x)] * moduli[1][static_cast<std::size_t>(y)] *
-                  moduli[2][static_cast<std::size_t>(z)]));
-    }
+  return 0.5 * weights.of_mean() * sum * sum;
 }
 
 void EwaldMesh::Impl::place(Span<const Vec3> positions, Span<const double> charges) {
@@ -282,7 +204,7 @@ EwaldMesh::EwaldMesh(std::array<int, 3> sizes, double splitting, double constant
   if (!(std::isfinite(constant) && constant >= 0))
     throw InvalidParameter("the constant of a mesh is " + detail::describe(constant) +
                            "; it must be finite and not negative");
-  impl_ = std::make_unique<Impl>(sizes, splitting, constant, of);
+  impl_ = std::make_unique<Impl>(sizes, detail::LatticeWeights{of, splitting, constant});
 }
 
 EwaldMesh::~EwaldMesh() = default;

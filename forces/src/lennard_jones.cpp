@@ -9,7 +9,7 @@
 #include <dch/forces/lennard_jones.hpp>
 
 #include "base/describe.hpp"
-#include "ewald_series.hpp"
+#include "lj_sums.hpp"
 #include "simd/lj_task.hpp"
 
 namespace dch {
@@ -46,11 +46,6 @@ std::array<double, 7> coefficients_of(const LennardJonesPair& pair, bool shifted
           0};
 }
 
-bool fits_in_single(double v) {
-  using Limits = std::numeric_limits<float>;
-  return v == 0 || (std::abs(v) >= double{Limits::min()} && std::abs(v) <= double{Limits::max()});
-}
-
 }  // namespace
 
 LennardJones::LennardJones(LennardJonesPair pair, bool shifted)
@@ -80,8 +75,8 @@ LennardJones::LennardJones(double cutoff, Span<const LennardJonesParticle> parti
     if (!(std::isfinite(p.sigma) && p.sigma >= 0)) refuse("sigma", p.sigma);
     half_sigma_.push_back(0.5 * p.sigma);
     root_epsilon_.push_back(2 * std::sqrt(p.epsilon));
-    fits_single_ = fits_single_ && fits_in_single(half_sigma_.back() * half_sigma_.back()) &&
-                   fits_in_single(root_epsilon_.back() * root_epsilon_.back());
+    fits_single_ = fits_single_ && detail::fits_in_single(half_sigma_.back() * half_sigma_.back()) &&
+                   detail::fits_in_single(root_epsilon_.back() * root_epsilon_.back());
   }
 }
 
@@ -103,7 +98,7 @@ void LennardJones::take_matrix(const std::vector<LennardJonesPair>& matrix, bool
                                  " and sigma " + detail::describe(pair.sigma) + " with the cutoff " +
                                  detail::describe(pair.cutoff) +
                                  " overflow double precision; use other units");
-        fits_single_ = fits_single_ && fits_in_single(coefficients[k]);
+        fits_single_ = fits_single_ && detail::fits_in_single(coefficients[k]);
         full_[k].push_back(coefficients[k]);
         mixed_[k].push_back(static_cast<float>(coefficients[k]));
       }
@@ -166,7 +161,7 @@ void LennardJones::set_coulomb(const CoulombTerm& term) {
         throw InvalidParameter(
             "the Coulomb cutoff of types " + std::to_string(a) + " and " + std::to_string(b) +
             " differs from that of the same types in the other order; give a symmetric matrix");
-      fits_single_ = fits_single_ && fits_in_single(cutoff * cutoff);
+      fits_single_ = fits_single_ && detail::fits_in_single(cutoff * cutoff);
       full_.back()[a * side + b] = cutoff * cutoff;
       mixed_.back()[a * side + b] = static_cast<float>(cutoff * cutoff);
       largest_cutoff_ = std::max(largest_cutoff_, cutoff);
@@ -196,72 +191,6 @@ void LennardJones::check_coulomb_kind(const CoulombTerm& term) const {
         "with a reaction field, a series, parameters of particles or a switch all cutoffs have to be the "
         "same, those of charges too; the largest is " +
         detail::describe(largest_cutoff_));
-}
-
-void LennardJones::make_series(const CoulombTerm& term) {
-  if (!(term.splitting > 0 && term.by_series)) {
-    has_series_ = false;
-    return;
-  }
-  constexpr double kMaxErrorSingle = 2e-7, kMaxError = 2e-9;
-  using detail::kEwaldTerms;
-  detail::EwaldSeries exact = detail::make_ewald_series(term.splitting, largest_cutoff_, kEwaldTerms<double>);
-  detail::EwaldSeries single = detail::make_ewald_series(term.splitting, largest_cutoff_, kEwaldTerms<float>);
-  if (!(exact.error <= kMaxError))
-    throw InvalidParameter("the splitting parameter " + detail::describe(term.splitting) +
-                           " times the cutoff " + detail::describe(largest_cutoff_) +
-                           " is over 6, for which the series has too few terms");
-  fits_single_ = fits_single_ && single.error <= kMaxErrorSingle;
-  force_series_ = std::move(exact.force);
-  energy_series_ = std::move(exact.energy);
-  force_series_single_ = std::move(single.force);
-  energy_series_single_ = std::move(single.energy);
-  has_series_ = true;
-}
-
-void LennardJones::check_dispersion(const DispersionTerm& term) const {
-  if (!(std::isfinite(term.splitting) && term.splitting > 0))
-    throw InvalidParameter("the splitting parameter of dispersion is " + detail::describe(term.splitting) +
-                           "; it must be finite and positive");
-  for (std::size_t i = 0; i < term.coefficients.size(); ++i)
-    if (!std::isfinite(term.coefficients[i]))
-      throw InvalidParameter("the coefficient of dispersion of particle " + std::to_string(i) + " is " +
-                             detail::describe(term.coefficients[i]) + "; it must be finite");
-  if (!has_series_)
-    throw InvalidParameter(
-        "a lattice sum of dispersion was asked for, but none of charges by a series; call "
-        "set_coulomb() with splitting and by_series first");
-  if (switch_from_ >= 0)
-    throw InvalidParameter("a lattice sum of dispersion beside a switching function is not available");
-  if (!mixes_ && !shifted_)
-    throw InvalidParameter(
-        "a lattice sum of dispersion lowers energies by what they are at the cutoff; have "
-        "those of Lennard-Jones pairs shifted too");
-}
-
-void LennardJones::set_dispersion(const DispersionTerm& term) {
-  check_dispersion(term);
-  constexpr double kMaxErrorSingle = 5e-7, kMaxError = 5e-9;
-  using detail::kEwaldTerms;
-  const double cutoff = largest_cutoff_;
-  detail::EwaldSeries exact = detail::make_dispersion_series(term.splitting, cutoff, kEwaldTerms<double>);
-  detail::EwaldSeries single = detail::make_dispersion_series(term.splitting, cutoff, kEwaldTerms<float>);
-  if (!(exact.error <= kMaxError))
-    throw InvalidParameter("the splitting parameter " + detail::describe(term.splitting) +
-                           " of dispersion times the cutoff " + detail::describe(cutoff) +
-                           " is over 6, for which the series has too few terms");
-  dispersion_unit_ = term.splitting * term.splitting * term.splitting;
-  fits_single_ = fits_single_ && single.error <= kMaxErrorSingle &&
-                 std::all_of(term.coefficients.begin(), term.coefficients.end(), [&](double coefficient) {
-                   const double number = dispersion_unit_ * coefficient;
-                   return fits_in_single(number * number);
-                 });
-  dispersion_ = term.coefficients;
-  dispersion_force_ = std::move(exact.force);
-  dispersion_energy_ = std::move(exact.energy);
-  dispersion_force_single_ = std::move(single.force);
-  dispersion_energy_single_ = std::move(single.energy);
-  has_dispersion_ = true;
 }
 
 detail::ForceKind LennardJones::kind() const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <dch/forces/lennard_jones.hpp>
@@ -15,6 +17,12 @@ template <class Real>
 LjCoefficients<Real> pointers_to(const std::array<std::vector<Real>, 7>& tables) {
   return {tables[0].data(), tables[1].data(), tables[2].data(), tables[3].data(),
           tables[4].data(), tables[5].data(), tables[6].data()};
+}
+
+/// Whether single precision holds a number, 0 or not too small.
+inline bool fits_in_single(double v) {
+  using Limits = std::numeric_limits<float>;
+  return v == 0 || (std::abs(v) >= double{Limits::min()} && std::abs(v) <= double{Limits::max()});
 }
 
 inline void give(const LjSums& found, LennardJonesSums& sums) {

@@ -20,13 +20,14 @@ TOLERANCE = {"Reference": 1e-9, "CPU": 5e-6}
 ENERGY_TOLERANCE = {"Reference": 1e-8, "CPU": 1e-4}
 
 
-def pme_water(**options):
+def pme_water(method=app.PME, **options):
     system, positions, topology = water_box()
     topology.setPeriodicBoxVectors(np.eye(3) * 1.8642 * unit.nanometer)
     system = app.ForceField("tip3p.xml").createSystem(
-        topology, nonbondedMethod=app.PME, nonbondedCutoff=0.7 * unit.nanometer, rigidWater=True, **options)
+        topology, nonbondedMethod=method, nonbondedCutoff=0.7 * unit.nanometer, rigidWater=True, **options)
     force, = (f for f in system.getForces() if isinstance(f, openmm.NonbondedForce))
     force.setPMEParameters(3.5, 24, 25, 24)  # the same on both platforms
+    force.setLJPMEParameters(3.6, 21, 20, 18)
     return system, positions, topology
 
 
@@ -48,8 +49,9 @@ class DropInTest(unittest.TestCase):
 
     def test_water_of_a_force_field(self):
         reciprocal = {"Reference": "OpenMM", "CPU": "DCH"}
-        for method in (app.PME, app.CutoffPeriodic):
-            system, positions, _ = pme_water() if method is app.PME else water_box()
+        for method in (app.PME, app.LJPME, app.CutoffPeriodic):
+            is_lattice_sum = method is not app.CutoffPeriodic
+            system, positions, _ = pme_water(method) if is_lattice_sum else water_box()
             untouched = openmm.XmlSerializer.serialize(system)
             openmm_dch.disable()
             expected = energy_and_forces(context_of(system, "Reference"), positions)
@@ -60,7 +62,7 @@ class DropInTest(unittest.TestCase):
                     index = [isinstance(f, openmm.NonbondedForce) for f in system.getForces()].index(True)
                     self.assertEqual(openmm_dch.status(context), [
                         {"force": index, "name": "NonbondedForce", "direct": "DCH",
-                         "reciprocal": reciprocal[platform] if method is app.PME else "", "reason": ""}])
+                         "reciprocal": reciprocal[platform] if is_lattice_sum else "", "reason": ""}])
                     energy, forces = energy_and_forces(context, positions)
                     self.assertAlmostEqual(energy, expected[0], delta=ENERGY_TOLERANCE[platform] * len(positions))
                     self.assertLess(relative_error(expected[1], forces), TOLERANCE[platform])
@@ -69,9 +71,10 @@ class DropInTest(unittest.TestCase):
     def test_in_double(self):
         self.assertRaisesRegex(ValueError, "precision is 'single'.*double.*mixed", openmm_dch.enable, "single")
         system, positions, _ = pme_water()
+        dispersion, _, _ = pme_water(app.LJPME)
         ours, _, _ = water_box()
         openmm_dch.replaceNonbonded(ours)
-        for each in (system, ours):
+        for each in (system, dispersion, ours):
             expected = energy_and_forces(context_of(each, "Reference"), positions)
             errors = []
             for precision in ("double", "mixed"):
