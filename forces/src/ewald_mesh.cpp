@@ -127,6 +127,7 @@ void EwaldMesh::Impl::place(Span<const Vec3> positions, Span<const double> charg
         const double at = (turns - std::floor(turns)) * sizes[axis];
         const double first = std::floor(at);
         point.first[axis] = static_cast<std::int32_t>(first) % sizes[axis];
+        if (point.charge == 0) continue;
         kernels.spline(static_cast<float>(at - first), point.weight[axis], point.slope[axis]);
       }
     }

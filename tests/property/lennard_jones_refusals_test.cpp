@@ -100,7 +100,8 @@ TEST(LennardJonesRefusals, OfDispersionThatDoesNotFit) {
   std::vector<Vec3> forces(3);
   const std::vector<double> three(3);
   by_type.set_dispersion(dispersion);
-  EXPECT_THROW(by_type.add_forces(of.pairs, ForcePrecision::double_precision, forces, three), InvalidParameter);
+  EXPECT_THROW(by_type.add_forces(of.pairs, ForcePrecision::double_precision, forces, three),
+               InvalidParameter);
   by_type.set_dispersion({1, {1, 1, 1}});
   EXPECT_THROW(by_type.add_forces(of.one_by_one, of.points, Box::none(), forces, three), InvalidParameter);
 }

@@ -48,6 +48,7 @@ struct RowsOfPoint {
 inline void mesh_spread(const SpreadTask& task) {
   for (std::size_t i = 0; i < task.count; ++i) {
     const MeshPoint& point = task.points[i];
+    if (point.charge == 0) continue;
     const RowsOfPoint rows(task.shape, point);
     float of_rows[kSplineOrder][kSplineRow];
     for (int b = 0; b < kSplineOrder; ++b) {
@@ -75,6 +76,9 @@ inline void mesh_spread(const SpreadTask& task) {
 inline void mesh_gather(const GatherTask& task) {
   for (std::size_t i = 0; i < task.count; ++i) {
     const MeshPoint& point = task.points[i];
+    float* const slope = task.slopes[i];
+    slope[0] = slope[1] = slope[2] = 0;
+    if (point.charge == 0) continue;
     const RowsOfPoint rows(task.shape, point);
     float along_x[kSplineRow]{}, along_y[kSplineRow]{}, along_z[kSplineRow]{};
     int x = point.first[0];
@@ -94,8 +98,6 @@ inline void mesh_gather(const GatherTask& task) {
         along_z[k] += point.weight[0][a] * level[k];
       }
     }
-    float* const slope = task.slopes[i];
-    slope[0] = slope[1] = slope[2] = 0;
     for (int k = 0; k < kSplineOrder; ++k) {
       slope[0] += along_x[k] * point.weight[2][k];
       slope[1] += along_y[k] * point.weight[2][k];

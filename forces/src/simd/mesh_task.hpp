@@ -11,7 +11,8 @@ namespace dch::detail {
 inline constexpr int kSplineOrder = 5;
 inline constexpr int kSplineRow = 8;  ///< numbers of a spline, the last three of which are 0
 
-/// A charge beside the mesh: the first of the points along each axis that it acts on, and its splines there.
+/// A charge beside the mesh: the first of the points along each axis that it acts on, and its splines there,
+/// which one of 0 does without.
 struct alignas(32) MeshPoint {
   float weight[3][kSplineRow], slope[3][kSplineRow];
   std::int32_t first[3];
@@ -44,7 +45,7 @@ struct SpreadTask {
   int first_x, last_x;
 };
 
-/// The slopes of the mesh at charges, in units of its points.
+/// The slopes of the mesh at charges, in units of its points; 0 at charges of 0.
 struct GatherTask {
   MeshShape shape;
   const MeshPoint* points;
