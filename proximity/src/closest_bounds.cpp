@@ -12,6 +12,8 @@ namespace {
 
 /// Of numbers that are added up and subtracted again.
 constexpr double kRounding = 1e-14;
+/// So many times as far as rounding may be off a distance has to be for a bound to be worth something.
+constexpr double kWorthwhile = 100;
 
 }  // namespace
 
@@ -71,7 +73,7 @@ void ClosestBounds::shrink_all(double by) {
   Tournament<Pair> none{std::vector<Pair>(size())};
   bounds_ = Tournament<double>(std::move(bounds));
   pairs_ = std::move(none);
-  shrunk_ += by;
+  shrunk_ = std::nextafter(shrunk_ + by, kFar);  // rounding adds up over many steps, so it goes upwards
 }
 
 const ClosestBounds::Pair& ClosestBounds::closest() {
@@ -85,6 +87,8 @@ std::int32_t ClosestBounds::next_below(double distance) const {
   if (bounds_.empty() || !(bound(bounds_.winner()) <= distance * kInflate)) return -1;
   return bounds_.top() == kFar ? -1 : bounds_.winner();
 }
+
+double ClosestBounds::least_distance() const { return kWorthwhile * kRounding * shrunk_; }
 
 double ClosestBounds::bound(std::int32_t id) const {
   const double set = bounds_.of(id);

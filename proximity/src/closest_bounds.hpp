@@ -40,8 +40,10 @@ class ClosestBounds {
   /// The point has gone.
   void remove(std::int32_t id, std::int64_t now);
   void set_nearest(std::int32_t id, const Pair& pair, std::int64_t now);
-  /// The point has no neighbor within a distance.
+  /// The point has no neighbor within a distance, of least_distance() or more: of a smaller one rounding
+  /// would leave nothing.
   void set_none_within(std::int32_t id, double distance);
+  double least_distance() const;
   /// The distances of all points may have shrunk by so much.
   void shrink_all(double by);
 

@@ -38,14 +38,13 @@ class ClosestCells {
   void note_descent() { ++descents_; }
 
   /// Calls act(id) for all points within a reach, which may be infinite, and for a few others [length].
-  /// @param slack by which distances may be off [length]
   /// @return whether the cells have an answer
   template <class Act>
-  bool for_each_within(const Structure& structure, Vec3 at, double reach, double slack, const Act& act) {
+  bool for_each_within(const Structure& structure, Vec3 at, double reach, const Act& act) {
     if (!std::isfinite(reach)) return false;
     if (descents_ * kShareOfDescents >= patience_ * static_cast<std::int64_t>(structure.raw.size()))
       make(structure, reach);
-    if (!serve(reach) || !search_.within(cells_, at, reach + slack)) return false;
+    if (!serve(reach) || !search_.within(cells_, at, reach)) return false;
     for (const PointCellSearch::Found& found : search_.found()) act(found.id);
     return true;
   }

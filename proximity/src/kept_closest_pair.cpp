@@ -76,7 +76,7 @@ struct KeptClosestPair::Impl {
   ClosestBounds bounds;
   ClosestBounds::Pair last;
   detail::ClosestCells cells;  ///< of `seen`, or empty
-  double slack = 0;            ///< by which distances may be off [length]
+  double rounding = 0;         ///< by which distances may have been off in the call before [length]
   double motion = 0;           ///< by how much distances may have shrunk since the call before [length]
 };
 
@@ -136,11 +136,12 @@ void KeptClosestPair::Impl::compare_all(const Structure& structure) {
       displacements.add(moved.back().second);
     }
   }
-  const double rounding = detail::WrapError(box).bound(structure.largest_reach);
-  const double jump2 = displacements.jump2(seen.size(), rounding, last.distance2);
+  // Places of before may have been farther out.
+  const double off = std::max(rounding, detail::WrapError(box).bound(structure.largest_reach));
+  const double jump2 = displacements.jump2(seen.size(), off, last.distance2);
   motion = 0;
   if (jump2 > 0) {
-    motion = (2 * std::sqrt(jump2) + 4 * rounding) * detail::kInflate;
+    motion = (2 * std::sqrt(jump2) + 4 * off) * detail::kInflate;
     bounds.shrink_all(motion);
     cells.clear();
   }
@@ -196,7 +197,7 @@ void KeptClosestPair::Impl::settle(const Ask& ask) {
 bool KeptClosestPair::Impl::ask_cells(const Structure& structure, std::int32_t id, double reach,
                                       detail::ClosestCandidate& nearest) {
   const Vec3 at = seen[static_cast<std::size_t>(id)];
-  return cells.for_each_within(structure, at, reach, slack, [&](std::int32_t other) {
+  return cells.for_each_within(structure, at, reach, [&](std::int32_t other) {
     if (other != id) nearest.add(box.distance2(at, seen[static_cast<std::size_t>(other)]), other);
   });
 }
@@ -205,7 +206,7 @@ ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_
   const Structure& structure = view.structure();
   const NearestWork before = work.nearest;
   const double known = known_distance(structure);
-  slack = detail::WrapError(box).bound(structure.largest_reach);
+  rounding = detail::WrapError(box).bound(structure.largest_reach);
   if (may_ask_all && !structure.balls && bounds.count_below(known) > structure.count() / kShareOfAll)
     ask_all(view, executor);  // those that changed too
   std::optional<detail::SubtreeBalls> measured;
@@ -223,7 +224,8 @@ ClosestPoints KeptClosestPair::Impl::answer(const HierarchyView& view, bool may_
     settle([&](std::int32_t id, double closest2) {
       ++work.asked;
       const double distance = std::min(known, std::sqrt(closest2));
-      const double reach = distance > 0 ? kReach * distance + kSteps * motion : kFar;
+      const double least = std::max(kReach * distance, bounds.least_distance());
+      const double reach = distance > 0 ? least + kSteps * motion : kFar;
       nearest.clear(reach * reach);
       if (!ask_cells(structure, id, reach, nearest)) descend(id, nearest);
       if (nearest.id() < 0) return bounds.set_none_within(id, reach);

@@ -42,8 +42,8 @@ class GridNearest {
  public:
   /// @return whether there is an answer
   bool search(const detail::PointCells& grid, const Structure& structure, const NearestParams& params,
-              double slack, Vec3 position, std::size_t row, NearestRows& rows) {
-    if (!search_.nearest(grid, position, slack, params.k, params.epsilon)) return false;
+              Vec3 position, std::size_t row, NearestRows& rows) {
+    if (!search_.nearest(grid, position, params.k, params.epsilon)) return false;
     if (params.k > 1)
       for (const auto& found : search_.found())
         __builtin_prefetch(&structure.raw[static_cast<std::size_t>(found.id)]);
@@ -102,7 +102,6 @@ struct KeptNearest::Impl {
   const Structure* structure = nullptr;
   Box box;
   std::size_t ids = 0;
-  std::optional<detail::WrapError> error;
   std::optional<detail::SubtreeBalls> measured;
   detail::PointCells grid;  ///< or empty
   std::int64_t asked = 0;   ///< positions, since a grid was made
@@ -118,7 +117,6 @@ void KeptNearest::Impl::take(const Structure& next) {
   structure = &next;
   box = next.box;
   ids = next.slot_of_id.size();
-  error.emplace(box);
   make_grid_if_it_pays();
 }
 
@@ -174,9 +172,8 @@ void KeptNearest::Impl::ask_grid(const Questions& questions) {
             const auto k = static_cast<std::size_t>(q);
             const auto row = static_cast<std::size_t>(questions.order[k]);
             const Vec3 position = questions.positions[row];
-            const double slack = error->bound(std::max(structure->largest_reach, error->reach(position)));
             const bool is_found = tools[static_cast<std::size_t>(part)].search(
-                grid, *structure, questions.params, slack, position, row, questions.rows);
+                grid, *structure, questions.params, position, row, questions.rows);
             is_answered[k] = is_found ? 1 : 0;
           }
         });

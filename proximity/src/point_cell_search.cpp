@@ -29,35 +29,37 @@ bool PointCellSearch::within(const PointCells& grid, Vec3 at, double distance) {
 /// Cells whose coordinates differ by multiples of 16 have the same name and may share a line. So among the
 /// points found there may be some of cells that were not asked for, with smaller distances than they have,
 /// and the bound may be below the distance of the k-th nearest point. Whether it is shows who computes
-/// distances: if k points found are within the bound, the answer is right. Proof, with bound B, as computed,
-/// and slack s:
-/// - Points in cells that were looked at have their distances up to rounding, so keep_within(B + s) keeps all
-///   that are computed to be within B.
-/// - Bounds only shrink from round to round, as points are added. So a cell left out in some round is farther
-/// than
-///   B + s, and its points are computed to be farther than B.
-/// - Cells beyond are farther than B / (1 + epsilon) + s in the last round, so their points are computed to
-/// be
-///   farther than B / (1 + epsilon).
+/// distances: if k points found are within the bound, the answer is right. Proof, with bound B, and distances
+/// as Box::distance2() computes them:
+/// - A point of a cell that was looked at is by integers as far as that, up to kSteps. So keep_within(B)
+/// keeps
+///   all of them that are within B.
+/// - Bounds only shrink from round to round, as points are added. So a cell that was left out in some round
+/// is
+///   farther than B, with kRounding taken off on each axis, and so are its points.
+/// - Cells beyond those of the last round are farther than B / (1 + epsilon), with kRounding taken off, and
+/// so
+///   are their points.
 /// So with epsilon = 0 all points within B are among those found, the k nearest included. Else the j-th
 /// nearest one is among them, or is farther than B / (1 + epsilon), while the j-th one found is within B.
 /// Without points of other cells k points are always within the bound.
-bool PointCellSearch::nearest(const PointCells& grid, Vec3 at, double slack, std::int32_t k, double epsilon) {
+///
+/// The last round comes: the cells that `needed` touches have it as their clearance, and it does not grow.
+bool PointCellSearch::nearest(const PointCells& grid, Vec3 at, std::int32_t k, double epsilon) {
   if (!start(grid, at)) return false;
   const std::int64_t most = kMostLookedAt + kMoreLookedAt * k;
   Ranges seen{}, ranges = nearest_eight();
-  double distance = kFar;
+  bound_ = kFar;
   for (;;) {
     if (ranges[0].size() * ranges[1].size() * ranges[2].size() > most) return false;
-    if (!collect(ranges, seen, distance + slack) || !look_at_cells()) return false;
+    if (!collect(ranges, seen, bound_) || !look_at_cells()) return false;
     seen = ranges;
-    distance = distance_of(static_cast<std::size_t>(k)) + slack;
-    const double needed = distance / (1 + epsilon) + slack;
+    bound_ = distance_of(static_cast<std::size_t>(k));
+    const double needed = bound_ / (1 + epsilon);
     if (needed <= clearance(seen)) break;
-    ranges = both(seen, distance < kFar ? touched_by(needed) : wider(seen));
+    ranges = both(seen, bound_ < kFar ? touched_by(needed) : wider(seen));
   }
-  bound_ = distance;
-  keep_within(distance + slack);
+  keep_within(bound_);
   return true;
 }
 
@@ -174,7 +176,7 @@ void PointCellSearch::look_at(const Cell& cell, const PointCells::Line& line) {
   }
 }
 
-/// An upper bound for the k-th point found, without slack [length].
+/// An upper bound for the k-th point found [length].
 double PointCellSearch::distance_of(std::size_t k) {
   if (size_ < k) return kFar;
   const auto nearer = [](const Found& a, const Found& b) { return a.units2 < b.units2; };

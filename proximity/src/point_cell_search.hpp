@@ -23,18 +23,18 @@ class PointCellSearch {
     std::int32_t id;
   };
 
-  /// All points within a distance, which is up to the width of a cell [length], and a few others.
+  /// All points within a distance, up to two widths of the narrowest side of a cell [length], and a few
+  /// others.
   /// @return whether there is an answer
   bool within(const PointCells& grid, Vec3 at, double distance);
   /// The k nearest points, or points that are no farther than (1 + epsilon) times as far, and a few others,
   /// if k of them are within bound(). Else a point that is far away has the coordinates of one that is near,
   /// and there is no answer.
-  /// @param slack by which distances may be off [length]
   /// @return whether there is an answer, at a cost that a descent hardly has
-  bool nearest(const PointCells& grid, Vec3 at, double slack, std::int32_t k, double epsilon);
+  bool nearest(const PointCells& grid, Vec3 at, std::int32_t k, double epsilon);
 
   Span<const Found> found() const { return {found_.data(), size_}; }
-  double bound() const { return bound_; }  ///< [length]
+  double bound() const { return bound_; }  ///< of distances as Box::distance2() computes them [length]
   NearestWork work;
 
  private:

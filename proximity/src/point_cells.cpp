@@ -10,6 +10,8 @@ namespace dch::detail {
 namespace {
 
 constexpr double kMostCells = 0x1p30;  ///< of a coordinate, from the grid's origin and from that of space
+/// Of cells [length]: squares of distances are normal numbers, where they matter.
+constexpr double kLeastWidth = 1e-140;
 constexpr double kPointsOfACell = 2.5;
 /// Narrower cells are tried where points have more company than this in theirs.
 constexpr double kMostCompany = 7;
@@ -92,7 +94,7 @@ void PointCells::make(const Structure& structure) {
 }
 
 bool PointCells::choose_axes(const Structure& structure, double width) {
-  if (structure.box.kind() == Box::Kind::triclinic || !(width > 0 && std::isfinite(1 / width))) return false;
+  if (structure.box.kind() == Box::Kind::triclinic || !(width >= kLeastWidth)) return false;
   const Bounds bounds = bounds_of(structure);
   double lines = 1;  // where each cell has one
   for (int k = 0; k < 3; ++k) {
@@ -154,7 +156,7 @@ bool PointCells::fit_widths(const Box& box) {
     least_width_ = std::min(least_width_, axis.width);
     most_width_ = std::max(most_width_, axis.width);
   }
-  return std::isfinite(1 / least_width_);
+  return true;
 }
 
 void PointCells::take_all(const Structure& structure) {
@@ -198,7 +200,8 @@ bool PointCells::locate(Vec3 at, std::array<double, 3>& cells) const {
     if (axis.cells == 0) continue;
     const auto period = static_cast<double>(axis.cells);
     if (cells[k] < 0 || cells[k] >= period) cells[k] -= period * std::floor(cells[k] / period);
-    if (cells[k] >= period) cells[k] = 0;
+    // What rounds to a whole period, and what is so little below 0 that its share of a period rounds to none.
+    if (cells[k] < 0 || cells[k] >= period) cells[k] = 0;
   }
   return true;
 }

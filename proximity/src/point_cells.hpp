@@ -27,12 +27,16 @@ namespace dch::detail {
 /// For boxes whose axes are at right angles, and coordinates up to 2^30 cells.
 class PointCells {
  public:
-  static constexpr int kPoints = 6;             ///< of a line
-  static constexpr int kMostLines = 4;          ///< of a cell
-  static constexpr int kBits = 12;              ///< of a coordinate in its cell
-  static constexpr int kUnits = 1 << kBits;     ///< along a cell
-  static constexpr int kMostAlong = 7;          ///< cells that a question looks at along an axis
-  static constexpr double kRounding = 0x1p-20;  ///< of coordinates in cells, which 2^-23 bounds
+  static constexpr int kPoints = 6;          ///< of a line
+  static constexpr int kMostLines = 4;       ///< of a cell
+  static constexpr int kBits = 12;           ///< of a coordinate in its cell
+  static constexpr int kUnits = 1 << kBits;  ///< along a cell
+  static constexpr int kMostAlong = 7;       ///< cells that a question looks at along an axis
+  /// How far the distance of a point and a position along an axis, by their coordinates in cells, may be from
+  /// that which Box::distance2() takes, in cells: with coordinates up to 2^30 cells, those of both are off by
+  /// 2^-21 at most, four roundings each, and the difference that the box takes by 2^-22. What is left is for
+  /// roundings that do not grow with coordinates.
+  static constexpr double kRounding = 0x1p-19;
   /// Distances by integers are this far off at most, in units: along each axis by one and by rounding.
   static constexpr double kSteps = 1.75;
 

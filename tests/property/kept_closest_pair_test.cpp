@@ -19,6 +19,7 @@
 #include <dch/proximity/kept_closest_pair.hpp>
 #include <dch/proximity/point_tree.hpp>
 
+#include "closest_bounds.hpp"
 #include "effort.hpp"
 #include "error_message.hpp"
 #include "places.hpp"
@@ -255,6 +256,55 @@ TEST(KeptClosestPairs, OfPointsThatCoincideAskFew) {
     hierarchy.remove(step);
   }
   EXPECT_LE(kept.work().asked, 20 * 30);
+}
+
+/// After motion that is so much farther than the closest pair is apart that rounding takes more of a bound
+/// than that.
+TEST(KeptClosestPairs, AskOnceHoweverMuchNearerThanTheMotionTheyAre) {
+  std::vector<Vec3> points{{0, 0, 0}, {1e-15, 0, 0}, {50, 0, 0}, {60, 0, 0}};
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, Box::none());
+  KeptClosestPair kept;
+  kept.find(hierarchy.kept_view());
+  for (Vec3& p : points) p.y += 100;
+  hierarchy.update(points, Box::none());
+  EXPECT_EQ(of(kept.find(hierarchy.kept_view())), of_all_pairs(hierarchy.kept_view()));
+  const std::vector<std::int32_t> changed{hierarchy.insert({-70, 0, 0})};
+  EXPECT_EQ(of(kept.find(hierarchy.kept_view(), changed)), of_all_pairs(hierarchy.kept_view()));
+  EXPECT_LE(kept.work().asked, 10);
+}
+
+/// A point that was so many boxes away that its distances were rounded by 1e-7 comes back into the box: it is
+/// where it was, and nearer to another one than it seemed to be.
+TEST(KeptClosestPairs, AllowForRoundingOfPlacesFarAway) {
+  constexpr double kSide = 10, kFarAway = kSide * (1 << 27), kHidden = 1.1e-7;
+  const Box box = Box::orthorhombic({kSide, kSide, kSide});
+  std::vector<Vec3> points{{1 + kHidden, 1, 1}, {2 + kFarAway, 1, 1}, {1, 6, 6}, {2 - kHidden / 2, 6, 6}};
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  KeptClosestPair kept;
+  EXPECT_EQ(of(kept.find(hierarchy.kept_view())), of_all_pairs(hierarchy.kept_view()));
+  points[1].x = 2;
+  hierarchy.update(points, box);
+  const Answer expected = of_all_pairs(hierarchy.kept_view());
+  ASSERT_EQ(std::get<1>(expected), 0);
+  EXPECT_EQ(of(kept.find(hierarchy.kept_view())), expected);
+}
+
+/// Many steps, each of which rounds the sum of all downwards.
+TEST(KeptClosestPairs, AllowForRoundingOfManySteps) {
+  constexpr double kBefore = 1e6, kStep = 1 + 0x1.8p-35, kDistance = 3000;
+  detail::ClosestBounds bounds;
+  bounds.grow(2);
+  bounds.shrink_all(kBefore);
+  bounds.set_none_within(0, kDistance);
+  for (int k = 1; k <= 2000; ++k) bounds.shrink_all(kStep);
+  EXPECT_EQ(bounds.next_below(kDistance - 2000 * kStep), 0);
+  EXPECT_EQ(bounds.next_below((kDistance - 2000 * kStep) * 0.999), -1);
 }
 
 /// Steps of a thousandth of the mean distance of neighbors.

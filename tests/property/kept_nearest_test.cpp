@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -144,6 +145,32 @@ TEST(KeptNearest, TakesPointsInAnyImage) {
     positions.push_back({random.uniform(-40, 60), random.uniform(-1, 1), random.uniform(18, 20)});
   ASSERT_NO_FATAL_FAILURE(check_positions(view, kept, positions, {5}, "any image"));
   EXPECT_EQ(kept.work().descents, 0);
+}
+
+/// So little outside that no share of the period, as computed, is as little.
+TEST(KeptNearest, FindsPointsThatAreHardlyOutsideThePeriodicBox) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  std::vector<Vec3> points = scenes::uniform(4000, {16, 16, 16}, 80);
+  for (std::size_t k = 0; k < 40; ++k) points[100 * k] = {-kLeast, 0.4 * static_cast<double>(k), -kLeast};
+  Hierarchy hierarchy = hierarchy_of(points, Box::orthorhombic({16, 16, 16}));
+  KeptNearest kept;
+  const HierarchyView view = hierarchy.kept_view();
+  kept.update(view);
+  std::vector<Vec3> positions;
+  for (std::size_t k = 0; k < 40; ++k) positions.push_back(points[100 * k] + Vec3{0.001, 0.001, -0.001});
+  ASSERT_NO_FATAL_FAILURE(check_positions(view, kept, positions, {3}, "hardly outside"));
+  EXPECT_EQ(kept.work().descents, 0);
+}
+
+/// So near each other that their squared distances are 0, as computed: all are as near.
+TEST(KeptNearest, HasTheSmallestIdsWhereSquaresOfDistancesAreTooSmallForDoubles) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 100; ++k) points.push_back({1e-170 * (37 * k % 100), 0, 0});
+  Hierarchy hierarchy = hierarchy_of(points, Box::none());
+  KeptNearest kept;
+  const HierarchyView view = hierarchy.kept_view();
+  kept.update(view);
+  ASSERT_NO_FATAL_FAILURE(check_positions(view, kept, {points[50], points[70]}, {3}, "too near"));
 }
 
 struct UniformPoints {
