@@ -258,6 +258,33 @@ TEST(KeptClosestPairs, OfPointsThatCoincideAskFew) {
   EXPECT_LE(kept.work().asked, 20 * 30);
 }
 
+/// Whatever ids are named: of new ids, of fewer, and of another box.
+TEST(KeptClosestPairs, TakeAllPointsOfNewIdsOrAnotherBox) {
+  const std::vector<std::int32_t> none;
+  std::vector<Vec3> points{{0.1, 1, 1}, {9.5, 1, 1}, {5, 5, 5}, {5.8, 5, 5}, {5, 8, 8}};
+  const Box box = Box::orthorhombic({10, 10, 10});
+  HierarchyParams params;
+  params.radius = 1;
+  Hierarchy hierarchy(params);
+  hierarchy.build(points, box);
+  KeptClosestPair kept;
+  const auto check = [&](std::int32_t a, std::int32_t b) {
+    const HierarchyView view = hierarchy.kept_view();
+    const ClosestPoints found = kept.find(view, none);
+    EXPECT_EQ(of(found), of_all_pairs(view));
+    EXPECT_EQ(found.a, a);
+    EXPECT_EQ(found.b, b);
+  };
+  check(0, 1);
+  hierarchy.insert({5.5, 8, 8});
+  check(4, 5);
+  hierarchy.build(points, box);
+  check(0, 1);
+  points[0] = {5, 5, 5.3};  // not named, but asked for in another box
+  hierarchy.update(points, Box::orthorhombic({10, 10, 9.8}));
+  check(0, 2);
+}
+
 /// After motion that is so much farther than the closest pair is apart that rounding takes more of a bound
 /// than that.
 TEST(KeptClosestPairs, AskOnceHoweverMuchNearerThanTheMotionTheyAre) {
@@ -305,6 +332,19 @@ TEST(KeptClosestPairs, AllowForRoundingOfManySteps) {
   for (int k = 1; k <= 2000; ++k) bounds.shrink_all(kStep);
   EXPECT_EQ(bounds.next_below(kDistance - 2000 * kStep), 0);
   EXPECT_EQ(bounds.next_below((kDistance - 2000 * kStep) * 0.999), -1);
+}
+
+/// Of the sum of a bound and all motion before.
+TEST(KeptClosestPairs, AllowForRoundingOfOneSum) {
+  detail::ClosestBounds bounds;
+  bounds.grow(2);
+  bounds.shrink_all(1e6);
+  for (int k = 0; k < 100; ++k) {
+    const double distance = 1 + 1e-11 * k;
+    bounds.set_none_within(0, distance);
+    EXPECT_EQ(bounds.next_below(distance), 0);
+    EXPECT_EQ(bounds.next_below(0.999 * distance), -1);
+  }
 }
 
 /// Steps of a thousandth of the mean distance of neighbors.

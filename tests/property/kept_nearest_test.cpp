@@ -173,6 +173,29 @@ TEST(KeptNearest, HasTheSmallestIdsWhereSquaresOfDistancesAreTooSmallForDoubles)
   ASSERT_NO_FATAL_FAILURE(check_positions(view, kept, {points[50], points[70]}, {3}, "too near"));
 }
 
+/// Whatever ids are named: of another box, of fewer ids than before, and of another hierarchy.
+TEST(KeptNearest, TakesAllPointsOfAnotherBoxOrHierarchy) {
+  const Box box = Box::orthorhombic({16, 16, 16});
+  const std::vector<Vec3> points = scenes::uniform(4000, {16, 16, 16}, 88);
+  Hierarchy hierarchy = hierarchy_of(points, box);
+  Hierarchy other = hierarchy_of(scenes::uniform(2000, {16, 16, 16}, 89), box);
+  KeptNearest kept;
+  kept.update(hierarchy.kept_view());
+  const auto check = [&](const HierarchyView& view, const std::string& what) {
+    kept.update(view, std::vector<std::int32_t>());
+    check_positions(view, kept, scenes::uniform(1000, {16, 16, 0.1}, 90), {2}, what);
+  };
+  ASSERT_NO_FATAL_FAILURE(check(hierarchy.kept_view(), "as it was"));
+  hierarchy.update(points, Box::orthorhombic({16, 16, 15.5}));
+  ASSERT_NO_FATAL_FAILURE(check(hierarchy.kept_view(), "another box"));
+  hierarchy.build(scenes::uniform(3000, {16, 16, 16}, 91), box);
+  ASSERT_NO_FATAL_FAILURE(check(hierarchy.kept_view(), "another box, fewer points"));
+  hierarchy.build(scenes::uniform(2000, {16, 16, 16}, 92), box);
+  ASSERT_NO_FATAL_FAILURE(check(hierarchy.kept_view(), "fewer points"));
+  ASSERT_NO_FATAL_FAILURE(check(other.kept_view(), "another hierarchy"));
+  EXPECT_GE(kept.work().by_grid, 3500);
+}
+
 struct UniformPoints {
   explicit UniformPoints(std::size_t points)
       : side(std::cbrt(static_cast<double>(points))),
@@ -183,6 +206,19 @@ struct UniformPoints {
   Hierarchy hierarchy;
   scenes::Random random{78};
 };
+
+TEST(KeptNearest, LooksAtPointsOfNewIdsThatAreNotNamed) {
+  UniformPoints scene(3000);
+  KeptNearest kept;
+  kept.update(scene.hierarchy.kept_view());
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 at = scene.somewhere();
+    const std::int32_t id = scene.hierarchy.insert(at);
+    kept.update(scene.hierarchy.kept_view(), std::vector<std::int32_t>());
+    EXPECT_EQ(kept.of_positions({&at, 1}, {}).id, (std::vector<std::int32_t>{id}));
+  }
+  EXPECT_GE(kept.work().by_grid, 90);
+}
 
 /// What a query looks at, in lines and points, in the mean, while every point goes and others come.
 TEST(KeptNearest, LooksAtTheSameFewCellsHoweverManyPointsThereAre) {
