@@ -40,9 +40,9 @@ struct KeptClosestWork {
 /// smallest distance), O(lg n) for its place in a tournament, and the descents of those whose bounds are used
 /// up: none in the mean if closest pairs come and go at random, all of n if an adversary removes the closest
 /// pair again and again from points that are all as close. Finding out what has changed takes O(n), one
-/// comparison a point, unless the ids are given. Where one in 32 of all points has asked, and not all move, a
-/// hash table of cells takes the place of descents, O(1) each, in boxes whose axes are at right angles. A box
-/// that differs from the one before has all points asked.
+/// comparison a point, unless the ids are given. Where one in 128 of all points has asked by descent, and not
+/// all move, a grid of cells takes the place of descents, O(1) each, in boxes whose axes are at right angles.
+/// A box that differs from the one before has all points asked.
 ///
 /// Takes any view; one by kept_view() costs nothing to make, and with view() all points at once are asked for
 /// at a fifth of the time that they take one by one. Not thread-safe. An object that has thrown, but for

@@ -16,7 +16,7 @@ namespace dch {
 struct KeptNearestWork {
   std::int64_t by_grid = 0;   ///< positions whose nearest points the grid found
   std::int64_t descents = 0;  ///< positions whose nearest points a descent of the hierarchy found
-  std::int64_t grids = 0;     ///< grids that were made
+  std::int64_t grids = 0;     ///< grids that were made, or tried where none fits
 };
 
 /// The nearest points of positions that are asked for one by one, while points come and go.
@@ -28,13 +28,14 @@ struct KeptNearestWork {
 ///     kept.update(hierarchy.kept_view(), changed_ids);          // id and came
 ///     dch::NearestRows row = kept.of_positions({&query, 1}, {});
 ///
-/// Answers are those of Nearest::of_positions(), ids of points equally near included. A grid has the points
-/// by cells that hold two to three where most are; a point that comes or goes changes one cell, and a
-/// question looks at the eight nearest cells, and at those that the k-th point may be in: O(k) where density
-/// varies little. Positions in voids or in overfull cells are asked for by descent (Theorem 5.6.9), those of
-/// triclinic boxes and of periodic boxes less than eight cells wide always. A grid that is not worth its
-/// upkeep, as counted, is given up; the next one is made when a quarter as many positions as there are points
-/// have been asked for since, twice as many after each that is given up.
+/// Answers are those of Nearest::of_positions(), ids of points equally near included; with an epsilon they
+/// may be others that are within it. A grid has the points by cells that hold two to three where most are; a
+/// point that comes or goes changes one cell, and a question looks at the eight nearest cells, and at those
+/// that the k-th point may be in: O(k) where density varies little. Positions in voids or in overfull cells
+/// are asked for by descent (Theorem 5.6.9), those of triclinic boxes and of periodic boxes less than eight
+/// cells wide, sixteen where few cells have points, always. A grid that is not worth its upkeep, as counted,
+/// is given up; the next one is made when a quarter as many positions as there are points have been asked for
+/// since it was made, four times as many after each that is given up, up to 64 positions a point.
 ///
 /// Takes any view; of one by view() the balls of subtrees are measured at the first descent after update().
 /// Not thread-safe. An object that has thrown std::bad_alloc answers by descent until it makes another grid.
@@ -50,7 +51,8 @@ class KeptNearest {
   void update(const HierarchyView& view);
 
   /// The same, told which ids may have come, gone or moved since the call before; ids beyond those of then
-  /// are looked at anyway. Answers are wrong if one is left out. O(1) each.
+  /// are looked at anyway. Answers are wrong if one is left out. O(1) each. All are looked at if the box or
+  /// the hierarchy is another one, or if there are fewer ids.
   /// @throws InvalidParameter, changing nothing, for an id beyond those of the hierarchy.
   void update(const HierarchyView& view, Span<const std::int32_t> changed);
 
