@@ -2,6 +2,8 @@
 //
 // Points in cells, asked without what stands behind them, against all points: at distances that rounding
 // decides, near the origin and as far out as cells go, and where points far away have the names of near ones.
+//
+// More than 300 lines: all tests take the same scene and comparisons.
 #include "point_cells.hpp"
 
 #include <algorithm>
