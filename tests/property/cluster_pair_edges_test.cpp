@@ -44,9 +44,9 @@ TEST(ClusterPairsEdges, GhostsAloneMakeNoPairs) {
   }
 }
 
-// Coordinates are single precision relative to a node: no pair at the cutoff is lost to that, and none is
-// kept that is a hundred-thousandth beyond.
-TEST(ClusterPairsEdges, SinglePrecisionLosesNoPairAtTheCutoffAndKeepsFewBeyond) {
+// Coordinates are 16-bit integers relative to a node: no pair at the cutoff is lost to that, and none is kept
+// that is a thousandth beyond.
+TEST(ClusterPairsEdges, RoundingLosesNoPairAtTheCutoffAndKeepsFewBeyond) {
   scenes::Random random(21);
   for (int trial = 0; trial < 400; ++trial) {
     Vec3 direction = random.in_ball(1);
@@ -54,7 +54,7 @@ TEST(ClusterPairsEdges, SinglePrecisionLosesNoPairAtTheCutoffAndKeepsFewBeyond) 
     // Each point is 0.9 from the center of its node, and the centers are on the same line.
     const Vec3 start = random.in_cube(5);
     const bool with_others = trial % 2 == 0;
-    for (const double beyond : {0.0, 1e-5}) {
+    for (const double beyond : {0.0, 1e-3}) {
       std::vector<Vec3> points{start, start + (2.8 + beyond) * direction};
       if (!with_others) points = {start, start + (1 + beyond) * direction};
       if (with_others) {

@@ -2,13 +2,13 @@
 //
 // ClusterPairFinder: the points of each node, cut into clusters of four.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "clusters/cluster_pair_finder.hpp"
 #include "geometry/binary_grid.hpp"
 #include "geometry/metric.hpp"
-#include "leaves/leaf_source.hpp"
+#include "leaves/leaf_frame.hpp"
+#include "leaves/rounding.hpp"
 
 namespace dch::detail {
 namespace {
@@ -16,6 +16,20 @@ namespace {
 /// Searches that the order of a node's points is good for. In a Lennard-Jones melt with a search every ten
 /// steps it takes a quarter of a search, and kept for eight adds 1 in 100 to the pairs of slots.
 constexpr std::int32_t kSearchesPerOrder = 8;
+
+constexpr std::uint32_t kWithAnySlot = 0x1111;  ///< bits 4 a of the pairs of a slot with the slots a
+
+/// A coordinate of the four slots.
+struct OneAxis {
+  float length[kSlots];  ///< relative to the center of the node
+
+  /// To units, and puts the least and the largest one into the box.
+  void round(float origin, float per_unit, std::int16_t* units, std::int16_t& low, std::int16_t& high) const {
+    for (int slot = 0; slot < kSlots; ++slot) units[slot] = rounded((length[slot] - origin) * per_unit);
+    low = std::min(std::min(units[0], units[1]), std::min(units[2], units[3]));
+    high = std::max(std::max(units[0], units[1]), std::max(units[2], units[3]));
+  }
+};
 
 }  // namespace
 
@@ -28,9 +42,10 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
     Node& node = nodes_[static_cast<std::size_t>(k)];
     node.first = clusters;
     if (!scene.nodes.is_alive(k)) continue;
+    const MeasuredLeaves::Leaf& leaf = scene.leaves.leaves[static_cast<std::size_t>(k)];
     std::int32_t points = 0;
-    for (std::int32_t b = scene.nodes.first_child[k]; b != kNone; b = scene.points.next[b])
-      points += scene.points.count[b];
+    for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b)
+      points += scene.leaves.count[static_cast<std::size_t>(b)];
     node.clusters = points / kSlots + (points % kSlots != 0);
     index_count(std::int64_t{kSlots} * clusters + std::int64_t{kSlots} * node.clusters,
                 "slots of clusters of four", "take fewer points", limits.slots);
@@ -53,8 +68,7 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
   const BinaryGrid grid(out.list_radius);
   out.origin = scene.nodes.position;
   for (Vec3& origin : out.origin) origin = {grid(origin.x), grid(origin.y), grid(origin.z)};
-  boxes_.make_room(all + kBoxesAtOnce);
-  filled_.resize(all);
+  clusters_.make_room(all);
   ghost_.resize(all);
   slot_of_.assign(scene.request.exclusions ? scene.positions.size() : 0, kNone);
   for_ranges(executor, scene.nodes.size(), [&](std::int32_t first, std::int32_t last) {
@@ -70,15 +84,18 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
   const Cut& cut = cuts_.of_node[static_cast<std::size_t>(k)];
   std::int32_t* const ids = cuts_.id.data() + cut.first;
   std::int32_t* const place = cuts_.place.data() + cut.first;
-  const Vec3 center = scene.nodes.position[static_cast<std::size_t>(k)];
+  const MeasuredLeaves& leaves = scene.leaves;
+  const MeasuredLeaves::Leaf& leaf = leaves.leaves[static_cast<std::size_t>(k)];
   local.clear();
-  double extent2 = 0;
-  scene.points.for_each(scene.nodes.first_child[k], [&](std::int32_t slot) {
-    const Vec3 at = scene.metric.displacement(center, scene.points.position[slot]);
-    extent2 = std::max(extent2, norm2(at));
-    ids[local.size()] = scene.points.id[slot];
-    local.push_back(local_point(at, static_cast<std::int32_t>(local.size())));
-  });
+  for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    const auto& at = leaves.offsets[block].axis;
+    const std::int32_t* const id = scene.points.id.data() + std::ptrdiff_t{leaves.source[block]} * kBlock;
+    for (int lane = 0; lane < leaves.count[block]; ++lane) {
+      ids[local.size()] = id[lane];
+      local.push_back({{at[0][lane], at[1][lane], at[2][lane]}, static_cast<std::int32_t>(local.size())});
+    }
+  }
   const auto count = static_cast<std::int32_t>(local.size());
   if (order_as_before(k)) {
     ordered.clear();
@@ -89,15 +106,21 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
     for (std::int32_t n = 0; n < count; ++n) place[n] = ordered[static_cast<std::size_t>(n)].index;
   }
   Node& node = nodes_[static_cast<std::size_t>(k)];
-  node.extent = std::sqrt(extent2);
+  node.origin = frame_origin(scene.nodes.position[static_cast<std::size_t>(k)], leaf.middle, unit_);
+  const Frame frame{{static_cast<float>(node.origin.x), static_cast<float>(node.origin.y),
+                     static_cast<float>(node.origin.z)},
+                    static_cast<float>(1 / unit_)};
   for (std::int32_t n = 0; n < node.clusters; ++n) {
     const std::int32_t c = node.first + n;
     out.origin_of[static_cast<std::size_t>(c)] = k;
     put_cluster(ordered.data() + std::ptrdiff_t{n} * kSlots, ids, std::min(kSlots, count - n * kSlots), c,
-                scene.request, out);
-    const Corners box = boxes_.at(static_cast<std::size_t>(c));
-    for (std::size_t s = 0; s < 6; ++s)
-      node.box[s] = n == 0 ? box[s] : s < 3 ? std::min(node.box[s], box[s]) : std::max(node.box[s], box[s]);
+                frame, scene.request, out);
+    const ClusterBox box = clusters_.row(c).box;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::int16_t &low = node.box.side[axis], &high = node.box.side[axis + 3];
+      low = n == 0 ? box.side[axis] : std::min(low, box.side[axis]);
+      high = n == 0 ? box.side[axis + 3] : std::max(high, box.side[axis + 3]);
+    }
   }
 }
 
@@ -117,22 +140,17 @@ bool ClusterPairFinder::order_as_before(std::int32_t k) {
 
 /// @param points by numbers of `ids`
 void ClusterPairFinder::put_cluster(const LocalPoint* points, const std::int32_t* ids, std::int32_t count,
-                                    std::int32_t c, const ListParams& request, ClusterPairs& out) {
+                                    std::int32_t c, const Frame& frame, const ListParams& request,
+                                    ClusterPairs& out) {
   const auto cluster = static_cast<std::size_t>(c);
   ClusterOfFour<double>& at = out.at[cluster];
-  ClusterOfFour<float>& rounded = out.at_float[cluster];
+  OneAxis x{}, y{}, z{};
   std::uint32_t ghosts = 0;
-  Corners box{};
-  for (std::size_t axis = 0; axis < 3; ++axis) box[axis] = box[axis + 3] = points->at[axis];
   for (int slot = 0; slot < kSlots; ++slot) {
     const LocalPoint& point = points[slot < count ? slot : 0];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box[axis] = std::min(box[axis], point.at[axis]);
-      box[axis + 3] = std::max(box[axis + 3], point.at[axis]);
-    }
-    rounded.x[slot] = point.at[0];
-    rounded.y[slot] = point.at[1];
-    rounded.z[slot] = point.at[2];
+    x.length[slot] = point.at[0];
+    y.length[slot] = point.at[1];
+    z.length[slot] = point.at[2];
     at.x[slot] = double{point.at[0]};  // near enough for refresh() to tell the image
     at.y[slot] = double{point.at[1]};
     at.z[slot] = double{point.at[2]};
@@ -144,8 +162,13 @@ void ClusterPairFinder::put_cluster(const LocalPoint* points, const std::int32_t
     if (request.first_ghost >= 0 && id >= request.first_ghost) ghosts |= 1u << slot;
     if (!slot_of_.empty()) slot_of_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(k);
   }
-  boxes_.set(cluster, box);
-  filled_[cluster] = static_cast<std::uint8_t>((1u << count) - 1);
+  NearCluster in_units{};
+  ClusterBox box{};
+  x.round(frame.origin[0], frame.per_unit, in_units.x, box.side[0], box.side[3]);
+  y.round(frame.origin[1], frame.per_unit, in_units.y, box.side[1], box.side[4]);
+  z.round(frame.origin[2], frame.per_unit, in_units.z, box.side[2], box.side[5]);
+  in_units.entry = {c, static_cast<std::uint16_t>(kWithAnySlot * ((1u << count) - 1)), 0};
+  clusters_.set(c, in_units, box);
   ghost_[cluster] = static_cast<std::uint8_t>(ghosts);
 }
 

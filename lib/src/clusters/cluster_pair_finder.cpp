@@ -7,30 +7,81 @@
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
 #include "geometry/tolerance.hpp"
+#include "leaves/leaf_frame.hpp"
 
 namespace dch::detail {
 namespace {
 
 constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a < b
+constexpr std::uint32_t kPairsOfOneSlot = 0x1111;      ///< that NearCluster has of a point alone
 constexpr std::int32_t kMaxShifts = 0x10000;           ///< that the entries of a row can tell apart
 /// Slices of the work for each thread, so that none waits long for the last one.
 constexpr int kSlicesPerThread = 4;
-constexpr double kFloatRounding = 0x1p-24;
+
 /// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
 std::uint32_t spread(std::uint32_t slots) {
   return (slots & 1) | (slots & 2) << 3 | (slots & 4) << 6 | (slots & 8) << 9;
 }
 
-}  // namespace
-
-void ClusterPairFinder::Boxes::make_room(std::size_t count) {
-  for (auto& coordinates : side) coordinates.resize(std::max(coordinates.size(), count));
+ClusterMove move_by(Vec3 units, std::int32_t shift) {
+  ClusterMove move{};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::int16_t by[2];
+    split_shift(units[axis], by);
+    for (int part = 0; part < 2; ++part) std::fill_n(move.part[part] + kSlots * axis, kSlots, by[part]);
+  }
+  move.part[0][15] = static_cast<std::int16_t>(static_cast<std::uint16_t>(shift % kMaxShifts));
+  return move;
 }
 
-BoxArrays ClusterPairFinder::Boxes::from(std::int32_t k) const {
-  BoxArrays arrays{};
-  for (std::size_t s = 0; s < side.size(); ++s) arrays.side[s] = side[s].data() + k;
-  return arrays;
+/// A box in the frame that a move leads from.
+ClusterBox moved_back(const ClusterBox& box, const ClusterMove& move) {
+  ClusterBox back{};
+  for (int side = 0; side < 6; ++side) {
+    const int first = kSlots * (side % 3), by = move.part[0][first] + move.part[1][first];
+    back.side[side] = static_cast<std::int16_t>(std::clamp(box.side[side] - by, -0x8000, 0x7FFF));
+  }
+  return back;
+}
+
+}  // namespace
+
+void ClusterPairFinder::Near::make_room(std::size_t count) {
+  if (cluster_.size() >= count) return;
+  count += count / 8;
+  for (auto& side : side_) side.resize(count + kBoxesAtOnce);
+  cluster_.resize(count);
+}
+
+NearClusters ClusterPairFinder::Near::from(std::int32_t k) const {
+  NearClusters clusters{cluster_.data() + k, {}};
+  for (std::size_t s = 0; s < side_.size(); ++s) clusters.side[s] = side_[s].data() + k;
+  return clusters;
+}
+
+NearClustersTo ClusterPairFinder::Near::to(std::int32_t k) {
+  NearClustersTo clusters{cluster_.data() + k, {}};
+  for (std::size_t s = 0; s < side_.size(); ++s) clusters.side[s] = side_[s].data() + k;
+  return clusters;
+}
+
+RowCluster ClusterPairFinder::Near::row(std::int32_t k) const {
+  const auto at = static_cast<std::size_t>(k);
+  RowCluster row{cluster_[at], {}};
+  for (std::size_t s = 0; s < side_.size(); ++s) row.box.side[s] = side_[s][at];
+  return row;
+}
+
+void ClusterPairFinder::Near::set(std::int32_t k, const NearCluster& cluster, const ClusterBox& box) {
+  const auto at = static_cast<std::size_t>(k);
+  cluster_[at] = cluster;
+  for (std::size_t s = 0; s < side_.size(); ++s) side_[s][at] = box.side[s];
+}
+
+std::size_t ClusterPairFinder::Near::memory_bytes() const {
+  std::size_t bytes = cluster_.capacity() * sizeof(cluster_[0]);
+  for (const auto& side : side_) bytes += side.capacity() * sizeof(side[0]);
+  return bytes;
 }
 
 std::int32_t ClusterPairFinder::shift_count(std::size_t shifts) const {
@@ -41,16 +92,15 @@ std::int32_t ClusterPairFinder::shift_count(std::size_t shifts) const {
 template <class Metric>
 void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out) {
   kernels_ = &cluster_search_kernels(instruction_set());
+  // Coordinates, and differences of them, that saturate leave a gap of half the range less half the width of
+  // a node to all points of that: more than the reach.
+  unit_ = frame_unit(scene.box, 0.5 * scene.leaves.largest_width + scene.reach);
+  one_image_ = (scene.reach + 2 * scene.leaves.largest_extent) * kInflate < scene.box.max_cutoff();
+  ShiftError shift_error(scene.box, unit_, one_image_);
+  shift_error.add(scene.nodes.position);
+  limit_ = limit_of_reach(scene.reach, unit_, shift_error.largest());
   cut_into_clusters(scene, executor, out);
-  double largest_extent = 0;
-  for (const Node& node : nodes_) largest_extent = std::max(largest_extent, node.extent);
-  // With extents e and the reach r, two points, the vector between their nodes and its sum with one of them
-  // are up to e, e, r + 2 e and r + e long when each is rounded to single precision; their difference, its
-  // square and the limit round by up to 3 r more.
-  const double reach = scene.reach + 6 * kFloatRounding * (scene.reach + largest_extent);
-  limit2_ = static_cast<float>(reach * reach);
   images_ = Lattice(scene.box);
-  one_image_ = (scene.reach + 2 * largest_extent) * kInflate < scene.box.max_cutoff();
   drops_types_ = false;
   for (int a = 0; scene.request.radii.empty() && a < scene.request.cutoffs.types(); ++a)
     for (int b = 0; b < scene.request.cutoffs.types(); ++b)
@@ -62,7 +112,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   const auto search = [&](int p) {
     Slice& slice = slices_[static_cast<std::size_t>(p)];
     slice.rows.clear();
-    slice.entries.clear();
+    slice.written = 0;
     slice.shift.clear();
     slice.work = {};
     slice.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
@@ -85,15 +135,17 @@ void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, 
                                     Slice& slice) {
   const std::vector<Vec3>& center = scene.nodes.position;
   const auto limit_for = [&](std::int32_t other) {
-    return (scene.reach + extent(k) + extent(other)) * kInflate;
+    const auto& leaves = scene.leaves.leaves;
+    return (scene.reach + leaves[static_cast<std::size_t>(k)].extent +
+            leaves[static_cast<std::size_t>(other)].extent) *
+           kInflate;
   };
-  slice.near.clear();
-  slice.source.clear();
+  slice.section.assign(2, 0);
   const auto first_shift = static_cast<std::int32_t>(slice.shift.size());
-  collect(k, k, Vec3{}, Vec3{}, clusters, slice);
   const auto add = [&](std::int32_t other, Vec3 between) {
-    collect(k, other, between, images_.integers(between - (center[other] - center[k])), clusters, slice);
+    collect(scene, {k, other, between, first_shift}, slice);
   };
+  add(k, Vec3{});
   const auto add_near_images = [&](std::int32_t other) {
     const Vec3 nearest = scene.metric.displacement(center[k], center[other]);
     if (!one_image_)
@@ -105,108 +157,79 @@ void ClusterPairFinder::find_around(const Scene<Metric>& scene, std::int32_t k, 
   for (const std::int32_t other : scene.nodes.edges.row(k))
     if (other > k) add_near_images(other);
   for (std::int32_t own = 0; own < nodes_[static_cast<std::size_t>(k)].clusters; ++own)
-    append_row(k, own, first_shift, scene.request, clusters, slice);
+    append_rows(own, first_shift, scene.request, clusters, slice);
 }
 
 /// Those clusters of another node (or of this one) that are near this node's box, moved to its frame.
-void ClusterPairFinder::collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image,
-                                const ClusterPairs& clusters, Slice& slice) {
-  const Node& own = nodes_[static_cast<std::size_t>(k)];
-  const Node& node = nodes_[static_cast<std::size_t>(other)];
-  const float by[3] = {static_cast<float>(between.x), static_cast<float>(between.y),
-                       static_cast<float>(between.z)};
-  Corners box{};
-  for (std::size_t s = 0; s < 6; ++s) box[s] = own.box[s] - by[s % 3];
-  slice.chosen.resize(std::max(slice.chosen.size(), static_cast<std::size_t>(node.clusters + kBoxesAtOnce)));
+template <class Metric>
+void ClusterPairFinder::collect(const Scene<Metric>& scene, const NodePair& pair, Slice& slice) {
+  const Node& own = nodes_[static_cast<std::size_t>(pair.from)];
+  const Node& other = nodes_[static_cast<std::size_t>(pair.to)];
+  const std::int32_t shift = static_cast<std::int32_t>(slice.shift.size()) - pair.first_shift;
+  const ClusterMove move = move_by((1 / unit_) * (pair.between + (other.origin - own.origin)), shift);
+  const std::int32_t already = slice.section.back();
+  slice.near.make_room(static_cast<std::size_t>(already) + static_cast<std::size_t>(other.clusters));
   const std::int32_t found =
-      kernels_->near_boxes(boxes_.from(node.first), node.clusters, box.data(), limit2_, slice.chosen.data());
-  slice.work.beside_nodes += node.clusters;
+      kernels_->keep_near(clusters_.from(other.first), other.clusters, moved_back(own.box, move), limit_.out,
+                          move, slice.near.to(already));
+  slice.work.beside_nodes += other.clusters;
   if (found == 0) return;
-  slice.shift.push_back({k, other, image});
-  const std::int32_t shift = shift_count(slice.shift.size()) - 1;
-  slice.boxes.make_room(slice.near.size() + static_cast<std::size_t>(found) + kBoxesAtOnce);
-  for (std::int32_t n = 0; n < found; ++n) {
-    const std::int32_t c = node.first + slice.chosen[static_cast<std::size_t>(n)];
-    const auto cluster = static_cast<std::size_t>(c);
-    ClusterOfFour<float> moved = clusters.at_float[cluster];
-    for (int slot = 0; slot < kSlots; ++slot) {
-      moved.x[slot] += by[0];
-      moved.y[slot] += by[1];
-      moved.z[slot] += by[2];
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      slice.boxes.side[axis][slice.near.size()] = boxes_.side[axis][cluster] + by[axis];
-      slice.boxes.side[axis + 3][slice.near.size()] = boxes_.side[axis + 3][cluster] + by[axis];
-    }
-    slice.near.push_back(moved);
-    slice.source.push_back({c, shift, filled_[cluster], ghost_[cluster]});
-  }
+  const std::vector<Vec3>& center = scene.nodes.position;
+  const Vec3 straight =
+      center[static_cast<std::size_t>(pair.to)] - center[static_cast<std::size_t>(pair.from)];
+  slice.shift.push_back({pair.from, pair.to, images_.integers(pair.between - straight)});
+  shift_count(slice.shift.size());
+  if (shift > 0 && shift % kMaxShifts == 0) slice.section.push_back(already);
+  slice.section.back() = already + found;
 }
 
 /// The own clusters of the node are the first of those near it, so each meets itself and what comes after.
-void ClusterPairFinder::append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift,
-                                   const ListParams& request, const ClusterPairs& clusters, Slice& slice) {
-  const std::int32_t c = nodes_[static_cast<std::size_t>(k)].first + own;
-  const auto count = static_cast<std::int32_t>(slice.near.size()) - own;
-  slice.chosen.resize(std::max(slice.chosen.size(), static_cast<std::size_t>(count + kBoxesAtOnce)));
-  std::int32_t* const chosen = slice.chosen.data();
-  const Corners box = slice.boxes.at(static_cast<std::size_t>(own));
-  std::int32_t found = kernels_->near_boxes(slice.boxes.from(own), count, box.data(), limit2_, chosen);
-  slice.work.beside_clusters += count;
-  slice.work.by_points += found;
-  found = kernels_->near_clusters(slice.near.data() + own, slice.near[static_cast<std::size_t>(own)], limit2_,
-                                  chosen, found);
+/// One row, or more where entries cannot name all shifts.
+void ClusterPairFinder::append_rows(std::int32_t own, std::int32_t first_shift, const ListParams& request,
+                                    const ClusterPairs& clusters, Slice& slice) const {
+  const RowCluster row = slice.near.row(own);
+  const std::int32_t c = row.cluster.entry.cluster;
+  const bool is_alone = row.cluster.entry.mask == kPairsOfOneSlot;
   const bool excludes = request.exclusions != nullptr && !request.exclusions->empty();
-  const bool any_shift = slice.source.back().shift - first_shift < kMaxShifts;
-  if (!excludes && !drops_types_ && ghost_[static_cast<std::size_t>(c)] == 0 && any_shift)
-    return append_whole_row(c, own, first_shift, found, slice);
-  slice.work.by_slots += found;
+  const bool restricts = excludes || drops_types_ || ghost_[static_cast<std::size_t>(c)] != 0;
   if (excludes) mark_exclusions(*request.exclusions, c, clusters, slice);
-  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
-  const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
-  const std::size_t before = slice.entries.size();
-  slice.entries.resize(before + static_cast<std::size_t>(found));
-  ClusterPairs::Entry* const first = slice.entries.data();
-  ClusterPairs::Entry* to = first + before;
-  bool has_row = false;
-  for (std::int32_t n = 0; n < found; ++n) {
-    const auto [other, shift, filled_there, ghosts_there] =
-        slice.source[static_cast<std::size_t>(own) + static_cast<std::size_t>(chosen[n])];
-    std::uint32_t mask = filled * filled_there & ~(ghosts * ghosts_there);
-    if (chosen[n] == 0) mask &= kPairsWithinCluster;
-    if (excludes) mask &= ~std::uint32_t{slice.excluded[static_cast<std::size_t>(other)]};
-    if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, other, clusters);
-    if (mask == 0) continue;
-    if (!has_row || shift - first_shift >= kMaxShifts) {
-      if (has_row) first_shift = shift;
-      slice.rows.push_back({to - first, c, first_shift});
-      has_row = true;
-    }
-    *to++ = {other, static_cast<std::uint16_t>(mask), static_cast<std::uint16_t>(shift - first_shift)};
+  for (std::size_t s = 0; s + 1 < slice.section.size(); ++s, first_shift += kMaxShifts) {
+    const std::int32_t first = s == 0 ? own + static_cast<std::int32_t>(is_alone) : slice.section[s];
+    const std::int32_t count = slice.section[s + 1] - first;
+    const std::size_t room = slice.written + static_cast<std::size_t>(count) + kEntriesAtOnce;
+    if (slice.entries.size() < room) slice.entries.resize(room + room / 2);
+    ClusterPairs::Entry* const entries = slice.entries.data() + slice.written;
+    const FoundRow found = kernels_->find_row(row, slice.near.from(first), count, limit_.out, entries);
+    slice.work.beside_clusters += count;
+    slice.work.by_points += found.compared;
+    if (s == 0 && !is_alone) entries->mask &= kPairsWithinCluster;
+    const std::int32_t kept =
+        restricts ? restrict_row(c, request, clusters, entries, found.entries, slice) : found.entries;
+    if (kept == 0) continue;
+    slice.rows.push_back({static_cast<std::int64_t>(slice.written), c, first_shift});
+    slice.written += static_cast<std::size_t>(kept);
   }
-  slice.entries.resize(static_cast<std::size_t>(to - slice.entries.data()));
   if (excludes) unmark_exclusions(*request.exclusions, c, clusters, slice);
 }
 
-/// The same where every slot that is no padding is wanted in every pair.
-void ClusterPairFinder::append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift,
-                                         std::int32_t found, Slice& slice) const {
-  const std::uint32_t filled = spread(filled_[static_cast<std::size_t>(c)]);
-  const Source* const from = slice.source.data() + own;
-  const std::int32_t* chosen = slice.chosen.data();
-  const std::uint32_t within = filled * filled_[static_cast<std::size_t>(c)] & kPairsWithinCluster;
-  const std::int32_t skipped = within == 0;  // a point alone in its cluster, which is the first one found
-  if (found == skipped) return;
-  const std::size_t before = slice.entries.size();
-  slice.rows.push_back({static_cast<std::int64_t>(before), c, first_shift});
-  slice.entries.resize(before + static_cast<std::size_t>(found - skipped));
-  ClusterPairs::Entry* const to = slice.entries.data() + before;
-  for (std::int32_t n = skipped; n < found; ++n) {
-    const Source& there = from[chosen[n]];
-    to[n - skipped] = {there.cluster, static_cast<std::uint16_t>(filled * there.filled),
-                       static_cast<std::uint16_t>(there.shift - first_shift)};
+/// Takes what exclusions, ghosts and types forbid out of the masks of a row of cluster c. Returns how many
+/// entries are left.
+std::int32_t ClusterPairFinder::restrict_row(std::int32_t c, const ListParams& request,
+                                             const ClusterPairs& clusters, ClusterPairs::Entry* row,
+                                             std::int32_t found, Slice& slice) const {
+  slice.work.by_slots += found;
+  const std::uint32_t ghosts = spread(ghost_[static_cast<std::size_t>(c)]);
+  std::int32_t kept = 0;
+  for (std::int32_t n = 0; n < found; ++n) {
+    const auto other = static_cast<std::size_t>(row[n].cluster);
+    std::uint32_t mask = row[n].mask & ~(ghosts * ghost_[other]);
+    if (!slice.excluded.empty()) mask &= ~std::uint32_t{slice.excluded[other]};
+    if (drops_types_) mask &= pairs_of_wanted_types(request.cutoffs, c, row[n].cluster, clusters);
+    row[kept] = row[n];
+    row[kept].mask = static_cast<std::uint16_t>(mask);
+    kept += mask != 0;
   }
-  if (within != 0) to[0].mask = static_cast<std::uint16_t>(within);
+  return kept;
 }
 
 ClusterPairFinder::Work ClusterPairFinder::work() const {
@@ -222,6 +245,7 @@ void ClusterPairFinder::join(ClusterPairs& out) {
   out.shift.clear();
   if (slices_.size() == 1) {
     out.rows.swap(slices_[0].rows);
+    slices_[0].entries.resize(slices_[0].written);
     out.entries.swap(slices_[0].entries);
     out.shift.swap(slices_[0].shift);
   } else {
@@ -239,7 +263,7 @@ void ClusterPairFinder::append_slices(ClusterPairs& out) const {
   std::size_t rows = 0, entries = 0, shifts = 0;
   for (const Slice& slice : slices_) {
     rows += slice.rows.size();
-    entries += slice.entries.size();
+    entries += slice.written;
     shifts += slice.shift.size();
   }
   shift_count(shifts);
@@ -251,7 +275,8 @@ void ClusterPairFinder::append_slices(ClusterPairs& out) const {
     const auto first_shift = static_cast<std::int32_t>(out.shift.size());
     for (const ClusterPairs::Row& row : slice.rows)
       out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
-    out.entries.insert(out.entries.end(), slice.entries.begin(), slice.entries.end());
+    const auto found = slice.entries.begin();
+    out.entries.insert(out.entries.end(), found, found + static_cast<std::ptrdiff_t>(slice.written));
     out.shift.insert(out.shift.end(), slice.shift.begin(), slice.shift.end());
   }
 }

@@ -12,11 +12,14 @@
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 
+#include "base/aligned_vector.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
 #include "geometry/lattice.hpp"
 #include "hierarchy/build/block_order.hpp"
 #include "hierarchy/leaf_blocks.hpp"
 #include "hierarchy/level.hpp"
+#include "hierarchy/measured_leaves.hpp"
+#include "lists/list_limits.hpp"
 
 namespace dch::detail {
 
@@ -25,9 +28,9 @@ inline constexpr int kSlots = ClusterPairs::kSlots;
 /// Makes ClusterPairs: cuts the points of each node of level 1 into clusters of four and finds those within
 /// reach of each other among the nodes that edges of level 1 join (Lemma 5.3.1(5)).
 ///
-/// Coordinates are single precision relative to the node's center. The reach is widened by more than they can
-/// be off, so no pair within it is missed; a cluster pair a millionth beyond it may be kept. Only operations
-/// that round alike on every instruction set are used, so all give the same pairs, on any number of threads.
+/// Coordinates are 16-bit integers in frames of the nodes, as those of lists. No pair within the reach is
+/// missed, whatever is rounded; cluster pairs up to margin() beyond it may be kept. Integer arithmetic is the
+/// same on every instruction set, so all give the same pairs, on any number of threads.
 class ClusterPairFinder {
  public:
   /// What the pairs are found in.
@@ -37,7 +40,8 @@ class ClusterPairFinder {
     const Box& box;
     const Level& nodes;
     const LeafBlocks& points;
-    Span<const Vec3> positions;  ///< as given, by id
+    const MeasuredLeaves& leaves;  ///< the nodes with their points, as they are
+    Span<const Vec3> positions;    ///< as given, by id
     const ListParams& request;
     double reach;  ///< within which wrapped points may be a pair [length]
   };
@@ -53,45 +57,47 @@ class ClusterPairFinder {
   void find(const Scene<Metric>& scene, Executor* executor, ClusterPairs& out);
   /// Of the last find().
   Work work() const;
+  /// How far beyond the reach two points of a cluster pair may be at the last find(), if none are nearer
+  /// [length].
+  double margin() const { return limit_.margin; }
   std::size_t memory_bytes() const;
 
   Limits limits;
 
  private:
-  /// Lower corner, then the upper one.
-  using Corners = std::array<float, 6>;
   /// A node of level 1; its number is also that of its origin.
   struct Node {
     std::int32_t first = 0, clusters = 0;
-    double extent = 0;  ///< distance of the farthest point from the center [length]
-    Corners box{};      ///< around its points, relative to the center
+    ClusterBox box{};  ///< around its points, in its frame
+    Vec3 origin;       ///< of its frame, relative to the center [length]
   };
-  /// Boxes of clusters side by side: lower corners, then upper ones, in one array for each coordinate.
-  struct Boxes {
-    std::array<std::vector<float>, 6> side;
+  /// What takes points of a node to its frame.
+  struct Frame {
+    float origin[3], per_unit;
+  };
+  /// Clusters side by side, with their boxes.
+  class Near {
+   public:
     void make_room(std::size_t count);
-    void set(std::size_t k, const Corners& box) {
-      for (std::size_t s = 0; s < side.size(); ++s) side[s][k] = box[s];
-    }
-    Corners at(std::size_t k) const {
-      return {side[0][k], side[1][k], side[2][k], side[3][k], side[4][k], side[5][k]};
-    }
-    BoxArrays from(std::int32_t k) const;
-  };
-  /// Which cluster stands near a node, and by which of the slice's shifts.
-  struct Source {
-    std::int32_t cluster, shift;
-    std::uint8_t filled, ghosts;  ///< a bit for each slot
+    NearClusters from(std::int32_t k) const;
+    NearClustersTo to(std::int32_t k);
+    RowCluster row(std::int32_t k) const;
+    void set(std::int32_t k, const NearCluster& cluster, const ClusterBox& box);
+    std::size_t memory_bytes() const;
+
+   private:
+    AlignedVector<NearCluster> cluster_;
+    std::array<AlignedVector<std::int16_t>, 6> side_;
   };
   /// What one slice of the work finds and needs.
   struct Slice {
     std::vector<ClusterPairs::Row> rows;
-    std::vector<ClusterPairs::Entry> entries;
+    std::vector<ClusterPairs::Entry> entries;  ///< and room for more
+    std::size_t written = 0;                   ///< entries
     std::vector<ClusterPairs::Shift> shift;
-    Boxes boxes;  ///< of the clusters near a node, those of the node first
-    std::vector<ClusterOfFour<float>> near;
-    std::vector<Source> source;  ///< of `near`
-    std::vector<std::int32_t> chosen;
+    Near near;                            ///< the clusters near a node, those of the node first
+    std::vector<std::int32_t> section;    ///< where `near` begins, where entries name shifts from another
+                                          ///< one on, and where it ends
     std::vector<std::uint16_t> excluded;  ///< by cluster; all 0 between rows
     Work work;
   };
@@ -99,6 +105,12 @@ class ClusterPairFinder {
   /// Some of ClusterPairs::shift.
   struct Shifts {
     std::int64_t first, last;
+  };
+  /// A node beside the one whose rows are found.
+  struct NodePair {
+    std::int32_t from, to;
+    Vec3 between;              ///< their centers [length]
+    std::int32_t first_shift;  ///< the first one that leads from that node
   };
   /// How the points of a node were ordered, which holds as long as it has the same ones and they have not
   /// moved much. Both by slot of the node's clusters.
@@ -119,15 +131,15 @@ class ClusterPairFinder {
                 std::vector<LocalPoint>& ordered, ClusterPairs& out);
   bool order_as_before(std::int32_t k);
   void put_cluster(const LocalPoint* points, const std::int32_t* ids, std::int32_t count, std::int32_t c,
-                   const ListParams& request, ClusterPairs& out);
+                   const Frame& frame, const ListParams& request, ClusterPairs& out);
   template <class Metric>
   void find_around(const Scene<Metric>& scene, std::int32_t k, const ClusterPairs& clusters, Slice& slice);
-  void collect(std::int32_t k, std::int32_t other, Vec3 between, Vec3 image, const ClusterPairs& clusters,
-               Slice& slice);
-  void append_row(std::int32_t k, std::int32_t own, std::int32_t first_shift, const ListParams& request,
-                  const ClusterPairs& clusters, Slice& slice);
-  void append_whole_row(std::int32_t c, std::int32_t own, std::int32_t first_shift, std::int32_t found,
-                        Slice& slice) const;
+  template <class Metric>
+  void collect(const Scene<Metric>& scene, const NodePair& pair, Slice& slice);
+  void append_rows(std::int32_t own, std::int32_t first_shift, const ListParams& request,
+                   const ClusterPairs& clusters, Slice& slice) const;
+  std::int32_t restrict_row(std::int32_t c, const ListParams& request, const ClusterPairs& clusters,
+                            ClusterPairs::Entry* row, std::int32_t found, Slice& slice) const;
   template <class F>
   void for_each_excluded(const Exclusions& exclusions, std::int32_t c, const ClusterPairs& clusters,
                          const F& f) const;
@@ -138,7 +150,6 @@ class ClusterPairFinder {
   static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
                                              const ClusterPairs& clusters);
   std::int32_t shift_count(std::size_t shifts) const;
-  double extent(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].extent; }
   void join(ClusterPairs& out);
   void append_slices(ClusterPairs& out) const;
   void cut_into_tasks(ClusterPairs& out);
@@ -148,11 +159,11 @@ class ClusterPairFinder {
   Lattice images_{Box()};
   bool one_image_ = true;     ///< whether only the nearest image of a node can matter to another one
   bool drops_types_ = false;  ///< whether some pair of types has no cutoff
-  float limit2_ = 0;          ///< squared reach with its margin
+  double unit_ = 1;           ///< of coordinates [length]
+  ReachLimit limit_{};        ///< of sums of squares
   std::vector<Node> nodes_;
   Cuts cuts_, last_cuts_;              ///< of this search, and of the last one that came to its end
-  Boxes boxes_;                        ///< of all clusters, each relative to its node
-  std::vector<std::uint8_t> filled_;   ///< by cluster: bit of each slot that is no padding
+  Near clusters_;                      ///< all of them, each in the frame of its node
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
   std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
   std::vector<Slice> slices_;

@@ -39,9 +39,9 @@ void ClusterPairMaker::make(const HierarchyView& view, const ListParams& params,
     const double reach = radius + detail::distance_error(hierarchy);
     detail::with_metric(hierarchy.box, [&](const auto& metric) {
       using Scene = detail::ClusterPairFinder::Scene<std::decay_t<decltype(metric)>>;
-      impl_->finder.find(
-          Scene{metric, hierarchy.box, hierarchy.levels[1], hierarchy.points, hierarchy.raw, params, reach},
-          hierarchy.params.executor, out);
+      impl_->finder.find(Scene{metric, hierarchy.box, hierarchy.levels[1], hierarchy.points, hierarchy.leaves,
+                               hierarchy.raw, params, reach},
+                         hierarchy.params.executor, out);
     });
     out.refresh(hierarchy.raw, hierarchy.box);
   } catch (...) {

@@ -51,19 +51,12 @@ std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoff
 
 std::size_t ClusterPairFinder::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  const auto bytes_of_boxes = [&](const Boxes& boxes) {
-    std::size_t bytes = 0;
-    for (const auto& coordinates : boxes.side) bytes += bytes_of(coordinates);
-    return bytes;
-  };
-  std::size_t bytes =
-      bytes_of(nodes_) + bytes_of_boxes(boxes_) + bytes_of(filled_) + bytes_of(ghost_) + bytes_of(slot_of_);
+  std::size_t bytes = bytes_of(nodes_) + clusters_.memory_bytes() + bytes_of(ghost_) + bytes_of(slot_of_);
   for (const Cuts* cuts : {&cuts_, &last_cuts_})
     bytes += bytes_of(cuts->of_node) + bytes_of(cuts->id) + bytes_of(cuts->place);
   for (const Slice& slice : slices_)
     bytes += bytes_of(slice.rows) + bytes_of(slice.entries) + bytes_of(slice.shift) +
-             bytes_of_boxes(slice.boxes) + bytes_of(slice.near) + bytes_of(slice.source) +
-             bytes_of(slice.chosen) + bytes_of(slice.excluded);
+             slice.near.memory_bytes() + bytes_of(slice.section) + bytes_of(slice.excluded);
   return bytes;
 }
 

@@ -2,11 +2,10 @@
 #include "leaves/quantized_leaves.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "base/nearest_integer.hpp"
+#include "leaves/leaf_frame.hpp"
 #include "leaves/own_blocks.hpp"
 #include "leaves/rounding.hpp"
 
@@ -23,14 +22,6 @@ BlockSpan span_around(const MeasuredLeaves::Corners& corners, const float origin
     span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5f * (high - low)) + 2);
   }
   return span;
-}
-
-/// From the center of a leaf to the multiple of a unit that is nearest to its middle. Where positions have no
-/// digits as fine, it is the middle itself: a sum with the center would round it off.
-double origin_of(double center, double middle, double unit, double per_unit) {
-  constexpr double kMost = 0x1p45;
-  const double units = (center + middle) * per_unit;
-  return std::abs(units) < kMost ? nearest_integer(units) * unit - center : middle;
 }
 
 }  // namespace
@@ -55,11 +46,9 @@ void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLea
   for_ranges(executor, static_cast<std::int32_t>(origin.size()), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t k = first; k < last; ++k) {
       const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
+      origin[k] = frame_origin(centers[k], leaf.middle, units.point);
       float from[3];
-      for (int axis = 0; axis < 3; ++axis) {
-        origin[k][axis] = origin_of(centers[k][axis], leaf.middle[axis], units.point, per_unit.point);
-        from[axis] = static_cast<float>(origin[k][axis]);
-      }
+      for (int axis = 0; axis < 3; ++axis) from[axis] = static_cast<float>(origin[k][axis]);
       for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b)
         quantize_block(measured, labelled, from, b);
     }

@@ -4,41 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/nearest_integer.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
+#include "leaves/leaf_frame.hpp"
 #include "leaves/rounding.hpp"
 
 namespace dch::detail {
 namespace {
-
-/// How much a period is off from an integer number of units, at most [units].
-double period_error(const Box& box, double unit) {
-  double error = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double units = box.vector(axis)[axis] / unit;
-    if (box.periodic(axis)) error = std::max(error, std::abs(units - nearest_integer(units)));
-  }
-  return error;
-}
-
-/// A unit hardly coarser, of which the periods of a brick are nearly integer numbers, if one is found soon.
-double fitted_unit(const Box& box, double unit) {
-  constexpr int kTrials = 40;
-  constexpr double kLeast = 4096, kMost = 0x1p45;
-  int axis = 0;
-  while (axis < 3 && !box.periodic(axis)) ++axis;
-  if (axis == 3 || box.kind() == Box::Kind::triclinic) return unit;
-  const double period = box.vector(axis)[axis], units = std::floor(period / unit);
-  double best = unit, least = 1;
-  for (int k = 0; k < kTrials && units - k > kLeast && units < kMost; ++k) {
-    const double error = period_error(box, period / (units - k));
-    if (error >= least) continue;
-    least = error;
-    best = period / (units - k);
-  }
-  return best;
-}
 
 /// Boxes are rounded outward by more than their centers and shifts are off; three squares are rounded too.
 std::int16_t box_limit(double reach, const ListUnits& units) {
@@ -59,7 +31,6 @@ std::int16_t box_limit(double reach, const ListUnits& units) {
 /// Filters and tests let points pass that are farther than r by what they round, less than 500 units, and the
 /// middle of a leaf is rounded too.
 ListUnits units_for(const ListScene& scene, std::size_t s) {
-  constexpr double kHalfPeriod = 0x1p15, kRoom = 1000;
   const MeasuredLeaves& own = scene.sources[s]->measured();
   double farthest = 0, widest = 0;
   for (std::size_t a = 0; a <= s; ++a) {
@@ -69,24 +40,7 @@ ListUnits units_for(const ListScene& scene, std::size_t s) {
     widest = std::max({widest, 0.5 * own.largest_width + reach, own.largest_block_width + reach,
                        0.5 * other.largest_width});
   }
-  return {fitted_unit(scene.box, widest * (1 + 1e-9) / (kHalfPeriod - kRoom)), finest_unit(farthest)};
-}
-
-/// By how much shifts between the leaves of some sources are off at most, along an axis [units]: origins
-/// differ by integers, but for a period, and for rounding of numbers as large as centers and periods; far out
-/// origins are no multiples of the unit.
-double shift_error_of(const ListScene& scene, std::size_t s, double unit, bool one_image) {
-  constexpr double kRounded = 0.5, kRoundings = 16 * 0x1p-53, kFar = 0x1p44;
-  if (!one_image || (scene.box.any_periodic() && scene.box.kind() == Box::Kind::triclinic)) return kRounded;
-  double far = 0;
-  for (std::size_t a = 0; a <= s; ++a)
-    for (const Vec3 center : scene.sources[a]->centers().position)
-      far = std::max({far, std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-  double period = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    if (scene.box.periodic(axis)) period = std::max(period, scene.box.vector(axis)[axis]);
-  if (far + period > kFar * unit) return kRounded;
-  return std::min(kRounded, period_error(scene.box, unit) + kRoundings * (far + period) / unit);
+  return {frame_unit(scene.box, widest), finest_unit(farthest)};
 }
 
 }  // namespace
@@ -132,10 +86,11 @@ void LeafRows::find_with(const Metric& metric, const ListScene& scene,
     }
     double farthest = 0;
     for (const NearSource& near : rows.near) farthest = std::max(farthest, near.reach);
-    const double shift_error = shift_error_of(scene, s, units.point, one_image);
+    ShiftError shift_error(scene.box, units.point, one_image);
+    for (std::size_t a = 0; a <= s; ++a) shift_error.add(scene.sources[a]->centers().position);
     for (std::size_t r = 0; r < out.size(); ++r) {
       rows.requests.push_back(
-          {filters[r], ListLimits(*filters[r], units.point, farthest, scene.error, shift_error)});
+          {filters[r], ListLimits(*filters[r], units.point, farthest, scene.error, shift_error.largest())});
       if (filters[r]->params().superset)
         out[r]->margin = std::max(out[r]->margin, rows.requests.back().limits.margin);
     }

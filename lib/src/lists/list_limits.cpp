@@ -148,4 +148,10 @@ RowLimits ListLimits::for_rows(const PairLimits& pairs, bool take_open) const {
   return limits;
 }
 
+ReachLimit limit_of_reach(double reach, double point_unit, double shift_error) {
+  const Rounding rounding(point_unit, 0, shift_error);
+  const std::int16_t out = rounding.out(reach);
+  return {out, rounding.margin(reach, out - 1)};
+}
+
 }  // namespace dch::detail

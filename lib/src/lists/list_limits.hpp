@@ -50,4 +50,13 @@ struct ListLimits {
   double margin = 0;  ///< how far beyond its cutoff a pair left open may be [length]
 };
 
+/// For pairs that are taken up to their reach, and a little beyond.
+struct ReachLimit {
+  std::int16_t out;  ///< above the sum of squares of all pairs within the reach
+  double margin;     ///< how far beyond the reach a pair with a smaller sum may be [length]
+};
+/// @param point_unit of the coordinates [length]
+/// @param shift_error as of ListLimits
+ReachLimit limit_of_reach(double reach, double point_unit, double shift_error);
+
 }  // namespace dch::detail

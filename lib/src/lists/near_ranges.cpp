@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "base/nearest_integer.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
 #include "geometry/tolerance.hpp"
+#include "leaves/leaf_frame.hpp"
 #include "leaves/rounding.hpp"
 #include "lists/leaf_search.hpp"
 
@@ -14,7 +14,6 @@ namespace dch::detail {
 /// @param between the centers of leaf k and of the other one
 template <class Metric>
 void NearRanges<Metric>::add(const LeafSource& leaves, std::int32_t other, Vec3 between) {
-  constexpr double kMost = 0xFFFE;  // twice the largest number of 16 bits: all saturate from there on
   const Leaf& other_leaf = leaves.measured().leaves[other];
   const Vec3 origins = between + (leaves.quantized.origin[other] - rows_.quantized.origin[k_]);
   BlockRange range{};
@@ -22,10 +21,7 @@ void NearRanges<Metric>::add(const LeafSource& leaves, std::int32_t other, Vec3 
   range.count = other_leaf.blocks;
   for (int axis = 0; axis < 3; ++axis) {
     range.box_shift[axis] = rounded(between[axis] * leaves.quantized.per_unit.box);
-    const double units = std::clamp(origins[axis] * leaves.quantized.per_unit.point, -kMost, kMost);
-    const auto shift = static_cast<std::int32_t>(nearest_integer(units));
-    range.point_shift[axis][0] = static_cast<std::int16_t>(shift / 2);
-    range.point_shift[axis][1] = static_cast<std::int16_t>(shift - shift / 2);
+    split_shift(origins[axis] * leaves.quantized.per_unit.point, range.point_shift[axis]);
   }
   ranges_.push_back(range);
 }

@@ -42,7 +42,9 @@ class HandMadeNodes {
   const ClusterPairs& find(double reach, Executor* executor = nullptr) {
     with_metric(box_, [&](const auto& metric) {
       using Scene = ClusterPairFinder::Scene<std::decay_t<decltype(metric)>>;
-      finder.find(Scene{metric, box_, nodes, points, positions, request, reach}, executor, pairs);
+      leaves.forget_layout();
+      leaves.measure(metric, nodes, points, 1, nullptr);
+      finder.find(Scene{metric, box_, nodes, points, leaves, positions, request, reach}, executor, pairs);
     });
     return pairs;
   }
@@ -53,6 +55,7 @@ class HandMadeNodes {
 
   Level nodes;
   LeafBlocks points;
+  MeasuredLeaves leaves;
   std::vector<Vec3> positions;
   ListParams request;
   ClusterPairFinder finder;

@@ -32,12 +32,5 @@ Coordinates<S> spread(const ClusterOfFour<typename S::Real>& cluster) {
   return all;
 }
 
-/// Writes first + lane for each bit that is set. Returns how many.
-[[maybe_unused]] inline std::int32_t append_lanes(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
-  std::int32_t written = 0;
-  for (; lanes != 0; lanes &= lanes - 1) to[written++] = first + __builtin_ctz(lanes);
-  return written;
-}
-
 }  // namespace
 }  // namespace dch::detail

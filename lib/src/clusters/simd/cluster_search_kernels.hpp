@@ -8,13 +8,54 @@
 
 namespace dch::detail {
 
-/// Boxes side by side: lower corners x, y, z, then upper ones.
-struct BoxArrays {
-  const float* side[6];
+// Coordinates are 16-bit integers relative to the origin of a leaf, as those of ListKernels, but sums and
+// differences saturate. Squares are rounded as there; a difference of -32768 counts as 32768, and sums of
+// squares as large as that exceed all limits.
+
+/// A cluster beside those of a row: where its slots are, and what its entry will be. The entry's mask has the
+/// pairs of its slots that are no padding with any slots.
+struct alignas(32) NearCluster {
+  std::int16_t x[4], y[4], z[4];
+  ClusterPairs::Entry entry;
 };
 
-/// Arrays of boxes are read up to this many entries beyond.
-inline constexpr int kBoxesAtOnce = 16;
+/// A box: lower corner, then the upper one.
+struct ClusterBox {
+  std::int16_t side[6];
+};
+
+/// Clusters side by side, and their boxes, one array for each coordinate of the corners. Arrays of boxes are
+/// read, and written, up to kBoxesAtOnce entries beyond.
+struct NearClusters {
+  const NearCluster* cluster;
+  const std::int16_t* side[6];
+};
+struct NearClustersTo {
+  NearCluster* cluster;
+  std::int16_t* side[6];
+};
+inline constexpr int kBoxesAtOnce = 32;
+
+/// What takes clusters to another frame: to be added, saturating, one part after the other, to the 16 numbers
+/// of NearCluster. The last one is the number of the shift and stands in the first part alone; the three
+/// before it are 0.
+struct alignas(32) ClusterMove {
+  std::int16_t part[2][16];
+};
+
+/// The cluster of a row, relative to the origin that those beside it are relative to.
+struct RowCluster {
+  const NearCluster& cluster;
+  ClusterBox box;
+};
+
+struct FoundRow {
+  std::int32_t entries = 0;
+  std::int32_t compared = 0;  ///< clusters with a box near that of the row's
+};
+
+/// Entries of a row are overwritten up to this many beyond.
+inline constexpr int kEntriesAtOnce = 8;
 
 /// New positions for clusters.
 struct RefreshTask {
@@ -29,22 +70,23 @@ struct RefreshTask {
   ClusterOfFour<float>* at_float;  ///< by cluster; written
 };
 
-/// The loops of the search of cluster pairs, compiled for one instruction set. No function allocates.
+/// The loops of the search of cluster pairs, compiled for one instruction set. No function allocates. All
+/// sets do the same.
 struct ClusterSearchKernels {
-  /// Finds those of `count` boxes with a squared distance to a box of at most limit2. Writes their numbers,
-  /// ascending, and returns how many; room for `count` rounded up to kBoxesAtOnce is needed. All sets find
-  /// the same.
-  std::int32_t (*near_boxes)(const BoxArrays& boxes, std::int32_t count, const float* box, float limit2,
-                             std::int32_t* chosen);
+  /// Copies, in order, those of `count` clusters with a box near another one, as in the frame that `move`
+  /// leads to: sum of square(gap) < limit, with the gap along each axis, the box being in the frame that they
+  /// come from. Returns how many.
+  std::int32_t (*keep_near)(const NearClusters& from, std::int32_t count, const ClusterBox& box,
+                            std::int16_t limit, const ClusterMove& move, const NearClustersTo& to);
 
-  /// Keeps those of `count` chosen clusters with a slot whose squared distance to a slot of `own` is at most
-  /// limit2. Returns how many. All sets keep the same.
-  std::int32_t (*near_clusters)(const ClusterOfFour<float>* clusters, const ClusterOfFour<float>& own,
-                                float limit2, std::int32_t* chosen, std::int32_t count);
+  /// Writes the entries of a row: those of `count` clusters with a slot near one of the row's cluster, that
+  /// is with a sum of square(difference) < limit.
+  FoundRow (*find_row)(const RowCluster& row, const NearClusters& from, std::int32_t count,
+                       std::int16_t limit, ClusterPairs::Entry* to);
 
   /// Takes positions, but for the clusters of which one particle seems to have moved farther, or nowhere
   /// finite: those it leaves as they were, and writes their numbers, ascending; there has to be room for all.
-  /// Returns how many. All sets do the same.
+  /// Returns how many.
   std::int32_t (*refresh)(const RefreshTask& task, std::int32_t* far);
 };
 

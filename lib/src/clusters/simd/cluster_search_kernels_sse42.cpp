@@ -2,14 +2,76 @@
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
-#include "clusters/simd/vectors_sse42.hpp"
+#include "simd/lanes_sse42.hpp"
 
 namespace dch::detail {
+namespace {
+
+/// By a mask of 2 lanes of 64 bits: the bytes that move the chosen lanes to the front.
+struct PackTable64 {
+  alignas(16) unsigned char bytes[4][16]{};
+  constexpr PackTable64() {
+    for (int mask = 0; mask < 4; ++mask)
+      for (int byte = 0; byte < 16; ++byte)
+        bytes[mask][byte] = static_cast<unsigned char>(mask == 2 ? (byte + 8) % 16 : byte);
+  }
+};
+constexpr PackTable64 kPack64;
+
+/// Two clusters in a register.
+struct Sse42Fours : Sse42 {
+  static V subs(V a, V b) { return _mm_subs_epi16(a, b); }
+  static V max(V a, V b) { return _mm_max_epi16(a, b); }
+  static V add_unsigned(V a, V b) { return _mm_adds_epu16(a, b); }
+  static V from_number(std::int32_t k) {
+    return _mm_add_epi16(set1(static_cast<std::int16_t>(k)), _mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7));
+  }
+
+  static constexpr int kFours = 2;
+  using Four = Sse42Fours;
+  struct Fours {
+    V x, y, z, entry;
+  };
+  static const __m128i* halves(const NearCluster& cluster) {
+    return reinterpret_cast<const __m128i*>(&cluster);
+  }
+  static Fours fours(const NearCluster* from, const std::int16_t* number) {
+    const __m128i* const first = halves(from[number[0]]);
+    const __m128i* const second = halves(from[number[1]]);
+    const V xy = _mm_load_si128(first), ze = _mm_load_si128(first + 1);
+    const V other_xy = _mm_load_si128(second), other_ze = _mm_load_si128(second + 1);
+    return {_mm_unpacklo_epi64(xy, other_xy), _mm_unpackhi_epi64(xy, other_xy),
+            _mm_unpacklo_epi64(ze, other_ze), _mm_unpackhi_epi64(ze, other_ze)};
+  }
+  static std::uint32_t fours_below(V a, V b) {
+    const V none = _mm_cmpeq_epi64(_mm_subs_epu16(b, a), _mm_setzero_si128());
+    return static_cast<std::uint32_t>(_mm_movemask_pd(_mm_castsi128_pd(none))) ^ 3u;
+  }
+  static V pairs(std::uint16_t mask) {
+    return _mm_set1_epi64x(static_cast<long long>(0xFFFF0000FFFFFFFFULL | std::uint64_t{mask} << 32));
+  }
+  static V keep_pairs(V entries, V pairs) { return _mm_and_si128(entries, pairs); }
+  static std::int32_t append(std::uint32_t lanes, V entries, ClusterPairs::Entry* to) {
+    const V order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack64.bytes[lanes]));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(entries, order));
+    return __builtin_popcount(lanes);
+  }
+  static void copy_moved(const NearCluster& from, const ClusterMove& move, NearCluster& to) {
+    for (int half = 0; half < 2; ++half) {
+      const auto part = [&](int k) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(move.part[k]) + half);
+      };
+      const V moved = adds(adds(_mm_load_si128(halves(from) + half), part(0)), part(1));
+      _mm_store_si128(reinterpret_cast<__m128i*>(&to) + half, moved);
+    }
+  }
+};
+
+}  // namespace
 
 const ClusterSearchKernels& cluster_search_kernels_sse42() {
-  using Vectors = SseFloat;
-  static constexpr ClusterSearchKernels kKernels{near_boxes<Vectors>, near_clusters<Vectors>,
-                                                 refresh_clusters<Vectors>};
+  static constexpr ClusterSearchKernels kKernels{keep_near<Sse42Fours>, find_row<Sse42Fours>,
+                                                 refresh_clusters<Sse42Fours>};
   return kKernels;
 }
 

@@ -1,58 +1,131 @@
 // SPDX-License-Identifier: MIT
 //
-// The loops that find boxes and clusters near each other; see cluster_loops.hpp. Without fused operations, so
-// that all sets round alike.
+// The loops that find boxes and clusters near each other, over a type `S` of 16-bit lanes (see
+// list_kernels_loops.hpp for the rules) with what is said of fours: the slots of S::kFours clusters in one
+// S::Four::V for each coordinate.
 #pragma once
 
-#include "clusters/simd/cluster_loops.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
 
 namespace dch::detail {
 namespace {
 
-template <class S>
-std::int32_t near_boxes(const BoxArrays& boxes, std::int32_t count, const float* box, float limit2,
-                        std::int32_t* chosen) {
-  using V = typename S::V;
-  V low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = S::set1(box[axis]);
-    high[axis] = S::set1(box[axis + 3]);
-  }
-  const V limit = S::set1(limit2);
-  std::int32_t found = 0;
-  for (std::int32_t k = 0; k < count; k += S::kLanes) {
-    V distance2 = S::zero();
-    for (int axis = 0; axis < 3; ++axis) {
-      const V gap = S::max(S::max(S::sub(S::load(boxes.side[axis] + k), high[axis]),
-                                  S::sub(low[axis], S::load(boxes.side[axis + 3] + k))),
-                           S::zero());
-      distance2 = S::add(distance2, S::mul(gap, gap));
-    }
-    std::uint32_t lanes = S::bits_at_most(distance2, limit);
-    if (count - k < S::kLanes) lanes &= (1u << (count - k)) - 1;
-    found += S::append(lanes, k, chosen + found);
-  }
-  return found;
+/// Boxes whose numbers are found before anything is done with them.
+inline constexpr std::int32_t kBoxesInTurn = 512;
+
+/// The pairs of a row's cluster, which are in any entry of it, from the mask of the cluster's own entry.
+inline std::uint16_t pairs_of_row(std::uint32_t mask) {
+  const std::uint32_t first = (mask & 1) | (mask & 2) << 3 | (mask & 4) << 6 | (mask & 8) << 9;
+  return static_cast<std::uint16_t>(15 * first);
 }
 
 template <class S>
-std::int32_t near_clusters(const ClusterOfFour<float>* clusters, const ClusterOfFour<float>& own,
-                           float limit2, std::int32_t* chosen, std::int32_t count) {
-  const Coordinates<S> i = spread<S>(own);
-  const auto limit = S::set1(limit2);
-  std::int32_t kept = 0;
-  for (std::int32_t n = 0; n < count; ++n) {
-    const auto j = S::load_cluster(clusters[chosen[n]]);
-    std::uint32_t near = 0;
-    for (int p = 0; p < S::kRegisters; ++p) {
-      const auto dx = S::sub(j.x, i.x[p]), dy = S::sub(j.y, i.y[p]), dz = S::sub(j.z, i.z[p]);
-      near |= S::bits_at_most(S::add(S::add(S::mul(dx, dx), S::mul(dy, dy)), S::mul(dz, dz)), limit);
+struct BoxTest {
+  using V = typename S::V;
+  BoxTest(const NearClusters& clusters, const ClusterBox& box, std::int16_t most)
+      : from(clusters), limit(S::set1(most)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = S::set1(box.side[axis]);
+      high[axis] = S::set1(box.side[axis + 3]);
     }
-    chosen[kept] = chosen[n];
-    kept += near != 0;
+  }
+  V gap2(std::int32_t k, int axis) const {
+    const V above = S::subs(S::load(from.side[axis] + k), high[axis]);
+    const V below = S::subs(low[axis], S::load(from.side[axis + 3] + k));
+    return S::square(S::max(S::max(above, below), S::set1(0)));
+  }
+  /// Lanes of the boxes near this one, from box k on, up to the last one's next.
+  std::uint32_t operator()(std::int32_t k, std::int32_t last) const {
+    const V t = S::adds(S::adds(gap2(k, 0), gap2(k, 1)), gap2(k, 2));
+    const std::uint32_t lanes = S::bits_greater(limit, t) & S::kAll;
+    return last - k < S::kLanes ? lanes & ((1u << (last - k)) - 1) : lanes;
+  }
+  NearClusters from;
+  V limit, low[3], high[3];
+};
+
+template <class S>
+std::int32_t keep_near(const NearClusters& from, std::int32_t count, const ClusterBox& box,
+                       std::int16_t limit, const ClusterMove& move, const NearClustersTo& to) {
+  using V = typename S::V;
+  const BoxTest<S> is_near(from, box, limit);
+  V by[3][2];
+  for (int axis = 0; axis < 3; ++axis)
+    for (int part = 0; part < 2; ++part) by[axis][part] = S::set1(move.part[part][4 * axis]);
+  std::int32_t kept = 0;
+  std::int16_t number[kBoxesInTurn + kBoxesAtOnce];
+  for (std::int32_t first = 0; first < count; first += kBoxesInTurn) {
+    const std::int32_t last = count - first < kBoxesInTurn ? count : first + kBoxesInTurn;
+    std::int32_t found = 0;
+    for (std::int32_t k = first; k < last; k += S::kLanes) {
+      const std::uint32_t lanes = is_near(k, last);
+      for (int side = 0; side < 6; ++side) {
+        const V moved = S::adds(S::adds(S::load(from.side[side] + k), by[side % 3][0]), by[side % 3][1]);
+        S::move_to_front(lanes, moved, to.side[side] + kept + found);
+      }
+      S::move_to_front(lanes, S::from_number(k - first), number + found);
+      found += __builtin_popcount(lanes);
+    }
+    for (std::int32_t n = 0; n < found; ++n)
+      S::copy_moved(from.cluster[first + number[n]], move, to.cluster[kept + n]);
+    kept += found;
   }
   return kept;
+}
+
+/// The slots of the row's cluster, each beside all lanes.
+template <class S>
+struct SlotsOfRow {
+  using Four = typename S::Four;
+  explicit SlotsOfRow(const NearCluster& cluster) {
+    for (int slot = 0; slot < 4; ++slot) {
+      x[slot] = Four::set1(cluster.x[slot]);
+      y[slot] = Four::set1(cluster.y[slot]);
+      z[slot] = Four::set1(cluster.z[slot]);
+    }
+  }
+  /// Of each slot of other clusters the least sum of squares with any slot of this one.
+  typename Four::V least_sum(const typename S::Fours& j) const {
+    typename Four::V least{};
+    for (int slot = 0; slot < 4; ++slot) {
+      const auto t = Four::add_unsigned(
+          Four::add_unsigned(Four::square(Four::subs(j.x, x[slot])), Four::square(Four::subs(j.y, y[slot]))),
+          Four::square(Four::subs(j.z, z[slot])));
+      least = slot == 0 ? t : Four::least(least, t);
+    }
+    return least;
+  }
+  typename Four::V x[4], y[4], z[4];
+};
+
+template <class S>
+FoundRow find_row(const RowCluster& row, const NearClusters& from, std::int32_t count, std::int16_t limit,
+                  ClusterPairs::Entry* to) {
+  const BoxTest<S> is_near(from, row.box, limit);
+  const SlotsOfRow<S> slots(row.cluster);
+  const auto most = S::Four::set1(limit);
+  const auto pairs = S::pairs(pairs_of_row(row.cluster.entry.mask));
+  FoundRow all;
+  std::int16_t number[kBoxesInTurn + kBoxesAtOnce];
+  for (std::int32_t first = 0; first < count; first += kBoxesInTurn) {
+    const std::int32_t last = count - first < kBoxesInTurn ? count : first + kBoxesInTurn;
+    std::int32_t found = 0;
+    for (std::int32_t k = first; k < last; k += S::kLanes) {
+      const std::uint32_t lanes = is_near(k, last);
+      S::move_to_front(lanes, S::from_number(k - first), number + found);
+      found += __builtin_popcount(lanes);
+    }
+    for (int more = 0; more < S::kFours; ++more) number[found + more] = 0;
+    for (std::int32_t n = 0; n < found; n += S::kFours) {
+      const auto j = S::fours(from.cluster + first, number + n);
+      std::uint32_t near = S::fours_below(slots.least_sum(j), most);
+      const std::int32_t left = found - n < S::kFours ? found - n : S::kFours;  // no branch: hard to foretell
+      near &= (1u << left) - 1;
+      all.entries += S::append(near, S::keep_pairs(j.entry, pairs), to + all.entries);
+    }
+    all.compared += found;
+  }
+  return all;
 }
 
 }  // namespace

@@ -38,9 +38,6 @@ struct Avx2Float {
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
   }
-  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
-    return append_lanes(lanes, first, to);
-  }
   static V less(V a, V b, std::uint32_t mask, int which) {
     const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask >> (8 * which))), lane);
@@ -53,9 +50,6 @@ struct Avx2Float {
   }
   static V twice(__m128 four) { return _mm256_set_m128(four, four); }
   static V repeat(const float* four) { return twice(_mm_load_ps(four)); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at) {
-    return {twice(_mm_load_ps(at.x)), twice(_mm_load_ps(at.y)), twice(_mm_load_ps(at.z))};
-  }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
                               const ClusterOfFour<float>& own) {
     const __m128 between =

@@ -45,14 +45,6 @@ struct Avx512Float {
     return _mm512_castsi512_ps(_mm512_slli_epi32(_mm512_castps_si512(add(n, set1(0x1.8p23f + 127))), 23));
   }
   static std::uint32_t bits_at_most(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
-  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
-    const __m512i numbers = _mm512_add_epi32(
-        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), _mm512_set1_epi32(first));
-    // Compressed in a register, then stored whole: a compressing store is many times slower on some
-    // processors.
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), numbers));
-    return __builtin_popcount(lanes);
-  }
   static __mmask16 less(V a, V b, std::uint32_t mask, int) {
     return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
   }
@@ -66,10 +58,6 @@ struct Avx512Float {
     return {_mm512_shuffle_f32x4(cluster, cluster, 0x00), _mm512_shuffle_f32x4(cluster, cluster, 0x55),
             _mm512_shuffle_f32x4(cluster, cluster, 0xAA)};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at) {
-    return {_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
-            _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
-  }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
                               const ClusterOfFour<float>& own) {
     const __m128 between =
@@ -79,7 +67,8 @@ struct Avx512Float {
     alignas(16) float by[4];
     _mm_store_ps(by, _mm_add_ps(between, _mm_load_ps(shift.low)));
     asm("" : "+m"(by));
-    const Cluster j = load_cluster(at);
+    const Cluster j{_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
+                    _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
     return {add(j.x, set1(by[0])), add(j.y, set1(by[1])), add(j.z, set1(by[2]))};
   }
   static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,

@@ -57,9 +57,6 @@ struct Portable {
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;
     return bits;
   }
-  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
-    return append_lanes(lanes, first, to);
-  }
   static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int which) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] < b.lane[k]) << k;
@@ -70,7 +67,6 @@ struct Portable {
   }
   static V spread(const Real* four, int which) { return set1(four[which]); }
   static V repeat(const Real* four) { return load(four); }
-  static Cluster load_cluster(const ClusterOfFour<Real>& at) { return {load(at.x), load(at.y), load(at.z)}; }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
                               const ClusterOfFour<float>& own) {
     float by[3];

@@ -38,9 +38,6 @@ struct SseFloat {
   static std::uint32_t bits_at_most(V a, V b) {
     return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
   }
-  static std::int32_t append(std::uint32_t lanes, std::int32_t first, std::int32_t* to) {
-    return append_lanes(lanes, first, to);
-  }
   static V less(V a, V b, std::uint32_t mask, int which) {
     const __m128i lane = _mm_setr_epi32(1, 2, 4, 8);
     const __m128i bits = _mm_and_si128(_mm_set1_epi32(static_cast<int>(mask >> (4 * which))), lane);
@@ -49,9 +46,6 @@ struct SseFloat {
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
   static V spread(const float* four, int which) { return _mm_set1_ps(four[which]); }
   static V repeat(const float* four) { return _mm_load_ps(four); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at) {
-    return {_mm_load_ps(at.x), _mm_load_ps(at.y), _mm_load_ps(at.z)};
-  }
   static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
                               const ClusterOfFour<float>& own) {
     const V between = sub(add(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
