@@ -7,6 +7,7 @@
 #include <dch/forces/fene.hpp>
 
 #include "simd/all_pairs_task.hpp"
+#include "simd/angle_task.hpp"
 #include "simd/born_task.hpp"
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
@@ -45,6 +46,7 @@ struct ForceKernels {
   AllPairsKernels all_pairs;
   NoiseKernels noise;
   BondKernels bonds;
+  AngleKernels angles;
   WaveKernels waves;
 };
 

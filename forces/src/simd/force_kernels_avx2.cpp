@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_avx2.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
@@ -17,7 +18,8 @@ const ForceKernels& force_kernels_avx2() {
                                          lj_pair_functions_of<Avx2Double>, mesh_kernels,
                                          born_kernels<Avx2Float>,          motion_kernels,
                                          all_pairs_kernels<Avx2Float>,     noise_kernels,
-                                         bond_kernels<Avx2Double>,         wave_kernels<Avx2Double>};
+                                         bond_kernels<Avx2Double>,         angle_kernels<Avx2Double>,
+                                         wave_kernels<Avx2Double>};
   return kKernels;
 }
 

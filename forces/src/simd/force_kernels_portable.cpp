@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_portable.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
@@ -18,7 +19,8 @@ const ForceKernels& force_kernels_portable() {
       lj_pair_functions_of<Portable<double>>, mesh_kernels,
       born_kernels<Portable<float>>,          motion_kernels,
       all_pairs_kernels<Portable<float>>,     noise_kernels,
-      bond_kernels<Portable<double>>,         wave_kernels<Portable<double>>};
+      bond_kernels<Portable<double>>,         angle_kernels<Portable<double>>,
+      wave_kernels<Portable<double>>};
   return kKernels;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/vectors_sse42.hpp"
 #include "simd/all_pairs_loops.hpp"
+#include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
@@ -17,7 +18,8 @@ const ForceKernels& force_kernels_sse42() {
                                          lj_pair_functions_of<SseDouble>, mesh_kernels,
                                          born_kernels<SseFloat>,          motion_kernels,
                                          all_pairs_kernels<SseFloat>,     noise_kernels,
-                                         bond_kernels<SseDouble>,         wave_kernels<SseDouble>};
+                                         bond_kernels<SseDouble>,         angle_kernels<SseDouble>,
+                                         wave_kernels<SseDouble>};
   return kKernels;
 }
 

@@ -70,6 +70,7 @@ void lammpsplugin_init(void* lammps, void* handle, void* register_function) {
   };
   enter_all("pair", LAMMPS_NS::pair_styles_dch());
   enter_all("bond", LAMMPS_NS::bond_styles_dch());
+  enter_all("angle", LAMMPS_NS::angle_styles_dch());
   enter_all("compute", LAMMPS_NS::compute_styles_dch());
   enter_all("fix", LAMMPS_NS::fix_styles_dch());
 }

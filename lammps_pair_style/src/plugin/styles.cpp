@@ -4,6 +4,8 @@
 #include <force.h>
 #include <modify.h>
 
+#include "angle_cosine_dch.h"
+#include "angle_harmonic_dch.h"
 #include "bond_fene_dch.h"
 #include "bond_harmonic_dch.h"
 #include "compute_necklace_contact.h"
@@ -45,6 +47,17 @@ std::vector<StyleEntry<Bond>> bond_styles_dch() {
   return styles;
 }
 
+std::vector<StyleEntry<Angle>> angle_styles_dch() {
+  std::vector<StyleEntry<Angle>> styles;
+#define ANGLE_CLASS
+#define AngleStyle(key, Made) styles.push_back({#key, &create<Angle, Made>})
+#include "angle_cosine_dch.h"
+#include "angle_harmonic_dch.h"
+#undef AngleStyle
+#undef ANGLE_CLASS
+  return styles;
+}
+
 std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
   std::vector<StyleEntry<Compute, int, char**>> styles;
 #define COMPUTE_CLASS
@@ -70,6 +83,7 @@ std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch() {
 void register_styles_dch(LAMMPS& lmp) {
   for (const auto& style : pair_styles_dch()) lmp.force->pair_map->emplace(style.name, style.create);
   for (const auto& style : bond_styles_dch()) lmp.force->bond_map->emplace(style.name, style.create);
+  for (const auto& style : angle_styles_dch()) lmp.force->angle_map->emplace(style.name, style.create);
   for (const auto& style : compute_styles_dch()) lmp.modify->compute_map->emplace(style.name, style.create);
   for (const auto& style : fix_styles_dch()) lmp.modify->fix_map->emplace(style.name, style.create);
 }

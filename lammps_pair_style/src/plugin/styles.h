@@ -6,6 +6,7 @@
 
 namespace LAMMPS_NS {
 
+class Angle;
 class Bond;
 class Compute;
 class Fix;
@@ -18,9 +19,11 @@ struct StyleEntry {
   Base* (*create)(LAMMPS* lammps, Arguments... arguments);
 };
 
-/// All that the headers of styles enter by LAMMPS's macros PairStyle, BondStyle, ComputeStyle and FixStyle.
+/// All that the headers of styles enter by LAMMPS's macros PairStyle, BondStyle, AngleStyle, ComputeStyle
+/// and FixStyle.
 std::vector<StyleEntry<Pair>> pair_styles_dch();
 std::vector<StyleEntry<Bond>> bond_styles_dch();
+std::vector<StyleEntry<Angle>> angle_styles_dch();
 std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch();
 std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch();
 

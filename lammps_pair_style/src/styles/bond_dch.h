@@ -4,13 +4,13 @@
 #include <array>
 #include <bond.h>
 #include <lammps_host.h>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 #include <dch/forces/fene.hpp>
+
+#include "plain_style.h"
 
 namespace LAMMPS_NS {
 
@@ -47,15 +47,12 @@ class BondDCH : public Bond {
   virtual void add_forces(dch::Span<const dch::BondOfType> bonds, dch::Span<const dch::Vec3> positions,
                           dch::Span<dch::Vec3> forces, bool wants_virial, std::array<double, 6>& sums) = 0;
 
-  std::unique_ptr<Bond> plain_;
+  PlainStyle<Bond> plain_;
 
  private:
   void take_coefficients();
-  std::vector<double> coefficients();
   void compute_plain(int eflag, int vflag);
 
-  std::string name_;
-  std::size_t count_;
   bool has_kernel_ = false;  ///< of the coefficients as they are
 };
 

@@ -5,7 +5,7 @@ import argparse
 import sys
 import unittest
 
-from lammps_run import Host
+from lammps_run import Host, largest_relative_difference, thermo_tables
 
 MELT = """
 units lj
@@ -33,6 +33,19 @@ def run(text, **options):
     if code != 0:
         raise AssertionError(f"exit code {code}\n{output}")
     return output
+
+
+class ComparedWithStock(unittest.TestCase):
+    """Scripts whose thermo output is the same with the suffix and without."""
+
+    def compare(self, script, **options):
+        plain = thermo_tables(run("include ${load}\n" + script, **options))
+        ours = thermo_tables(run("include ${load}\nsuffix dch\n" + script, **options))
+        self.assertEqual(len(plain), len(ours))
+        for first, second in zip(plain, ours):
+            for columns in zip(first, second):
+                self.assertLess(largest_relative_difference(*columns), 1e-9)
+        return plain
 
 
 def main(description):
