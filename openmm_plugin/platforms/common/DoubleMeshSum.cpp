@@ -7,23 +7,49 @@
 namespace OpenMMDCH {
 namespace {
 
+using PlatformData = OpenMM::ReferencePlatform::PlatformData;
 constexpr int kOrder = 5;  // of the splines, as in OpenMM
+
+// A class from OpenMM 8.5 on, the first to have LCPOForce; functions before.
+#if __has_include(<openmm/LCPOForce.h>)
+
+std::shared_ptr<void> makeFunction(double alpha, int particles, const int* grid) {
+  return std::make_shared<OpenMM::ReferencePME>(alpha, particles, grid, kOrder, 1.0);
+}
+
+void execute(void* function, bool isOfDispersion, PlatformData& data, const std::vector<double>& charges,
+             double& energy) {
+  const auto run = isOfDispersion ? &OpenMM::ReferencePME::exec_dpme : &OpenMM::ReferencePME::exec;
+  (static_cast<OpenMM::ReferencePME*>(function)->*run)(*data.positions, *data.forces, charges,
+                                                       data.periodicBoxVectors, energy);
+}
+
+#else
+
+std::shared_ptr<void> makeFunction(double alpha, int particles, const int* grid) {
+  OpenMM::pme_t made = nullptr;
+  OpenMM::pme_init(&made, alpha, particles, grid, kOrder, 1);
+  return {static_cast<void*>(made),
+          [](void* kept) { OpenMM::pme_destroy(static_cast<OpenMM::pme_t>(kept)); }};
+}
+
+void execute(void* function, bool isOfDispersion, PlatformData& data, const std::vector<double>& charges,
+             double& energy) {
+  const auto run = isOfDispersion ? &OpenMM::pme_exec_dpme : &OpenMM::pme_exec;
+  run(static_cast<OpenMM::pme_t>(function), *data.positions, *data.forces, charges, data.periodicBoxVectors,
+      &energy);
+}
+
+#endif
 
 }  // namespace
 
-void DoubleMeshSum::start(int particles) {
-  OpenMM::pme_t made = nullptr;
-  OpenMM::pme_init(&made, alpha, particles, grid, kOrder, 1);
-  function.reset(static_cast<void*>(made),
-                 [](void* kept) { OpenMM::pme_destroy(static_cast<OpenMM::pme_t>(kept)); });
-}
+void DoubleMeshSum::start(int particles) { function = makeFunction(alpha, particles, grid); }
 
 double DoubleMeshSum::addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
-  auto& data = *static_cast<OpenMM::ReferencePlatform::PlatformData*>(context.getPlatformData());
   double energy = 0;
-  const auto run = isOfDispersion() ? &OpenMM::pme_exec_dpme : &OpenMM::pme_exec;
-  run(static_cast<OpenMM::pme_t>(function.get()), *data.positions, *data.forces, charges,
-      data.periodicBoxVectors, &energy);
+  execute(function.get(), isOfDispersion(), *static_cast<PlatformData*>(context.getPlatformData()), charges,
+          energy);
   return energy;
 }
 
