@@ -221,6 +221,38 @@ TEST(KeptClosestPairs, ManyThatChangeLookAtFewOthers) {
   EXPECT_LE(kept.work().nearest.points - before.points, 10000 * 20);
 }
 
+/// A grid of the box and of places before would look in its old cells.
+TEST(KeptClosestPairs, LookAtNoCellsOfAnotherBox) {
+  constexpr std::size_t kPoints = 4000;
+  Uniform scene(kPoints);
+  KeptClosestPair kept;
+  const auto exchange = [&](const Vec3& to) {
+    const auto id = static_cast<std::int32_t>(scene.random.below(kPoints));
+    scene.hierarchy->remove(id);
+    EXPECT_EQ(scene.hierarchy->insert(to), id);
+    return id;
+  };
+  const auto check = [&](Span<const std::int32_t> changed) {
+    const ClosestPoints found = kept.find(scene.hierarchy->kept_view(), changed);
+    EXPECT_EQ(of(found), of(closest_pair(PointTree(scene.hierarchy->view()))));
+  };
+  const auto steps = [&](int count, auto place) {
+    for (int step = 0; step < count; ++step) {
+      std::vector<std::int32_t> changed;
+      for (int k = 0; k < 100; ++k) changed.push_back(exchange(place(k)));
+      check(changed);
+    }
+  };
+  steps(20, [&](int) { return scene.somewhere(); });
+  scene.side *= 0.9;
+  for (Vec3& position : scene.positions) position = scene.somewhere();
+  scene.hierarchy->update(scene.positions, Box::orthorhombic({scene.side, scene.side, scene.side}));
+  check({});
+  steps(5, [&](int k) {  // beside a point that has stayed, ever nearer
+    return scene.hierarchy->view().position((k * 37 + 11) % 4000) + scene.random.in_cube(1e-3 / (1 + k));
+  });
+}
+
 /// Half of the points in clusters, whose cells have too many where cells suit the density of the others: the
 /// next grid has cells that suit the distance asked for. All points that come and go are of clusters.
 TEST(KeptClosestPairs, OfPointsInClustersLookAtFewOthers) {
