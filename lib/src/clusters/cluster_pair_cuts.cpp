@@ -7,6 +7,7 @@
 #include "clusters/cluster_pair_finder.hpp"
 #include "geometry/binary_grid.hpp"
 #include "geometry/metric.hpp"
+#include "leaves/block_offsets.hpp"
 #include "leaves/leaf_frame.hpp"
 #include "leaves/rounding.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 /// Searches that the order of a node's points is good for. In a Lennard-Jones melt with a search every ten
 /// steps it takes a quarter of a search, and kept for eight adds 1 in 100 to the pairs of slots.
 constexpr std::int32_t kSearchesPerOrder = 8;
+
+constexpr std::int32_t kBlocksAhead = 8;  ///< whose positions are asked for before their turn
 
 constexpr std::uint32_t kWithAnySlot = 0x1111;  ///< bits 4 a of the pairs of a slot with the slots a
 
@@ -87,10 +90,17 @@ void ClusterPairFinder::cut_node(const Scene<Metric>& scene, std::int32_t k, std
   const MeasuredLeaves& leaves = scene.leaves;
   const MeasuredLeaves::Leaf& leaf = leaves.leaves[static_cast<std::size_t>(k)];
   local.clear();
+  const BlockOffsets<Metric> anew(scene.metric, scene.positions, scene.points);
   for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
     const auto block = static_cast<std::size_t>(b);
-    const auto& at = leaves.offsets[block].axis;
-    const std::int32_t* const id = scene.points.id.data() + std::ptrdiff_t{leaves.source[block]} * kBlock;
+    const std::int32_t source = leaves.source[block];
+    MeasuredLeaves::Offsets found{};
+    if (!scene.points.keeps_positions) {
+      if (b + kBlocksAhead < leaves.blocks) anew.ask_for(leaves.source[block + kBlocksAhead]);
+      anew.find(source, scene.nodes.position[static_cast<std::size_t>(k)], found);
+    }
+    const auto& at = (scene.points.keeps_positions ? leaves.offsets[block] : found).axis;
+    const std::int32_t* const id = scene.points.id.data() + std::ptrdiff_t{source} * kBlock;
     for (int lane = 0; lane < leaves.count[block]; ++lane) {
       ids[local.size()] = id[lane];
       local.push_back({{at[0][lane], at[1][lane], at[2][lane]}, static_cast<std::int32_t>(local.size())});

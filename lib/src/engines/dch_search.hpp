@@ -20,7 +20,7 @@ namespace dch::detail {
 /// inserted and the rest renumbered; then all are moved at once.
 class DchSearch final : public PairSearch {
  public:
-  explicit DchSearch(const StructureParams& params) : hierarchy_(params) {}
+  explicit DchSearch(const StructureParams& params) : hierarchy_(for_lists(params)) {}
 
   void update(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) override;
   void list(const ListParams& params, NeighborList& out) override;
@@ -40,6 +40,11 @@ class DchSearch final : public PairSearch {
 
  private:
   enum class State { empty, indexed, keyed };
+
+  static StructureParams for_lists(StructureParams params) {
+    params.keeps_block_positions = false;
+    return params;
+  }
 
   void by_index(Span<const Vec3> positions, const Box& box);
   void by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys);

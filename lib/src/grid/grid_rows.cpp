@@ -70,7 +70,9 @@ void GridRows::append(const GridScene& scene, const std::vector<const PairFilter
                 [&](CellCandidates& near, RowFinder& finder, NeighborList* lists, int share, int shares) {
                   const std::int32_t last =
                       share + 1 == shares ? rows.cells() : rows.first_cell_of_share(share + 1, shares);
-                  for (std::int32_t cell = rows.first_cell_of_share(share, shares); cell < last; ++cell) {
+                  const std::int32_t first = rows.first_cell_of_share(share, shares);
+                  for (std::int32_t cell = first; cell < last; ++cell) {
+                    finder.note_progress(cell - first, last - first);
                     near.for_each_part(
                         cells, cell, [&](const OwnBlocks& own, const Candidates& around, std::int32_t count) {
                           finder.append_rows(cells.requests, own, around, count, lists);

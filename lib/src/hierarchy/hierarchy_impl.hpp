@@ -34,6 +34,7 @@ struct Hierarchy::Impl : detail::Structure {
 
   explicit Impl(const detail::StructureParams& p) {
     params = p;
+    points.keeps_positions = params.keeps_block_positions;
     reset(Box());
   }
 
@@ -245,6 +246,7 @@ struct Hierarchy::Impl : detail::Structure {
   /// Levels 1 and above. Returns the new index of each node of level 1.
   std::vector<std::int32_t> reorder_levels();
   void reorder_points();
+  void order_blocks();
 
   detail::MaintenanceWork ahead;  ///< what the last choice between repair and build went by
 

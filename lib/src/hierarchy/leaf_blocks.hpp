@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +30,8 @@ inline std::int32_t block_count(std::int64_t blocks, std::int64_t most = kMaxBlo
 /// whole blocks; reorder() puts points that are close together into one block. However long a chain is, a
 /// block enters or leaves it in a few steps.
 struct LeafBlocks {
-  std::vector<Vec3> position;       ///< by slot; wrapped into the cell
+  bool keeps_positions = true;      ///< StructureParams::keeps_block_positions
+  std::vector<Vec3> position;       ///< by slot; wrapped into the cell; empty if they are not kept
   std::vector<std::int32_t> id;     ///< by slot; the caller's name of the point, kNone in an empty slot
   std::vector<std::int32_t> leaf;   ///< by block: the parent of its points, kNone for a block not in use
   std::vector<std::int32_t> next;   ///< by block: the next one of its leaf, or kNone
@@ -45,8 +48,17 @@ struct LeafBlocks {
   void reserve(std::int32_t blocks) {
     const auto room = static_cast<std::size_t>(blocks);
     for (auto* array : {&leaf, &next, &prev, &count}) array->reserve(room);
-    position.reserve(room * kBlock);
+    if (keeps_positions) position.reserve(room * kBlock);
     id.reserve(room * kBlock);
+  }
+
+  /// Where there is none: for few blocks in an engine, of which repairs take some, else for as many again.
+  void make_room_for_one() {
+    const auto blocks = static_cast<std::int64_t>(leaf.size()) + 1;
+    if (static_cast<std::int64_t>(leaf.capacity()) >= blocks) return;
+    constexpr std::int64_t kLeast = 8;
+    const std::int64_t more = keeps_positions ? blocks : blocks / 16;
+    reserve(static_cast<std::int32_t>(std::min(blocks + more + kLeast, kMaxBlocks)));
   }
 
   /// A block with no points yet: a chain of its own.
@@ -55,11 +67,12 @@ struct LeafBlocks {
     std::int32_t block;
     if (free.empty()) {
       block = block_count(static_cast<std::int64_t>(leaf.size()) + 1, most) - 1;
+      make_room_for_one();
       leaf.push_back(kNone);
       next.push_back(kNone);
       prev.push_back(kNone);
       count.push_back(0);
-      position.resize(position.size() + kBlock);
+      if (keeps_positions) position.resize(position.size() + kBlock);
       id.resize(id.size() + kBlock, kNone);
     } else {
       block = free.back();
@@ -111,10 +124,28 @@ struct LeafBlocks {
   }
   std::int32_t push(std::int32_t block, std::int32_t point, Vec3 at) {
     const std::int32_t slot = block * kBlock + count[block]++;
-    position[slot] = at;
+    if (keeps_positions) position[slot] = at;
     id[slot] = point;
     ++alive;
     return slot;
+  }
+
+  /// Has the positions by id of the points of a block fetched, which is to be looked at soon: they lie
+  /// anywhere. For all lanes, without a branch: that of a lane without a point is the place before the first
+  /// one.
+  void ask_for(std::int32_t block, const Vec3* positions) const {
+    const std::int32_t* const point = id.data() + static_cast<std::size_t>(block) * kBlock;
+    const auto from = reinterpret_cast<std::intptr_t>(positions);
+    for (int lane = 0; lane < kBlock; ++lane) {
+      const auto place = std::intptr_t{point[lane]} * static_cast<std::intptr_t>(sizeof(Vec3));
+      __builtin_prefetch(reinterpret_cast<const void*>(from + place));  // NOLINT(performance-no-int-to-ptr)
+    }
+  }
+
+  /// Puts the point of another slot into this one.
+  void copy_point(std::int32_t from, std::int32_t to) {
+    if (keeps_positions) position[to] = position[from];
+    id[to] = id[from];
   }
 
   /// Calls f(slot) for the points of the chain that begins with `block`.

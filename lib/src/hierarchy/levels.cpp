@@ -96,8 +96,8 @@ std::int32_t Hierarchy::Impl::take_free_id() {
 }
 
 std::size_t Hierarchy::Impl::memory_bytes() const {
-  std::size_t bytes =
-      raw.capacity() * sizeof(Vec3) + (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
+  std::size_t bytes = (raw.capacity() + anchors.capacity()) * sizeof(Vec3) +
+                      (slot_of_id.capacity() + free_ids.capacity()) * sizeof(std::int32_t);
   bytes += singletons.capacity() * sizeof(Singleton);
   for (const Level& level : levels) bytes += level.memory_bytes();
   return bytes + points.memory_bytes() + leaves.memory_bytes() + (balls ? balls->memory_bytes() : 0);

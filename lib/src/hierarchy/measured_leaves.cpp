@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/resize.hpp"
 #include "geometry/metric.hpp"
 
 namespace dch::detail {
@@ -18,7 +19,8 @@ Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 double longest(Vec3 sides) { return std::max(sides.x, std::max(sides.y, sides.z)); }
 
-/// Takes positions, by id or, if there are none, those in the slots, and puts them into the slots wrapped.
+/// Takes positions, by id or, if there are none, those in the slots, and puts them into the slots wrapped
+/// where these keep any.
 template <class Metric>
 class BlockMeter {
  public:
@@ -29,13 +31,11 @@ class BlockMeter {
 
   /// Has the positions of a block fetched that is to be measured soon: they lie anywhere.
   void ask_for(std::int32_t block) const {
-    if (positions_ == nullptr) return;
-    const std::int32_t* const id = blocks_.id.data() + block * kBlock;
-    for (std::int32_t lane = 0; lane < blocks_.count[block]; ++lane)
-      __builtin_prefetch(&positions_[id[lane]]);
+    if (positions_ != nullptr) blocks_.ask_for(block, positions_);
   }
 
-  void measure(std::int32_t block, Vec3 center, MeasuredLeaves::Offsets& offsets, BlockExtremes& out) const {
+  /// @param offsets null if they are not wanted
+  void measure(std::int32_t block, Vec3 center, MeasuredLeaves::Offsets* offsets, BlockExtremes& out) const {
     const std::int32_t first = block * kBlock, count = blocks_.count[block];
     if constexpr (kIsBrick) {
       std::int32_t slots[kBlock];
@@ -43,7 +43,8 @@ class BlockMeter {
       const double from[3] = {center.x, center.y, center.z};
       const bool done = kernel_(cell_, &(positions_ ? positions_ : blocks_.position.data())->x,
                                 positions_ ? blocks_.id.data() + first : slots, count, from, covered2_,
-                                &blocks_.position[first].x, offsets.axis[0], out);
+                                blocks_.keeps_positions ? &blocks_.position[first].x : nullptr,
+                                offsets != nullptr ? offsets->axis[0] : nullptr, out);
       if (done) return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,11 +53,13 @@ class BlockMeter {
     }
     out.extent2 = 0;
     out.uncovered = 0;
+    out.is_plain = false;
     for (std::int32_t slot = first; slot < first + count; ++slot) {
-      if (positions_) blocks_.position[slot] = metric_.wrap(positions_[blocks_.id[slot]]);
-      const Vec3 at = metric_.displacement(center, blocks_.position[slot]);
+      const Vec3 wrapped = positions_ ? metric_.wrap(positions_[blocks_.id[slot]]) : blocks_.position[slot];
+      if (blocks_.keeps_positions) blocks_.position[slot] = wrapped;
+      const Vec3 at = metric_.displacement(center, wrapped);
       for (int axis = 0; axis < 3; ++axis) {
-        offsets.axis[axis][slot - first] = static_cast<float>(at[axis]);
+        if (offsets != nullptr) offsets->axis[axis][slot - first] = static_cast<float>(at[axis]);
         out.low[axis] = std::min(out.low[axis], at[axis]);
         out.high[axis] = std::max(out.high[axis], at[axis]);
       }
@@ -94,11 +97,12 @@ void MeasuredLeaves::lay_out(const Level& centers, const LeafBlocks& from) {
   if (layout != 0) return;
   leaves.assign(centers.position.size(), Leaf());
   const std::size_t most = from.leaf.size();
-  source.resize(most);
-  count.resize(most);
-  lanes.resize(most);
-  corners.resize(most);
-  offsets.resize(most);
+  resize_closely(source, most);
+  resize_closely(count, most);
+  resize_closely(lanes, most);
+  resize_closely(are_plain, most);
+  resize_closely(corners, most);
+  resize_closely(offsets, from.keeps_positions ? most : 0);
   blocks = 0;
   for (std::int32_t k = 0; k < centers.size(); ++k) {
     leaves[k].first_block = blocks;
@@ -107,7 +111,9 @@ void MeasuredLeaves::lay_out(const Level& centers, const LeafBlocks& from) {
       source[blocks++] = block;
     leaves[k].blocks = blocks - leaves[k].first_block;
   }
+  are_in_order = !from.keeps_positions;
   for (std::int32_t b = 0; b < blocks; ++b) {
+    are_in_order = are_in_order && source[b] == b;
     count[b] = static_cast<std::uint8_t>(from.count[source[b]]);
     lanes[b] = static_cast<std::uint8_t>((1u << count[b]) - 1);
   }
@@ -141,13 +147,14 @@ void MeasuredLeaves::measure_leaf(const Meter& meter, Vec3 center, Leaf& leaf) {
   for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
     if (b + kAhead < blocks) meter.ask_for(source[b + kAhead]);
     BlockExtremes measured;
-    meter.measure(source[b], center, offsets[b], measured);
+    meter.measure(source[b], center, offsets.empty() ? nullptr : &offsets[b], measured);
     const Vec3 low{measured.low[0], measured.low[1], measured.low[2]};
     const Vec3 high{measured.high[0], measured.high[1], measured.high[2]};
     for (int axis = 0; axis < 3; ++axis) {
       corners[b].low[axis] = static_cast<float>(low[axis]);
       corners[b].high[axis] = static_cast<float>(high[axis]);
     }
+    are_plain[b] = measured.is_plain ? 1 : 0;
     extent2 = std::max(extent2, measured.extent2);
     leaf.uncovered += measured.uncovered;
     leaf.block_width = std::max(leaf.block_width, longest(high - low));
@@ -161,8 +168,8 @@ void MeasuredLeaves::measure_leaf(const Meter& meter, Vec3 center, Leaf& leaf) {
 
 std::size_t MeasuredLeaves::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  return bytes_of(leaves) + bytes_of(source) + bytes_of(count) + bytes_of(lanes) + bytes_of(offsets) +
-         bytes_of(corners);
+  return bytes_of(leaves) + bytes_of(source) + bytes_of(count) + bytes_of(lanes) + bytes_of(are_plain) +
+         bytes_of(offsets) + bytes_of(corners);
 }
 
 #define DCH_INSTANTIATE(Metric)                                                                             \

@@ -55,11 +55,13 @@ struct MeasuredLeaves {
   std::vector<Leaf> leaves;  ///< by node of level 1
   std::int32_t blocks = 0;
   std::vector<std::int32_t> source;  ///< by block: the block of LeafBlocks
-  std::vector<std::uint8_t> count;   ///< by block: number of points
-  std::vector<std::uint8_t> lanes;   ///< by block: a bit for each of them
-  std::vector<Offsets> offsets;      ///< by block
-  std::vector<Corners> corners;      ///< by block
-  double largest_extent = 0;         ///< of a leaf
+  bool are_in_order = false;  ///< whether that is the same one for all, where LeafBlocks keeps no positions
+  std::vector<std::uint8_t> count;      ///< by block: number of points
+  std::vector<std::uint8_t> lanes;      ///< by block: a bit for each of them
+  std::vector<std::uint8_t> are_plain;  ///< by block: BlockExtremes::is_plain
+  std::vector<Offsets> offsets;  ///< by block; empty unless LeafBlocks keeps positions: see BlockOffsets
+  std::vector<Corners> corners;  ///< by block
+  double largest_extent = 0;     ///< of a leaf
   double largest_width = 0;
   double largest_block_width = 0;
   /// Another number whenever points may lie in other blocks, of this object or of another one; 0 if that is

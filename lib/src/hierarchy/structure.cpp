@@ -43,7 +43,7 @@ void Structure::neighbors(const Metric& metric, int level, std::int32_t node,
   const auto look_at_children = [&](std::int32_t parent) {
     for_each_child(1, parent, [&](std::int32_t other) {
       if (other != node &&
-          metric.distance2(points.position[node], points.position[other]) <= levels[0].threshold2)
+          metric.distance2(position_in(node, metric), position_in(other, metric)) <= levels[0].threshold2)
         nodes.push_back(other);
     });
   };

@@ -66,7 +66,12 @@ struct Structure {
   bool is_alive(int level, std::int32_t k) const { return id(level, k) != kNone; }
   std::int32_t id(int level, std::int32_t k) const { return level == 0 ? points.id[k] : levels[level].id[k]; }
   Vec3 position(int level, std::int32_t k) const {
-    return level == 0 ? points.position[k] : levels[level].position[k];
+    return level == 0 ? position_in(k, box) : levels[level].position[k];
+  }
+  /// Of the point in a slot, wrapped. `in` wraps positions: the metric of the box, or the box.
+  template <class Wrapping>
+  Vec3 position_in(std::int32_t slot, const Wrapping& in) const {
+    return points.keeps_positions ? points.position[slot] : in.wrap(raw[points.id[slot]]);
   }
   std::int32_t parent(int level, std::int32_t k) const {
     return level == 0 ? points.parent(k) : levels[level].parent[k];

@@ -35,6 +35,10 @@ struct StructureParams : HierarchyParams {
   /// Path compression: points that have no neighbor in level i >= 2 nor a point below them are in memory in
   /// levels i and above only, and in no leaf; so that gas in a huge box costs as much as in a small one.
   bool collapse_singletons = true;
+  /// Whether positions stand in the blocks of the points too, wrapped, and relative to the center of their
+  /// leaf: queries of single points are fast with these. Lists take them from the positions by id, at no more
+  /// time.
+  bool keeps_block_positions = true;
 };
 
 }  // namespace dch::detail

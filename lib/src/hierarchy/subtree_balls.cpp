@@ -70,7 +70,7 @@ void SubtreeBalls::add_node(int level, std::int32_t node) {
 void SubtreeBalls::add_point(const Structure& structure, std::int32_t slot) {
   const std::int32_t leaf = structure.points.parent(slot);
   with_metric(structure.box, [&](const auto& metric) {
-    const Vec3 at = structure.points.position[slot];
+    const Vec3 at = structure.position_in(slot, metric);
     const Vec3 offset = metric.displacement(structure.levels[1].position[leaf], at);
     const auto x = static_cast<float>(offset.x), y = static_cast<float>(offset.y),
                z = static_cast<float>(offset.z);

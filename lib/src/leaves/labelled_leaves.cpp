@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/resize.hpp"
+
 namespace dch::detail {
 
 void LabelledLeaves::label(const MeasuredLeaves& measured, const LeafBlocks& points, const ParticleIds& ids,
@@ -13,11 +15,11 @@ void LabelledLeaves::label(const MeasuredLeaves& measured, const LeafBlocks& poi
   if (sizes_are_known && source == source_) return;
   source_.layout = 0;
   const auto all = static_cast<std::size_t>(measured.blocks);
-  particle.resize(all);
-  owned.resize(all);
-  radii.resize(labels.by == CutoffBy::radii ? all : 0);
-  types.resize(labels.by == CutoffBy::types ? all : 0);
-  leaf_owned.resize(measured.leaves.size());
+  resize_closely(particle, ids.particle_of_id.empty() && measured.are_in_order ? 0 : all);
+  resize_closely(owned, all);
+  resize_closely(radii, labels.by == CutoffBy::radii ? all : 0);
+  resize_closely(types, labels.by == CutoffBy::types ? all : 0);
+  resize_closely(leaf_owned, measured.leaves.size());
   for_ranges(executor, static_cast<std::int32_t>(measured.leaves.size()),
              [&](std::int32_t first, std::int32_t last) {
                for (std::int32_t k = first; k < last; ++k) {
@@ -35,9 +37,13 @@ void LabelledLeaves::label(const MeasuredLeaves& measured, const LeafBlocks& poi
 void LabelledLeaves::label_block(std::int32_t b, const MeasuredLeaves& measured, const LeafBlocks& from,
                                  Span<const std::int32_t> particle_of_id, const ParticleLabels& labels) {
   const int count = measured.count[b];
-  std::array<std::int32_t, kBlock>& here = particle[b];
-  std::copy_n(from.id.data() + static_cast<std::size_t>(measured.source[b]) * kBlock, kBlock, here.data());
-  for (int lane = 0; lane < count && !particle_of_id.empty(); ++lane) here[lane] = particle_of_id[here[lane]];
+  const std::int32_t* here = from.id.data() + static_cast<std::size_t>(measured.source[b]) * kBlock;
+  if (!particle.empty()) {
+    std::copy_n(here, kBlock, particle[b].data());
+    for (int lane = 0; lane < count && !particle_of_id.empty(); ++lane)
+      particle[b][lane] = particle_of_id[here[lane]];
+    here = particle[b].data();
+  }
   owned[b] = labels.first_ghost < 0;
   for (int lane = 0; lane < count && !owned[b]; ++lane) owned[b] = here[lane] < labels.first_ghost;
   if (!radii.empty()) {

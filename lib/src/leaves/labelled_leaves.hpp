@@ -39,6 +39,7 @@ struct LabelledLeaves {
 
   std::size_t memory_bytes() const;
 
+  /// Empty where ids of particles are those of points in blocks that are in order: LeafSource::particles().
   std::vector<std::array<std::int32_t, kBlock>> particle;
   std::vector<std::array<float, kBlock>> radii;  ///< [length]; empty if cutoffs do not go by them
   std::vector<std::array<std::int16_t, kBlock>>

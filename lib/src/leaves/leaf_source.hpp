@@ -28,11 +28,21 @@ struct LeafSource {
     if (!quantized.radii.empty()) return quantized.radii.data();
     return labelled.types.empty() ? nullptr : labelled.types.data();
   }
+  /// Whose points they are, by block.
+  const OfLanes<std::int32_t>* particles() const {
+    static_assert(sizeof(OfLanes<std::int32_t>) == kBlock * sizeof(std::int32_t));
+    return labelled.particle.empty()
+               ? reinterpret_cast<const OfLanes<std::int32_t>*>(structure->points.id.data())
+               : labelled.particle.data();
+  }
   /// Blocks [first, last) of a leaf.
   OwnBlocks blocks(std::int32_t first, std::int32_t last) const {
-    return {quantized.points.data() + first,  quantized.spans.data() + first,
-            labelled.particle.data() + first, tags() == nullptr ? nullptr : tags() + first,
-            measured().count.data() + first,  last - first};
+    return {quantized.points.data() + first,
+            quantized.spans.data() + first,
+            particles() + first,
+            tags() == nullptr ? nullptr : tags() + first,
+            measured().count.data() + first,
+            last - first};
   }
   std::size_t memory_bytes() const { return labelled.memory_bytes() + quantized.memory_bytes(); }
 };

@@ -2,9 +2,12 @@
 #include "leaves/quantized_leaves.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
+#include "base/resize.hpp"
+#include "leaves/block_offsets.hpp"
 #include "leaves/leaf_frame.hpp"
 #include "leaves/own_blocks.hpp"
 #include "leaves/rounding.hpp"
@@ -12,63 +15,85 @@
 namespace dch::detail {
 namespace {
 
+/// Coordinates along three axes, and a fourth number that does not matter: what registers hold on every
+/// processor.
+using Axes __attribute__((vector_size(16))) = float;
+using Bits __attribute__((vector_size(16))) = std::int32_t;
+using Integers __attribute__((vector_size(8))) = std::int16_t;
+
+inline Axes lower(const MeasuredLeaves::Corners& corners) {
+  Axes low;
+  std::memcpy(&low, &corners, sizeof low);
+  return low;
+}
+inline Axes upper(const MeasuredLeaves::Corners& corners) {
+  static_assert(sizeof corners == 6 * sizeof(float));
+  Axes high;
+  std::memcpy(&high, reinterpret_cast<const char*>(&corners) + 2 * sizeof(float), sizeof high);
+  return __builtin_shufflevector(high, high, 1, 2, 3, 3);
+}
+/// As rounded() does it with each.
+inline Integers rounded_axes(Axes v) {
+  const Axes shifted = v + 0x1.8p23f;
+  Bits bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return __builtin_convertvector(bits, Integers);
+}
+
 /// Holds the rounded points between the corners, relative to an origin, and the corners themselves.
-BlockSpan span_around(const MeasuredLeaves::Corners& corners, const float origin[3], float per_unit) {
-  BlockSpan span{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float low = (corners.low[axis] - origin[axis]) * per_unit,
-                high = (corners.high[axis] - origin[axis]) * per_unit;
-    span.center[axis] = rounded(0.5f * (low + high));
-    span.half_width[axis] = static_cast<std::int16_t>(rounded(0.5f * (high - low)) + 2);
-  }
+inline BlockSpan span_around(Axes low, Axes high, Axes origin, float per_unit) {
+  const Axes first = (low - origin) * per_unit, last = (high - origin) * per_unit;
+  const Integers center = rounded_axes(0.5f * (first + last));
+  const Integers half_width = rounded_axes(0.5f * (last - first)) + static_cast<std::int16_t>(2);
+  BlockSpan span;
+  std::memcpy(span.center, &center, sizeof span.center);
+  std::memcpy(span.half_width, &half_width, sizeof span.half_width);
   return span;
 }
 
 }  // namespace
 
 void QuantizedLeaves::quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled,
-                               const ListUnits& to_units, Span<const Vec3> centers, Executor* executor) {
+                               const ListUnits& to_units, Span<const Vec3> centers, Executor* executor,
+                               const RoundPoints& round_points) {
   units = to_units;
   per_unit = {1 / units.point, 1 / units.box};
   const auto all = static_cast<std::size_t>(measured.blocks);
-  points.resize(all);
-  spans.resize(all);
-  radii.resize(labelled.radii.size());
-  origin.resize(measured.leaves.size());
+  resize_closely(points, all);
+  resize_closely(spans, all);
+  resize_closely(radii, labelled.radii.size());
+  resize_closely(origin, measured.leaves.size());
   for (int axis = 0; axis < 3; ++axis) {
-    box_center_[axis].resize(all + kChunk);
-    box_half_width_[axis].resize(all + kChunk);
+    resize_closely(box_center_[axis], all + kChunk);
+    resize_closely(box_half_width_[axis], all + kChunk);
   }
   if (number_.size() < all + kChunk) {
-    number_.resize(all + kChunk);
+    resize_closely(number_, all + kChunk);
     std::iota(number_.begin(), number_.end(), 0);
   }
   for_ranges(executor, static_cast<std::int32_t>(origin.size()), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t k = first; k < last; ++k) {
       const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
       origin[k] = frame_origin(centers[k], leaf.middle, units.point);
-      float from[3];
-      for (int axis = 0; axis < 3; ++axis) from[axis] = static_cast<float>(origin[k][axis]);
-      for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b)
-        quantize_block(measured, labelled, from, b);
+      BlockUnits in_leaf{{}, static_cast<float>(per_unit.point)};
+      for (int axis = 0; axis < 3; ++axis) in_leaf.origin[axis] = static_cast<float>(origin[k][axis]);
+      if (round_points) round_points(k, in_leaf, points.data());
+      for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
+        if (!round_points) round_offsets(measured.offsets[b], in_leaf, points[b]);
+        for (int lane = 0; lane < kBlock && !radii.empty(); ++lane)
+          radii[b][lane] = rounded(labelled.radii[b][lane] * in_leaf.per_unit);
+        quantize_boxes(measured.corners[b], in_leaf, b);
+      }
     }
   });
 }
 
-/// @param from the origin of the leaf, relative to its center
-void QuantizedLeaves::quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled,
-                                     const float from[3], std::int32_t b) {
-  constexpr float kCenter[3] = {0, 0, 0};
-  const auto per_point = static_cast<float>(per_unit.point), per_box = static_cast<float>(per_unit.box);
-  const auto round_all = [&](const float* lengths, float less, std::int16_t* to) {
-    for (int lane = 0; lane < kBlock; ++lane) to[lane] = rounded((lengths[lane] - less) * per_point);
-  };
-  round_all(measured.offsets[b].axis[0], from[0], points[b].x);  // whatever empty lanes hold
-  round_all(measured.offsets[b].axis[1], from[1], points[b].y);
-  round_all(measured.offsets[b].axis[2], from[2], points[b].z);
-  if (!radii.empty()) round_all(labelled.radii[b].data(), 0, radii[b].data());
-  spans[b] = span_around(measured.corners[b], from, per_point);
-  const BlockSpan box = span_around(measured.corners[b], kCenter, per_box);
+void QuantizedLeaves::quantize_boxes(const MeasuredLeaves::Corners& corners, const BlockUnits& to_units,
+                                     std::int32_t b) {
+  const Axes low = lower(corners), high = upper(corners);
+  const Axes of_leaf{to_units.origin[0], to_units.origin[1], to_units.origin[2]}, center{};
+  spans[b] = span_around(low, high, of_leaf, to_units.per_unit);
+  const BlockSpan box = span_around(low, high, center, static_cast<float>(per_unit.box));
   for (int axis = 0; axis < 3; ++axis) {
     box_center_[axis][b] = box.center[axis];
     box_half_width_[axis][b] = box.half_width[axis];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <dch/base/executor.hpp>
@@ -11,6 +12,7 @@
 #include "base/aligned_vector.hpp"
 #include "hierarchy/measured_leaves.hpp"
 #include "leaves/labelled_leaves.hpp"
+#include "simd/block_measure.hpp"
 #include "simd/list_kernels.hpp"
 
 namespace dch::detail {
@@ -24,9 +26,13 @@ struct ListUnits {
 /// the boxes around them are relative to an origin in the middle of their leaf, boxes in the units of boxes
 /// to the center of their leaf.
 struct QuantizedLeaves {
+  /// Rounds the points of a leaf.
+  using RoundPoints = std::function<void(std::int32_t leaf, const BlockUnits& to_units, BlockPoints* points)>;
+
   /// @param centers of the leaves
+  /// @param round_points by block, where `measured` keeps no offsets
   void quantize(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const ListUnits& to_units,
-                Span<const Vec3> centers, Executor* executor);
+                Span<const Vec3> centers, Executor* executor, const RoundPoints& round_points = {});
 
   /// Box around blocks [first, last) of a leaf, in the units of boxes.
   BlockSpan box_of(std::int32_t first, std::int32_t last) const;
@@ -46,8 +52,7 @@ struct QuantizedLeaves {
       radii;  ///< 0 in empty lanes; empty if cutoffs do not go by them
 
  private:
-  void quantize_block(const MeasuredLeaves& measured, const LabelledLeaves& labelled, const float from[3],
-                      std::int32_t b);
+  void quantize_boxes(const MeasuredLeaves::Corners& corners, const BlockUnits& to_units, std::int32_t b);
 
   AlignedVector<std::int16_t> box_center_[3], box_half_width_[3];
   AlignedVector<std::int32_t> number_;

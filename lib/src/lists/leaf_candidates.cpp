@@ -71,7 +71,7 @@ std::int32_t LeafCandidates::collect_from(const NearSource& near, const std::vec
   around_.make_room(static_cast<std::size_t>(already) + static_cast<std::size_t>(collected) * kBlock +
                     kChunk);
   kernels_->gather(block_.data(), range_end_.data(), ranges.data(), range_count,
-                   leaves.quantized.points.data(), leaves.labelled.particle.data()->data(),
+                   leaves.quantized.points.data(), leaves.particles()->data(),
                    leaves.tags() == nullptr ? nullptr : leaves.tags()->data(), around_.at(already));
   auto* const lanes = reinterpret_cast<std::uint8_t*>(valid_.data());
   for (std::int32_t n = 0; n < collected; ++n) lanes[n] = leaves.measured().lanes[block_[n]];

@@ -85,6 +85,7 @@ template <class Metric>
 LeafCrescents<Metric>::LeafCrescents(const Metric& metric, const Structure& structure)
     : metric_(metric),
       structure_(structure),
+      offsets_(metric, structure.raw, structure.points),
       motion_(structure.pending ? structure.motion : 0),
       others_(structure.leaves.largest_extent),
       shortest_(structure.box.shortest_period()) {
@@ -165,7 +166,11 @@ bool LeafCrescents<Metric>::any_in_leaf(const Crescent& crescent, std::int32_t l
                           kFloatRounding * (own.extent + crescent.outer + crescent.inner + farthest));
   for (std::int32_t b = own.first_block; b < end; ++b) {
     if (!may_meet(measured.corners[b], near)) continue;
-    unsigned lanes = lanes_in(measured.offsets[b], near) & measured.lanes[b];
+    MeasuredLeaves::Offsets found;
+    if (measured.offsets.empty())
+      offsets_.find(measured.source[b], structure_.levels[1].position[leaf], found);
+    unsigned lanes =
+        lanes_in(measured.offsets.empty() ? found : measured.offsets[b], near) & measured.lanes[b];
     const std::int32_t* const ids =
         structure_.points.id.data() + std::size_t{kBlock} * static_cast<std::size_t>(measured.source[b]);
     for (; lanes != 0; lanes &= lanes - 1)
@@ -179,7 +184,7 @@ bool LeafCrescents<Metric>::any_image(const Crescent& crescent, std::int32_t blo
   const LeafBlocks& points = structure_.points;
   const std::int32_t first = structure_.leaves.source[block] * kBlock;
   for (std::int32_t slot = first; slot < first + structure_.leaves.count[block]; ++slot)
-    if (is_near(crescent, points.position[slot]) && test(points.id[slot])) return true;
+    if (is_near(crescent, structure_.position_in(slot, metric_)) && test(points.id[slot])) return true;
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "hierarchy/structure.hpp"
+#include "leaves/block_offsets.hpp"
 #include "lists/unlisted_pairs.hpp"
 
 namespace dch::detail {
@@ -39,6 +40,7 @@ class LeafCrescents {
 
   const Metric& metric_;
   const Structure& structure_;
+  BlockOffsets<Metric> offsets_;
   double motion_;  ///< of nodes of level 1 since parents were in order, at most [length]
   double others_;  ///< how far from its center, where edges were made, a leaf's points may be [length]
   double singletons_ =

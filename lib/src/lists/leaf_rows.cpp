@@ -6,6 +6,7 @@
 
 #include "geometry/metric.hpp"
 #include "geometry/tolerance.hpp"
+#include "leaves/block_offsets.hpp"
 #include "leaves/leaf_frame.hpp"
 #include "leaves/rounding.hpp"
 
@@ -43,6 +44,26 @@ ListUnits units_for(const ListScene& scene, std::size_t s) {
   return {frame_unit(scene.box, widest), finest_unit(farthest)};
 }
 
+template <class Metric>
+void quantize(const Metric& metric, const ListUnits& units, Executor* executor, LeafSource& source) {
+  const Structure& structure = *source.structure;
+  const MeasuredLeaves& measured = source.measured();
+  const std::vector<Vec3>& centers = source.centers().position;
+  if (structure.points.keeps_positions)
+    return source.quantized.quantize(measured, source.labelled, units, centers, executor);
+  constexpr std::int32_t kAhead = 8;  // blocks whose positions are asked for before their turn
+  const BlockOffsets<Metric> offsets(metric, structure.raw, structure.points);
+  source.quantized.quantize(
+      measured, source.labelled, units, centers, executor,
+      [&](std::int32_t k, const BlockUnits& to_units, BlockPoints* points) {
+        const MeasuredLeaves::Leaf& leaf = measured.leaves[k];
+        for (std::int32_t b = leaf.first_block; b < leaf.first_block + leaf.blocks; ++b) {
+          if (b + kAhead < measured.blocks) offsets.ask_for(measured.source[b + kAhead]);
+          offsets.round(measured.source[b], measured.are_plain[b] != 0, centers[k], to_units, points[b]);
+        }
+      });
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(readability-convert-member-functions-to-static): parts_ are what find_with() works on
@@ -75,8 +96,7 @@ void LeafRows::find_with(const Metric& metric, const ListScene& scene,
     for (std::size_t turn = 0; turn <= s; ++turn) {
       const std::size_t a = turn == 0 ? s : turn - 1;  // the source of the rows first
       LeafSource& source = *scene.sources[a];
-      source.quantized.quantize(source.measured(), source.labelled, units, source.centers().position,
-                                scene.executor);
+      quantize(metric, units, scene.executor, source);
       const double reach = scene.reach_of(s, a);
       const double extents = scene.sources[s]->measured().largest_extent + source.measured().largest_extent;
       const bool has_one_image =
@@ -104,9 +124,11 @@ void LeafRows::find_rows(const LeafScene<Metric>& scene, Executor* executor,
   const Level& centers = scene.rows().centers();
   parts_.find(executor, out,
               [&](LeafCandidates& near, RowFinder& finder, NeighborList* lists, int share, int shares) {
-                const std::int32_t last = share_begin(centers.size(), share + 1, shares);
-                for (std::int32_t k = share_begin(centers.size(), share, shares); k < last; ++k) {
+                const std::int32_t first = share_begin(centers.size(), share, shares),
+                                   last = share_begin(centers.size(), share + 1, shares);
+                for (std::int32_t k = first; k < last; ++k) {
                   if (!centers.is_alive(k)) continue;
+                  finder.note_progress(k - first, last - first);
                   near.for_each_part(scene, k,
                                      [&](const OwnBlocks& own, const Candidates& around, std::int32_t count) {
                                        finder.append_rows(scene.requests, own, around, count, lists);
@@ -121,7 +143,8 @@ void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, 
                                 NeighborList& out) {
   const Level& centers = source.centers();
   const LeafBlocks& points = source.structure->points;
-  std::vector<std::int32_t> own, others;
+  std::vector<std::int32_t> own, others;  // slots
+  std::vector<Vec3> at;                   // of others
   for (std::int32_t k = 0; k < centers.size(); ++k) {
     if (!centers.is_alive(k)) continue;
     others.clear();
@@ -130,6 +153,8 @@ void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, 
     own = others;
     for (const std::int32_t other : centers.edges.row(k))
       if (other > k) points.for_each(centers.first_child[other], collect);
+    at.clear();
+    for (const std::int32_t slot : others) at.push_back(source.structure->position_in(slot, metric));
     for (std::size_t a = 0; a < own.size(); ++a) {
       auto end = static_cast<std::size_t>(out.first.back());
       if (out.j.size() < end + others.size()) out.j.resize(2 * (end + others.size()));
@@ -137,7 +162,7 @@ void LeafRows::find_by_distance(const Metric& metric, const LeafSource& source, 
       for (std::size_t b = a + 1; b < others.size(); ++b) {
         const std::int32_t j = points.id[others[b]];
         out.j[end] = j;
-        end += filter.accept(i, j, metric.distance2(points.position[own[a]], points.position[others[b]]));
+        end += filter.accept(i, j, metric.distance2(at[a], at[b]));
       }
       out.particle.push_back(i);
       out.first.push_back(static_cast<std::int64_t>(end));

@@ -8,6 +8,7 @@
 #include <dch/geometry/box.hpp>
 
 #include "geometry/metric.hpp"
+#include "leaves/rounding.hpp"
 #include "random.hpp"
 
 namespace dch::detail {
@@ -24,12 +25,33 @@ struct Measured {
 };
 
 Measured measure(InstructionSet set, const OrthorhombicMetric& metric, const std::vector<Vec3>& positions,
-                 const std::vector<std::int32_t>& index, Vec3 center, double covered2) {
+                 std::vector<std::int32_t> index, Vec3 center, double covered2) {
   Measured m;
+  const auto count = static_cast<std::int32_t>(index.size());
+  index.resize(kBlock, -1);
   const double from[3] = {center.x, center.y, center.z};
-  m.done = measure_block(set)(metric.brick(), &positions[0].x, index.data(),
-                              static_cast<std::int32_t>(index.size()), from, covered2, &m.wrapped[0].x,
-                              m.offset, m.extremes);
+  m.done = measure_block(set)(metric.brick(), &positions[0].x, index.data(), count, from, covered2,
+                              &m.wrapped[0].x, m.offset, m.extremes);
+  BlockExtremes alone{};
+  EXPECT_EQ(measure_block(set)(metric.brick(), &positions[0].x, index.data(), count, from, covered2, nullptr,
+                               nullptr, alone),
+            m.done);
+  float offset[3 * kBlock] = {};
+  EXPECT_EQ(offset_block(set)(metric.brick(), &positions[0].x, index.data(), count, from, offset), m.done);
+  const BlockUnits units{{0.3F, -0.2F, 7.1F}, 321.7F};
+  std::int16_t numbers[3 * kBlock] = {};
+  if (m.extremes.is_plain) round_block(set)(&positions[0].x, index.data(), from, units, numbers);
+  for (int axis = 0; m.done && axis < 3; ++axis) {
+    EXPECT_EQ(alone.low[axis], m.extremes.low[axis]);
+    EXPECT_EQ(alone.high[axis], m.extremes.high[axis]);
+    for (int lane = 0; lane < count; ++lane) {
+      const float at = m.offset[axis * kBlock + lane];
+      EXPECT_EQ(offset[axis * kBlock + lane], at);
+      if (m.extremes.is_plain) {
+        EXPECT_EQ(numbers[axis * kBlock + lane], rounded((at - units.origin[axis]) * units.per_unit));
+      }
+    }
+  }
   return m;
 }
 
@@ -38,9 +60,11 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
   const Box box = Box::orthorhombic({7, 8, 9}, {true, false, true}, {-3, 1, 2});
   const OrthorhombicMetric metric(box);
   scenes::Random random(4);
-  for (int repeat = 0; repeat < 200; ++repeat) {
+  int plain = 0;
+  for (int repeat = 0; repeat < 400; ++repeat) {
     std::vector<Vec3> positions;
-    for (int k = 0; k < 20; ++k) positions.push_back(Vec3{0.5, 5, 6.5} + random.in_cube(6.5));
+    for (int k = 0; k < 20; ++k)
+      positions.push_back(Vec3{0.5, 5, 6.5} + random.in_cube(repeat % 2 == 0 ? 6.5 : 1));
     std::vector<std::int32_t> index(1 + random.below(kBlock));
     for (std::int32_t& k : index) k = static_cast<std::int32_t>(random.below(positions.size()));
     const Vec3 center = box.wrap(random.in_cube(9));
@@ -51,11 +75,13 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
       ASSERT_TRUE(m.done);
       double extent2 = 0;
       int uncovered = 0;
+      bool is_plain = true;
       for (std::size_t lane = 0; lane < index.size(); ++lane) {
         const Vec3 wrapped = box.wrap(positions[index[lane]]), at = metric.displacement(center, wrapped);
         EXPECT_EQ(m.wrapped[lane], wrapped);
         extent2 = std::max(extent2, norm2(at));
         uncovered += norm2(at) > covered2;
+        is_plain = is_plain && at == positions[index[lane]] - center;
         for (int axis = 0; axis < 3; ++axis) {
           EXPECT_EQ(m.offset[axis * kBlock + lane], static_cast<float>(at[axis]));
           EXPECT_LE(m.extremes.low[axis], at[axis]);
@@ -64,8 +90,11 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
       }
       EXPECT_EQ(m.extremes.extent2, extent2);
       EXPECT_EQ(m.extremes.uncovered, uncovered);
+      EXPECT_EQ(m.extremes.is_plain, is_plain);
+      plain += is_plain;
     }
   }
+  EXPECT_GT(plain, 100);
 }
 
 TEST(BlockMeasureTest, PointsMoreThanACellAwayAreLeftToTheBox) {

@@ -83,6 +83,38 @@ void Hierarchy::Impl::reorder() {
   misplaced = 0;
 }
 
+/// Puts blocks into the order of their leaves if they are to be laid out anew, where no positions stand in
+/// them: then lists read ids from them as they are.
+void Hierarchy::Impl::order_blocks() {
+  if (points.keeps_positions || leaves.layout != 0) return;
+  Level& centers = levels[1];
+  std::int32_t blocks = 0;
+  bool are_in_order = true;
+  for (std::int32_t k = 0; k < centers.size(); ++k)  // a dead one has no children
+    for (std::int32_t block = centers.first_child[k]; block != kNone; block = points.next[block], ++blocks)
+      are_in_order = are_in_order && block == blocks;
+  if (are_in_order) return;
+  detail::LeafBlocks fresh;
+  fresh.most = points.most;
+  fresh.keeps_positions = false;
+  fresh.reserve(blocks);  // all the memory that this takes
+  for (std::int32_t k = 0; k < centers.size(); ++k) {
+    if (!centers.is_alive(k)) continue;
+    std::int32_t chain = kNone;
+    for (std::int32_t from = centers.first_child[k]; from != kNone; from = points.next[from]) {
+      const std::int32_t block = fresh.add_block(k);
+      fresh.append(chain, block);
+      for (std::int32_t lane = 0; lane < points.count[from]; ++lane) {
+        const std::int32_t id = points.id[from * detail::kBlock + lane];
+        slot_of_id[id] = fresh.push(block, id, {});
+      }
+    }
+    centers.first_child[k] = chain;
+    if (chain != kNone) centers.down[k] = slot_of_id[centers.id[k]];
+  }
+  points = std::move(fresh);
+}
+
 void Hierarchy::Impl::Members::sort(const std::vector<std::int32_t>& leaf_of, std::int32_t leaf_count) {
   std::vector<std::int32_t> next(static_cast<std::size_t>(leaf_count) + 1, 0);
   for (const std::int32_t leaf : leaf_of)
@@ -100,10 +132,11 @@ void Hierarchy::Impl::reorder_points() {
     for_each_child(1, k, [&](std::int32_t slot) { leaf_of[slot] = k; });
   detail::LeafBlocks fresh;
   fresh.most = points.most;
+  fresh.keeps_positions = points.keeps_positions;
   with_metric(box, [&](const auto& metric) {
     fill_leaves(
         metric, fresh, leaf_of, [&](std::size_t slot) { return points.id[slot]; },
-        [&](std::size_t slot) { return points.position[slot]; });
+        [&](std::size_t slot) { return position_in(static_cast<std::int32_t>(slot), metric); });
   });
   points = std::move(fresh);
 }

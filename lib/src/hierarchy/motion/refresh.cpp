@@ -104,6 +104,7 @@ void Hierarchy::Impl::refresh_level(const Metric& metric, int i) {
 template <class Metric>
 void Hierarchy::Impl::refresh_leaves(const Metric& metric) {
   refresh_level(metric, 1);
+  order_blocks();
   leaves.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
   stats.distances += points.alive;
   measured = true;
@@ -167,7 +168,12 @@ detail::MaintenanceWork Hierarchy::Impl::standing_work() const {
 template <class Metric>
 void Hierarchy::Impl::measure(const Metric& metric) {
   if (measured) return;
-  leaves.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  order_blocks();
+  if (points.keeps_positions) {
+    leaves.measure(metric, levels[1], points, levels[0].radius2, params.executor);
+  } else {
+    leaves.refresh(metric, levels[1], raw, points, levels[0].radius2, params.executor);
+  }
   if (balls) balls.emplace(*this);  // as they are
   measured = true;
 }

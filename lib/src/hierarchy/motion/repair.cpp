@@ -59,14 +59,14 @@ void Hierarchy::Impl::cover_points(const Metric& metric) {
     const Vec3 center = levels[1].position[k];
     for_each_child(1, k, [&](std::int32_t slot) {
       ++stats.distances;
-      if (metric.distance2(points.position[slot], center) > levels[0].radius2)
+      if (metric.distance2(position_in(slot, metric), center) > levels[0].radius2)
         uncovered_points.push_back(points.id[slot]);
     });
   }
   for (const std::int32_t point : uncovered_points) {
     const std::int32_t slot = slot_of_id[point];
     const Hint hint{1, points.parent(slot)};
-    const Vec3 at = points.position[slot];
+    const Vec3 at = position_in(slot, metric);
     remove_from_block(slot);
     attach_point_under(metric, point, at, locate(metric, at, 1, hint));
     ++stats.reparented;

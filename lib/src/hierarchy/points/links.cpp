@@ -57,7 +57,7 @@ std::int32_t Hierarchy::Impl::place_point(std::int32_t point, Vec3 at, std::int3
   for (std::int32_t block = first; block != kNone && looked < kMaxLookedAt; block = points.next[block]) {
     ++looked;
     if (points.count[block] == kBlock) continue;
-    const double d2 = norm2(points.position[static_cast<std::size_t>(block) * kBlock] - at);
+    const double d2 = norm2(position_in(block * kBlock, box) - at);
     if (d2 >= least) continue;
     least = d2;
     nearest = block;
@@ -81,8 +81,7 @@ void Hierarchy::Impl::remove_from_block(std::int32_t slot) {
   slot_of_id[points.id[slot]] = kNone;
   if (slot != last) {
     if (up(0, last) != kNone) levels[1].down[points.leaf[block]] = slot;
-    points.position[slot] = points.position[last];
-    points.id[slot] = points.id[last];
+    points.copy_point(last, slot);
     slot_of_id[points.id[slot]] = slot;
   }
   points.id[last] = kNone;

@@ -110,9 +110,9 @@ void Hierarchy::Impl::adopt_block(const Metric& metric, std::int32_t block, Left
   const auto count = static_cast<std::size_t>(points.count[block]);
   bool together = true;
   for (std::size_t lane = 0; lane < count; ++lane) {
-    const std::size_t slot = static_cast<std::size_t>(block) * kBlock + lane;
+    const std::int32_t slot = block * kBlock + static_cast<std::int32_t>(lane);
     Orphan& orphan = orphans[lane];
-    orphan = {points.id[slot], points.position[slot], kNone, false};
+    orphan = {points.id[slot], position_in(slot, metric), kNone, false};
     const Cover cover = leaf_among(metric, orphan.at, left);
     orphan.leaf = promote(metric, 0, orphan.id, orphan.at, cover);
     orphan.is_center = cover.level > 1 && orphan.leaf != kNone;
