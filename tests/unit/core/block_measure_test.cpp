@@ -81,7 +81,7 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
         EXPECT_EQ(m.wrapped[lane], wrapped);
         extent2 = std::max(extent2, norm2(at));
         uncovered += norm2(at) > covered2;
-        is_plain = is_plain && at == positions[index[lane]] - center;
+        is_plain = is_plain && wrapped == positions[index[lane]] && at == wrapped - center;
         for (int axis = 0; axis < 3; ++axis) {
           EXPECT_EQ(m.offset[axis * kBlock + lane], static_cast<float>(at[axis]));
           EXPECT_LE(m.extremes.low[axis], at[axis]);
