@@ -65,6 +65,21 @@ TEST(ListLimits, NarrowerWhereShiftsAreNearlyExact) {
   });
 }
 
+// What is taken up to its reach has the limit and the margin of a superset with one cutoff.
+TEST(ListLimits, OfAReach) {
+  for_many_lengths([](double length, double unit, double error) {
+    if (error > 0) return;
+    ListParams params;
+    params.cutoffs = TypeCutoffs(length * unit);
+    for (const double shift_error : {0.0, 0.3}) {
+      const ListLimits limits = limits_of(params, unit, 0, 1e300, shift_error);
+      const ReachLimit of_reach = limit_of_reach(length * unit, unit, shift_error);
+      EXPECT_EQ(of_reach.out, limits.all.out) << length;
+      EXPECT_NEAR(of_reach.margin, limits.margin, 1e-9 * unit) << length;
+    }
+  });
+}
+
 TEST(ListLimits, OfOneCutoff) {
   for_many_lengths([](double length, double unit, double error) {
     ListParams params;
