@@ -104,7 +104,7 @@ TEST(ClusterPairFinder, ClustersWithMoreShiftsThanARowCanNameHaveSeveral) {
   for (const std::int32_t others : {65535, 65536, 65537}) {
     HandMadeNodes scene;
     scene.add({9, 0, 0}, {{}, {0.1, 0, 0}});  // with a shift in front of those of the next node
-    const std::int32_t middle = scene.add({});
+    const std::int32_t middle = scene.add({}, {{}, {0, 0.01, 0}});
     scenes::Random random(1);
     for (std::int32_t k = 0; k < others; ++k) scene.join(middle, scene.add(random.in_ball(0.9)));
     const ClusterPairs& pairs = scene.find(1);
@@ -117,10 +117,10 @@ TEST(ClusterPairFinder, ClustersWithMoreShiftsThanARowCanNameHaveSeveral) {
         const auto& shift = pairs.shift[static_cast<std::size_t>(row.first_shift + entry.shift)];
         ASSERT_EQ(shift.from, pairs.origin_of[static_cast<std::size_t>(row.cluster)]);
         ASSERT_EQ(shift.to, pairs.origin_of[static_cast<std::size_t>(entry.cluster)]);
-        ASSERT_EQ(entry.mask, r == 0 ? 2 : 1);
+        ASSERT_EQ(entry.mask, entry.cluster == row.cluster ? 2 : 0x11);
       }
     }
-    std::vector<std::int64_t> expected{1, std::min(others, 65535)};
+    std::vector<std::int64_t> expected{1, 1 + std::min(others, 65535)};
     if (others > 65535) expected.push_back(others - 65535);
     EXPECT_EQ(lengths, expected);
     EXPECT_EQ(scene.finder.work().by_slots, 0);
@@ -176,6 +176,17 @@ TEST(ClusterPairFinder, RoundingLosesNoPairAndKeepsNoneBeyondItsMargin) {
       const double unit = (reach + 0.5 * extent) / 31768;
       EXPECT_LT(margin, 6 * unit + 4 * 0x1p14 * unit * unit / reach) << reach << ", " << extent;
     }
+}
+
+TEST(ClusterPairFinder, HasAWiderMarginFarOutWhereOriginsAreNoIntegers) {
+  double margin[2];
+  for (const int far : {0, 1}) {
+    HandMadeNodes scene;
+    scene.add({1e10 * far, 0, 0}, {{}, {0.5, 0, 0}});
+    scene.find(1);
+    margin[far] = scene.finder.margin();
+  }
+  EXPECT_GT(margin[1], margin[0]);
 }
 
 TEST(ClusterPairFinder, TakesSeveralPartsForEachOfSeveralThreads) {
