@@ -56,6 +56,7 @@ CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_cl
                   "*TasksName*/orthorhombic_ppf",
                   "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
                   "*ClusterPairsScenes.*/triclinic_ppp"])
+LEAF_FRAME = (["unit/core/dch_unit_core"], ["LeafFrame.*"])
 CLUSTER_KERNELS = (["unit/core/dch_unit_core"], ["*ClusterSearchKernelsTest*"])
 FILES = {
     "hierarchy/motion/refresh.cpp": HIERARCHY,
@@ -74,7 +75,7 @@ FILES = {
     "hierarchy/measured_leaves.cpp": LEAVES,
     "leaves/labelled_leaves.cpp": LEAVES,
     "leaves/quantized_leaves.cpp": LEAVES,
-    "leaves/leaf_frame.cpp": LEAVES,
+    "leaves/leaf_frame.cpp": LEAF_FRAME,
     "clusters/cluster_pair_finder.cpp": CLUSTER_PAIRS,
     "clusters/cluster_pair_cuts.cpp": CLUSTER_PAIRS,
     "clusters/cluster_pair_masks.cpp": CLUSTER_PAIRS,
