@@ -44,7 +44,8 @@ TEST(LeafFrame, PeriodsAreAsNearToIntegersAsForAnyOfFortyUnits) {
 }
 
 TEST(LeafFrame, ShiftsAreOffByPeriodsAndRoundings) {
-  const Box brick = Box::orthorhombic({10, 10.37, 9.1}), skewed = Box::triclinic({10, 0, 0}, {1, 10, 0}, {0, 1, 10});
+  const Box brick = Box::orthorhombic({10, 10.37, 9.1}),
+            skewed = Box::triclinic({10, 0, 0}, {1, 10, 0}, {0, 1, 10});
   const auto error = [](const Box& box, double unit, bool one_image, double far) {
     ShiftError of(box, unit, one_image);
     of.add(std::vector<Vec3>{{0, 0, 0}, {0, -far, 0}, {1, 0, 1}});
@@ -58,6 +59,9 @@ TEST(LeafFrame, ShiftsAreOffByPeriodsAndRoundings) {
   EXPECT_EQ(error(Box::none(), 1e-3, true, 3), rounding * 3 / 1e-3);
   EXPECT_EQ(error(brick, 4e-3, true, 20), std::min(0.5, period_off(brick, 4e-3) + rounding * 30.37 / 4e-3));
   EXPECT_LT(error(brick, 1e-2, true, 20), 1e-9);
+  const Box wide = Box::orthorhombic({0x1p18, 0x1p20, 0x1p19});
+  EXPECT_EQ(error(wide, 0x1p-10, true, 0x1p22), rounding * (0x1p22 + 0x1p20) / 0x1p-10);
+  EXPECT_EQ(error(wide, 0x1p-10, true, 0x1p34), 0.5);
 }
 
 TEST(LeafFrame, OriginsAreMultiplesOfTheUnitUnlessPositionsHaveNoSuchDigits) {
@@ -70,7 +74,8 @@ TEST(LeafFrame, OriginsAreMultiplesOfTheUnitUnlessPositionsHaveNoSuchDigits) {
 }
 
 TEST(LeafFrame, ShiftsHaveTwoPartsOfOneSign) {
-  for (const double units : {0.0, 0.4, 0.6, -0.6, 1.0, -1.0, 7.2, -7.2, 32767.0, 65533.0, -65533.0, 65534.0}) {
+  for (const double units :
+       {0.0, 0.4, 0.6, -0.6, 1.0, -1.0, 7.2, -7.2, 32767.0, 65533.0, -65533.0, 65534.0}) {
     std::int16_t part[2];
     split_shift(units, part);
     EXPECT_EQ(part[0] + part[1], static_cast<int>(std::nearbyint(units)));
