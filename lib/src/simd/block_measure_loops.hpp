@@ -156,12 +156,12 @@ inline void round_block_loops(const double* positions, const std::int32_t* index
 
 inline bool offset_block_loops(const BrickCell& cell, const double* positions, const std::int32_t* index,
                                std::int32_t count, const double* center, float* offset) {
+  Lanes at[3], relative;
   Masks outside{}, moved{};
   const BlockLanes points(positions, index, count);
   for (int axis = 0; axis < 3; ++axis) {
-    Lanes at, relative;
-    points.load(axis, at);
-    measure_axis(cell, axis, center[axis], at, relative, outside, moved);
+    points.load(axis, at[axis]);
+    measure_axis(cell, axis, center[axis], at[axis], relative, outside, moved);
     store_rounded(relative, offset + axis * kBlock);
   }
   return is_none(outside);
