@@ -34,22 +34,23 @@ SKIPPED_FUNCTIONS = {"memory_bytes", "ask_for"}
 SKIPPED_LINES = r"seconds|stats\.distances|stats\.visited|\btested\b|\bClock\b|counting|__builtin_prefetch|\bask_for\b"
 
 # What is run for a file: objects of test programs, and which of their tests, stage by stage.
-HIERARCHY = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
+HIERARCHY = (["unit/core/dch_unit_core", "unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
              ["*Certificate*:Repair.*:Maintenance*:Update.*:Singletons.*:Insertion.*:Removal.*:PackingOf*:"
               "*RepairOfSmallScenes*",
               "Work.*:Visits.*:KeptBalls.*:HierarchyTest.*:HierarchyStats.*:Validate*:AutomaticPolicy*:*/Packing.Edges*:"
               "*/Packing.TheCheck*/D1",
               "HierarchyMotion.NoMotion*:HierarchyMotion.Boxes*:HierarchyChurn.*:HierarchySparse*:"
               "*/HierarchySparse.*/none",
-              "*/HierarchyChurn.*/orthorhombic_ppf:*/HierarchyMotion.*/orthorhombic_ppf:*/ListSizes.UnderMotion/none"])
+              "*/HierarchyChurn.*/orthorhombic_ppf:*/HierarchyMotion.*/orthorhombic_ppf:*/ListSizes.UnderMotion/none",
+              "*/EngineMemory.*"])
 STALE_TEST = (["unit/core/dch_unit_core", "property/dch_property_expiry"], ["*StaleTest*:*VerletList*", "*AffineMotion*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
 LATTICE = (["unit/core/dch_unit_core"], ["Lattice.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
-LEAVES = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
-                  ["MeasuredLeaves*:LabelledLeaves*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
+LEAVES = (["unit/core/dch_unit_core", "unit/hierarchy/dch_unit_hierarchy", "property/dch_property_hierarchy"],
+          ["MeasuredLeaves*:LabelledLeaves*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*", "*/EngineMemory.*"])
 CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_clusters"],
                  ["ClusterPairFinder.*:Work.OfClusterPairs*",
                   "ClusterPairsTest.*:ClusterPairsEdges.*:*ClusterPairsScenes.LeaveOut*/orthorhombic_ppf:"
