@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <dch/engines/pair_search.hpp>
+
 #include "cluster_pair_check.hpp"
 #include "list_params.hpp"
 #include "listed_hierarchy.hpp"
@@ -70,6 +72,23 @@ TEST(ClusterPairsEdges, RoundingLosesNoPairAtTheCutoffAndKeepsFewBeyond) {
         across += (i < j ? i : j) % 2 != (i < j ? j : i) % 2;
       });
       ASSERT_EQ(across > 0, beyond == 0) << trial;
+    }
+  }
+}
+
+// Engines keep no positions in blocks: clusters are cut from the positions as given, in other images too.
+TEST(ClusterPairsEdges, OfEnginesAreThoseOfThePositionsAsGiven) {
+  for (const Box& box :
+       {Box::none(), Box::orthorhombic({6, 6, 6}), Box::triclinic({6, 0, 0}, {2, 6, 0}, {-1, 1.5, 6})}) {
+    std::vector<Vec3> points = scenes::uniform(500, {6, 6, 6}, 9);
+    scenes::Random random(10);
+    const auto search = make_search("dch", {1.2, MaintenancePolicy::automatic});
+    for (int step = 0; step < 6; ++step) {
+      search->update(points, box);
+      ClusterPairs pairs;
+      search->cluster_pairs(within(1.2), pairs);
+      ASSERT_EQ(cluster_pair_fault(pairs, points, box, within(1.2)), "") << step;
+      for (Vec3& point : points) point = point + random.in_ball(0.3);
     }
   }
 }
