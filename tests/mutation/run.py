@@ -46,6 +46,7 @@ HIERARCHY = (["unit/core/dch_unit_core", "unit/hierarchy/dch_unit_hierarchy", "p
 STALE_TEST = (["unit/core/dch_unit_core", "property/dch_property_expiry"], ["*StaleTest*:*VerletList*", "*AffineMotion*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
+ORDERED_ROWS = (["unit/core/dch_unit_core"], ["*OrderedRows*:RowParts.*"])
 LATTICE = (["unit/core/dch_unit_core"], ["Lattice.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])
@@ -71,6 +72,7 @@ FILES = {
     "simd/list_kernels_loops.hpp": LIST_KERNELS,
     "simd/list_rows_loops.hpp": LIST_KERNELS,
     "lists/pair_filter.cpp": PAIR_FILTER,
+    "lists/ordered_rows.cpp": ORDERED_ROWS,
     "geometry/lattice.cpp": LATTICE,
     "lists/list_limits.cpp": LIST_LIMITS,
     "hierarchy/measured_leaves.cpp": LEAVES,

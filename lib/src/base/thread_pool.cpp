@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <sched.h>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -14,9 +16,17 @@
 namespace dch {
 namespace {
 
+constexpr int kSpins = 2000;  ///< 30 to 100 microseconds
+
+/// Whether that many threads of this process may run at once: one that spins would else hold up another.
+bool has_processors_for(int threads) {
+  cpu_set_t allowed;
+  return sched_getaffinity(0, sizeof allowed, &allowed) == 0 && CPU_COUNT(&allowed) >= threads;
+}
+
 class ThreadPool final : public Executor {
  public:
-  explicit ThreadPool(int threads) {
+  explicit ThreadPool(int threads) : spins_(has_processors_for(threads) ? kSpins : 0) {
     try {
       for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
     } catch (const std::system_error& error) {
@@ -41,6 +51,11 @@ class ThreadPool final : public Executor {
       wake_.notify_all();
     }
     take_parts(job, lock);
+    if (job.open > 0) {
+      lock.unlock();
+      spin_until([&] { return job.open == 0; });
+      lock.lock();
+    }
     ended_.wait(lock, [&] { return job.open == 0; });
     if (job.error) std::rethrow_exception(job.error);
   }
@@ -51,9 +66,9 @@ class ThreadPool final : public Executor {
   /// threads wait for each other, however calls are nested.
   struct Job {
     const std::function<void(int)>& task;
-    int parts;
-    int open;       ///< parts that have not ended
-    int begun = 0;  ///< parts
+    const int parts;
+    std::atomic<int> open;  ///< parts that have not ended
+    int begun = 0;          ///< parts
     std::exception_ptr error = nullptr;
     Job* next = nullptr;  ///< the job that came before it, of those with parts to begin
   };
@@ -68,12 +83,28 @@ class ThreadPool final : public Executor {
   }
 
   void work() {
-    std::unique_lock lock(mutex_);
+    const auto is_wanted = [this] { return closing_ || newest_ != nullptr; };
     for (;;) {
-      wake_.wait(lock, [this] { return closing_ || newest_ != nullptr; });
+      spin_until(is_wanted);
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, is_wanted);
       if (closing_) return;
       take_parts(*newest_, lock);  // which older jobs wait for, if it is nested
     }
+  }
+
+  /// Looks for some microseconds before a thread goes to sleep: to wake it takes tens of them, and a list is
+  /// made by calls that follow each other at once.
+  template <class Condition>
+  void spin_until(const Condition& condition) const {
+    for (int k = 0; k < spins_ && !condition(); ++k) pause();
+  }
+  static void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
   }
 
   /// Runs parts of a job as long as there are any to begin. When it returns, the job may be gone.
@@ -98,17 +129,23 @@ class ThreadPool final : public Executor {
 
   /// Takes a job with no parts to begin out of the chain.
   void leave_out(const Job& job) {
-    for (Job** link = &newest_; *link != nullptr; link = &(*link)->next) {
-      if (*link != &job) continue;
-      *link = job.next;
+    if (newest_ == &job) {
+      newest_ = job.next;
+      return;
+    }
+    for (Job* before = newest_; before != nullptr; before = before->next) {
+      if (before->next != &job) continue;
+      before->next = job.next;
       return;
     }
   }
 
   std::mutex mutex_;
   std::condition_variable wake_, ended_;  ///< for a job, and for the last part of one
-  Job* newest_ = nullptr;                 ///< of the jobs with parts to begin
-  bool closing_ = false;
+  // Changed under the mutex; a thread that spins reads them without it.
+  std::atomic<Job*> newest_{nullptr};  ///< of the jobs with parts to begin
+  std::atomic<bool> closing_{false};
+  const int spins_;
   std::vector<std::thread> workers_;  // last, so that what they use is there when they start
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,15 +13,10 @@
 #include <dch/lists/list_maker.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#include "lists/ordered_rows.hpp"
 #include "lists/row_finder.hpp"
 
 namespace dch::detail {
-
-/// Makes an empty half list, rows of which are to be appended.
-void start_rows(NeighborList& list);
-
-/// Puts lists behind each other: out, then the pieces.
-void append_pieces(Executor& executor, const std::vector<const NeighborList*>& pieces, NeighborList& out);
 
 /// Finds the rows of many places (leaves, cells) on several threads, each of which has what it takes: the
 /// Gatherer that puts the candidates near a place side by side, and the RowFinder that tests them. The rows
@@ -45,20 +42,7 @@ class RowParts {
       for (std::size_t r = 0; r < out.size(); ++r) std::swap(part.lists[r], *out[r]);
       return;
     }
-    const int shares = kSlicesPerThread * executor->threads();
-    parts_.resize(static_cast<std::size_t>(shares));
-    executor->run(shares, [&](int share) {
-      Part& part = parts_[static_cast<std::size_t>(share)];
-      part.lists.resize(out.size());
-      for (NeighborList& list : part.lists) start_rows(list);
-      find_part(part, share, shares);
-    });
-    for (std::size_t r = 0; r < out.size(); ++r) {
-      std::vector<const NeighborList*> pieces;
-      pieces.reserve(parts_.size());
-      for (const Part& part : parts_) pieces.push_back(&part.lists[r]);
-      append_pieces(*executor, pieces, *out[r]);
-    }
+    find_in_pieces(*executor, out, find_part);
   }
 
   /// Of all searches so far, with the present number of threads.
@@ -74,21 +58,88 @@ class RowParts {
     std::size_t bytes = 0;
     for (const Part& part : parts_) {
       bytes += part.gatherer.memory_bytes() + part.finder.memory_bytes();
-      for (const NeighborList& piece : part.lists)
-        bytes += (piece.first.capacity() + piece.near_end.capacity()) * sizeof(std::int64_t) +
-                 (piece.particle.capacity() + piece.j.capacity()) * sizeof(std::int32_t);
+      bytes += bytes_of(part.lists);
+      for (const Piece& piece : part.spare) bytes += bytes_of(piece.lists);
     }
     return bytes;
   }
 
  private:
-  /// Slices of the work for each thread, so that none waits long for the last one.
-  static constexpr int kSlicesPerThread = 4;
-  struct Part {
+  /// Rows of a share that are not in their place yet.
+  struct Piece {
+    int share = 0;
+    std::vector<NeighborList> lists{};
+  };
+  struct Part {  // of a thread
     Gatherer gatherer;
     RowFinder finder;
     std::vector<NeighborList> lists;
+    std::vector<Piece> waiting, spare;
   };
+
+  /// Shares are small, so that what a thread has found is in its cache when it goes to its place.
+  template <class FindPart>
+  void find_in_pieces(Executor& executor, const std::vector<NeighborList*>& out, const FindPart& find_part) {
+    const int threads = executor.threads();
+    std::size_t entries = 0;
+    for (const NeighborList* list : out) entries = std::max(entries, list->j.size());
+    const int shares =
+        std::max(kSharesPerThread * threads,
+                 static_cast<int>(std::min(entries / kEntriesOfShare, std::size_t{kMostShares})));
+    parts_.resize(static_cast<std::size_t>(threads));
+    OrderedRows rows(out, shares);
+    std::atomic<int> next{0};
+    const auto find_shares = [&](int thread) {
+      Part& part = parts_[static_cast<std::size_t>(thread)];
+      part.waiting.clear();  // there may be some of lists that were not finished
+      for (int share = next++; share < shares; share = next++) {
+        part.lists.resize(out.size());
+        for (NeighborList& list : part.lists) start_rows(list);
+        find_part(part, share, shares);
+        rows.count(share, part.lists.data());
+        part.waiting.push_back({share, std::move(part.lists)});
+        place_waiting(rows, part, kSpare);
+        part.lists = {};
+        if (part.spare.empty()) continue;
+        part.lists = std::move(part.spare.back().lists);
+        part.spare.pop_back();
+      }
+    };
+    try {
+      executor.run(threads, find_shares);
+    } catch (...) {
+      for (NeighborList* list : out) start_rows(*list);
+      throw;
+    }
+    rows.make_room();
+    executor.run(threads,
+                 [&](int thread) { place_waiting(rows, parts_[static_cast<std::size_t>(thread)], 0); });
+  }
+
+  /// Keeps the memory of so many pieces for the next ones: not where lists had no room, and pieces are large.
+  static void place_waiting(const OrderedRows& rows, Part& part, std::size_t kept) {
+    const auto is_placed = [&](Piece& piece) {
+      if (!rows.place(piece.share, piece.lists.data())) return false;
+      if (part.spare.size() < kept) part.spare.push_back(std::move(piece));
+      return true;
+    };
+    part.waiting.erase(std::remove_if(part.waiting.begin(), part.waiting.end(), is_placed),
+                       part.waiting.end());
+  }
+
+  static std::size_t bytes_of(const std::vector<NeighborList>& lists) {
+    std::size_t bytes = 0;
+    for (const NeighborList& list : lists)
+      bytes += (list.first.capacity() + list.near_end.capacity()) * sizeof(std::int64_t) +
+               (list.particle.capacity() + list.j.capacity()) * sizeof(std::int32_t);
+    return bytes;
+  }
+
+  /// Shares of the work for each thread at least, so that none waits long for the last one.
+  static constexpr int kSharesPerThread = 4;
+  static constexpr std::size_t kEntriesOfShare = 1 << 15;  ///< about: 128 kB
+  static constexpr int kMostShares = 1 << 14;
+  static constexpr std::size_t kSpare = 2;
   std::vector<Part> parts_;
 };
 

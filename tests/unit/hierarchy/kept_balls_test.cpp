@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Balls that a hierarchy keeps up are given up where it is repaired, and measured anew when they are wanted.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,24 @@ class KeptBalls : public testing::Test {
             << slot << " below node " << node << " of level " << level;
     }
   }
+  /// The boxes of a leaf are those of the blocks in its chain, each once, and a node that is gone has none.
+  void expect_boxes_of_chains() {
+    const detail::Structure& structure = hierarchy_.kept_view().structure();
+    const detail::Level& leaves = structure.levels[1];
+    for (std::int32_t leaf = 0; leaf < leaves.size(); ++leaf) {
+      std::vector<std::int32_t> boxed, chained;
+      const float any = std::numeric_limits<float>::infinity();
+      structure.balls->boxes().for_each_within(leaf, {}, any,
+                                               [&](std::int32_t block, float) { boxed.push_back(block); });
+      if (leaves.is_alive(leaf))
+        for (std::int32_t block = leaves.first_child[leaf]; block != detail::kNone;
+             block = structure.points.next[block])
+          chained.push_back(block);
+      std::sort(boxed.begin(), boxed.end());
+      std::sort(chained.begin(), chained.end());
+      ASSERT_EQ(boxed, chained) << leaf;
+    }
+  }
   /// Removes so many points, centers among them, and inserts as many.
   void exchange(int count) {
     for (int k = 0; k < count; ++k) {
@@ -100,6 +120,15 @@ TEST_F(KeptBalls, HoldTheirPointsAsPointsComeAndGo) {
     exchange(50);
     expect_covering();
   }
+}
+
+// A block that lost its last point serves another leaf; a query that found it in both would count points
+// twice.
+TEST_F(KeptBalls, HaveABoxForEachBlockThatALeafHas) {
+  for (std::int32_t id = 0; id < 3600; ++id) hierarchy_.remove(id);
+  expect_boxes_of_chains();
+  for (const Vec3 p : scenes::uniform(2000, {10, 10, 20}, 5)) hierarchy_.insert(p);
+  expect_boxes_of_chains();
 }
 
 TEST_F(KeptBalls, HoldTheirPointsWhereNewNodesStand) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 
 #include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
 
 #include "base/seconds_since.hpp"
 #include "geometry/position_check.hpp"
@@ -72,19 +74,28 @@ void Hierarchy::Impl::update(Span<const Vec3> positions, const Box& b) {
 /// Returns a bound on their WrapError::reach.
 double Hierarchy::Impl::take_positions(Span<const Vec3> positions, const Box& b) {
   constexpr std::size_t kAtATime = 1024;
+  std::mutex joining;
   double reach = 0;
-  for (std::size_t first = 0; first < positions.size(); first += kAtATime) {
-    const std::size_t count = std::min(kAtATime, positions.size() - first);
-    std::copy_n(positions.begin() + first, count, raw.begin() + static_cast<std::ptrdiff_t>(first));
-    for (std::size_t id = first; id < first + count && !free_ids.empty(); ++id)
-      if (slot_of_id[id] == kNone) raw[id] = b.origin();
-    try {
-      reach = std::max(reach, detail::check_positions({raw.data() + first, count}, b));
-    } catch (const InvalidPosition&) {
-      detail::check_positions({raw.data(), first + count}, b);  // which names the index
-      throw;
+  bool are_valid = true;
+  for_ranges(params.executor, positions.size(), [&](std::size_t begin, std::size_t end) {
+    double largest = 0;
+    bool valid = true;
+    for (std::size_t first = begin; first < end; first += kAtATime) {
+      const std::size_t count = std::min(kAtATime, end - first);
+      std::copy_n(positions.begin() + first, count, raw.begin() + static_cast<std::ptrdiff_t>(first));
+      for (std::size_t id = first; id < first + count && !free_ids.empty(); ++id)
+        if (slot_of_id[id] == kNone) raw[id] = b.origin();
+      try {
+        largest = std::max(largest, detail::check_positions({raw.data() + first, count}, b));
+      } catch (const InvalidPosition&) {
+        valid = false;
+      }
     }
-  }
+    const std::lock_guard lock(joining);
+    reach = std::max(reach, largest);
+    are_valid = are_valid && valid;
+  });
+  if (!are_valid) detail::check_positions({raw.data(), positions.size()}, b);  // which names the index
   return reach;
 }
 
