@@ -20,16 +20,23 @@ constexpr std::size_t kAwayOfOne = 32;
 ClusterPairKeeper::ClusterPairKeeper(double cutoffDistance, const dch::Exclusions& exclusions,
                                      dch::Executor& executor)
     : cutoff(cutoffDistance), pool(executor) {
+  request.cutoffs = dch::TypeCutoffs(cutoff);
   request.exclusions = &exclusions;
-  setTypes({}, 1);
 }
 
-void ClusterPairKeeper::setTypes(std::vector<std::int32_t> types, int typeCount) {
+void ClusterPairKeeper::setTypes(std::vector<std::int32_t> types, int count) {
   particleTypes = std::move(types);
-  const auto side = static_cast<std::size_t>(typeCount);
-  request.types = particleTypes;
-  request.cutoffs = dch::TypeCutoffs(typeCount, std::vector<double>(side * side, cutoff));
-  if (expiry) expiry->forget();
+  typeCount = count;
+  labelPairs();
+}
+
+/// Which pairs there are does not depend on types: all have one cutoff.
+void ClusterPairKeeper::labelPairs() {
+  pairs.types = typeCount;
+  for (std::size_t k = 0; k < pairs.particle.size(); ++k) {
+    const bool isTyped = typeCount > 1 && pairs.particle[k] >= 0;
+    pairs.type[k] = isTyped ? particleTypes[static_cast<std::size_t>(pairs.particle[k])] : 0;
+  }
 }
 
 bool ClusterPairKeeper::fits(const dch::Box& box) const {
@@ -91,6 +98,7 @@ const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positi
   search->update(positions, box);  // checks them
   search->cluster_pairs(request, pairs);
   ++searchCount;
+  labelPairs();
   if (box.any_periodic()) rememberPeriods(positions, box);
   expiry->remember(positions, box, request);
   return pairs;

@@ -20,8 +20,8 @@ class ClusterPairKeeper {
   /// @param executor, exclusions  outlive this
   ClusterPairKeeper(double cutoffDistance, const dch::Exclusions& exclusions, dch::Executor& executor);
 
-  /// Types of the particles, from 0 to typeCount - 1. Empty for one type.
-  void setTypes(std::vector<std::int32_t> types, int typeCount);
+  /// Types of the particles, from 0 to count - 1. Empty for one type. Pairs are kept.
+  void setTypes(std::vector<std::int32_t> types, int count);
 
   /// Whether pairs can be kept in this box. If not, all pairs of particles have to be looked at.
   bool fits(const dch::Box& box) const;
@@ -32,6 +32,7 @@ class ClusterPairKeeper {
 
  private:
   void chooseSkin(const dch::Box& box);
+  void labelPairs();
   /// Remembers by which periods of the box positions are brought to their clusters, unless few are elsewhere.
   void rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box);
   /// Positions moved by those periods, where there are any. OpenMM lets particles wander through any number
@@ -42,6 +43,7 @@ class ClusterPairKeeper {
   dch::Executor& pool;
   dch::ListParams request;
   std::vector<std::int32_t> particleTypes;
+  int typeCount = 1;
   std::unique_ptr<dch::PairSearch> search;
   std::optional<dch::ExpiryTest> expiry;
   dch::ClusterPairs pairs;

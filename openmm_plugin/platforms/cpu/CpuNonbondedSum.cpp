@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace OpenMMDCH {
@@ -12,6 +11,27 @@ namespace {
 // Kinds of particles whose pairs the kernels can keep in registers. With more, parameters are mixed pair by
 // pair: as fast whatever their number.
 constexpr std::size_t kMaxKinds = 4;
+
+struct Kinds {
+  std::vector<dch::LennardJonesParticle> all;  ///< those without epsilon are one
+  std::vector<std::int32_t> of;                ///< by particle
+};
+
+/// None of either if there are too many.
+Kinds kindsOf(const std::vector<DCHParameterSet::Particle>& particles) {
+  Kinds kinds;
+  kinds.of.reserve(particles.size());
+  for (const auto& p : particles) {
+    const dch::LennardJonesParticle kind{p.epsilon, p.epsilon > 0 ? p.sigma : 0};
+    const auto isIt = [&](const auto& k) { return k.epsilon == kind.epsilon && k.sigma == kind.sigma; };
+    const auto found = std::find_if(kinds.all.begin(), kinds.all.end(), isIt);
+    kinds.of.push_back(static_cast<std::int32_t>(found - kinds.all.begin()));
+    if (found != kinds.all.end()) continue;
+    if (kinds.all.size() == kMaxKinds) return {};
+    kinds.all.push_back(kind);
+  }
+  return kinds;
+}
 
 }  // namespace
 
@@ -40,32 +60,24 @@ void CpuNonbondedSum::makeForcesOfAllPairs() {
 }
 
 void CpuNonbondedSum::makeForces() {
-  const auto& particles = parameters().particles();
   const double cutoff = potential().cutoffDistance();
-  std::map<std::pair<double, double>, std::int32_t> kinds;  // sigma and epsilon
-  std::vector<std::int32_t> kindOf;
-  std::vector<dch::LennardJonesParticle> parametersOf;
-  for (const auto& p : particles) {
-    const std::pair<double, double> kind(p.epsilon > 0 ? p.sigma : 0, p.epsilon);
-    kindOf.push_back(kinds.try_emplace(kind, static_cast<std::int32_t>(kinds.size())).first->second);
-    parametersOf.push_back({p.epsilon, p.sigma});
-  }
-  std::size_t side = kinds.size();
-  if (side <= kMaxKinds) {
-    std::vector<dch::LennardJonesPair> matrix(side * side);
-    for (const auto& [a, kindA] : kinds)
-      for (const auto& [b, kindB] : kinds)
-        matrix[static_cast<std::size_t>(kindA) * side + static_cast<std::size_t>(kindB)] = {
-            std::sqrt(a.second * b.second), 0.5 * (a.first + b.first), cutoff};
+  Kinds kinds = kindsOf(parameters().particles());
+  const std::size_t side = kinds.all.size();
+  if (side > 0) {
+    std::vector<dch::LennardJonesPair> matrix;
+    for (const auto& a : kinds.all)
+      for (const auto& b : kinds.all)
+        matrix.push_back({std::sqrt(a.epsilon * b.epsilon), 0.5 * (a.sigma + b.sigma), cutoff});
     forces.emplace(static_cast<int>(side), matrix, potential().hasDispersionSum());
   } else {
+    std::vector<dch::LennardJonesParticle> parametersOf;
+    for (const auto& p : parameters().particles()) parametersOf.push_back({p.epsilon, p.sigma});
     forces.emplace(cutoff, parametersOf);
-    side = 1;
-    kindOf.clear();
   }
   forces->set_executor(&executor);
-  keeper->setTypes(std::move(kindOf), static_cast<int>(side));
-  setCharges(side * side);
+  const std::size_t types = std::max(side, std::size_t{1});
+  keeper->setTypes(std::move(kinds.of), static_cast<int>(types));
+  setCharges(types * types);
   if (potential().hasDispersionSum()) setDispersion();
   if (potential().isSwitched()) forces->set_switch(potential().switchingDistance());
 }

@@ -116,6 +116,31 @@ TEST(ClusterPairKeeperTest, PairsAreKeptWhileNoneIsMissing) {
   }
 }
 
+TEST(ClusterPairKeeperTest, OtherTypesMakeNoNewSearch) {
+  const Box box = Box::orthorhombic({3, 3.2, 3.4});
+  dch::scenes::Random random(10);
+  std::vector<Vec3> positions = jittered_lattice(8, box, random);
+  const auto executor = dch::make_thread_pool(1);
+  const dch::Exclusions none;
+  ClusterPairKeeper keeper(kCutoff, none, *executor);
+  for (const int types : {3, 1, 4, 2}) {
+    std::vector<std::int32_t> type;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      type.push_back(static_cast<std::int32_t>(random.below(types)));
+    keeper.setTypes(types == 1 ? std::vector<std::int32_t>() : type, types);
+    for (const bool jumps : {false, types == 4}) {
+      if (jumps) positions[0] = positions[0] + Vec3{1.5, 0, 0};
+      const dch::ClusterPairs& pairs = keeper.at(positions, box);
+      EXPECT_EQ(pairs.types, types);
+      for (std::size_t k = 0; k < pairs.particle.size(); ++k) {
+        const bool is_typed = types > 1 && pairs.particle[k] >= 0;
+        EXPECT_EQ(pairs.type[k], is_typed ? type[static_cast<std::size_t>(pairs.particle[k])] : 0);
+      }
+    }
+  }
+  EXPECT_EQ(keeper.searches(), 2);
+}
+
 // Two particles that are paired in one image, and come near each other in the next one.
 TEST(ClusterPairKeeperTest, AnotherImageOfAPairIsSeen) {
   constexpr double kSkin = 0.1 * kCutoff, kSide = 2 * (kCutoff + kSkin) + 1e-6;
