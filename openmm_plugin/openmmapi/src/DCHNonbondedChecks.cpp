@@ -15,6 +15,9 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw OpenMMException("DCHNonbondedForce: " + what); }
 
+/// Of a number that may be OpenMM's own force's.
+[[noreturn]] void refuseNumber(const std::string& what) { throw OpenMMException("openmm_dch: " + what); }
+
 void checkCutoff(const DCHNonbondedForce& force, const OpenMM::System& system) {
   const double cutoff = force.getCutoffDistance();
   if (!(std::isfinite(cutoff) && cutoff > 0))
@@ -34,7 +37,7 @@ void checkCutoff(const DCHNonbondedForce& force, const OpenMM::System& system) {
   if (force.getNonbondedMethod() != DCHNonbondedForce::CutoffPeriodic) return;
   OpenMM::Vec3 box[3];
   system.getDefaultPeriodicBoxVectors(box[0], box[1], box[2]);
-  checkBox(box, cutoff);
+  checkBox(box, cutoff, "DCHNonbondedForce");
 }
 
 void checkParticles(const DCHNonbondedForce& force) {
@@ -98,20 +101,27 @@ std::string textOf(double value) {
 
 void checkNotNegative(const std::string& name, double value, const std::string& of) {
   if (!(std::isfinite(value) && value >= 0))
-    refuse(name + " of " + of + " is " + textOf(value) + "; it must be finite and not negative");
+    refuseNumber(name + " of " + of + " is " + textOf(value) + "; it must be finite and not negative");
 }
 
 void checkFinite(const std::string& name, double value, const std::string& of) {
-  if (!std::isfinite(value)) refuse(name + " of " + of + " is " + textOf(value) + "; it must be finite");
+  if (!std::isfinite(value))
+    refuseNumber(name + " of " + of + " is " + textOf(value) + "; it must be finite");
 }
 
-void checkBox(const OpenMM::Vec3* boxVectors, double cutoff) {
+void checkBox(const OpenMM::Vec3* boxVectors, double cutoff, const std::string& complaint) {
   for (int axis = 0; axis < 3; ++axis) {
     const double width = boxVectors[axis][axis];
     if (!(cutoff <= 0.5 * width))
-      refuse("the cutoff distance " + textOf(cutoff) + " nm exceeds half of the periodic box, which is " +
-             textOf(width) + " nm wide along " + "xyz"[axis] + "; choose a smaller cutoff or a larger box");
+      throw OpenMMException(complaint + ": the cutoff distance " + textOf(cutoff) +
+                            " nm exceeds half of the periodic box, which is " + textOf(width) +
+                            " nm wide along " + "xyz"[axis] + "; choose a smaller cutoff or a larger box");
   }
+}
+
+void checkBoxOfNow(const OpenMM::Vec3* boxVectors, double cutoff) {
+  checkBox(boxVectors, cutoff,
+           "The periodic box size has decreased to less than twice the nonbonded cutoff");  // as OpenMM says
 }
 
 void checkForce(const DCHNonbondedForce& force, const OpenMM::System& system) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <openmm/OpenMMException.h>
+#include <utility>
 
 #include "internal/DCHNonbondedChecks.h"
 
@@ -11,9 +12,17 @@ namespace OpenMMDCH {
 namespace {
 
 [[noreturn]] void refuseNumber(const std::string& what, std::size_t before, int now) {
-  throw OpenMM::OpenMMException("updateParametersInContext: the number of " + what + " has changed from " +
+  throw OpenMM::OpenMMException("updateParametersInContext: The number of " + what + " has changed from " +
                                 std::to_string(before) + " to " + std::to_string(now) +
                                 "; reinitialize the Context");
+}
+
+/// OpenMM looks at these when a Context is made alone.
+void checkIndex(const std::string& what, int index, std::size_t count) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return;
+  throw OpenMM::OpenMMException("updateParametersInContext: Illegal " + what + " index for a" +
+                                (what == "exception" ? "n " : " ") + what +
+                                " parameter offset: " + std::to_string(index));
 }
 
 /// OpenMM lets NaN pass where parameters are updated, and NonbondedForce at first too. Compared with the
@@ -55,23 +64,31 @@ void DCHParameterSet::take(const OpenMM::NonbondedForce& force) {
           std::to_string(before.particle1) + " and " + std::to_string(before.particle2) + " and is now for " +
           std::to_string(e.particle1) + " and " + std::to_string(e.particle2) + "; reinitialize the Context");
   }
-  baseExceptions = exceptions;
+  takeOffsets(force);  // the last that may throw
+  baseExceptions = std::move(exceptions);
   for (std::size_t i = 0; i < baseParticles.size(); ++i) {
     Particle& p = baseParticles[i];
     force.getParticleParameters(static_cast<int>(i), p.charge, p.sigma, p.epsilon);
   }
-  particleOffsets.resize(static_cast<std::size_t>(force.getNumParticleParameterOffsets()));
-  for (std::size_t k = 0; k < particleOffsets.size(); ++k) {
-    Offset& o = particleOffsets[k];
-    force.getParticleParameterOffset(static_cast<int>(k), o.parameter, o.index, o.charge, o.sigma, o.epsilon);
-  }
-  exceptionOffsets.resize(static_cast<std::size_t>(force.getNumExceptionParameterOffsets()));
-  for (std::size_t k = 0; k < exceptionOffsets.size(); ++k) {
-    Offset& o = exceptionOffsets[k];
-    force.getExceptionParameterOffset(static_cast<int>(k), o.parameter, o.index, o.charge, o.sigma,
-                                      o.epsilon);
-  }
   isCurrent = false;
+}
+
+void DCHParameterSet::takeOffsets(const OpenMM::NonbondedForce& force) {
+  std::vector<Offset> ofParticles, ofExceptions;
+  for (int k = 0; k < force.getNumParticleParameterOffsets(); ++k) {
+    Offset o;
+    force.getParticleParameterOffset(k, o.parameter, o.index, o.charge, o.sigma, o.epsilon);
+    checkIndex("particle", o.index, baseParticles.size());
+    ofParticles.push_back(std::move(o));
+  }
+  for (int k = 0; k < force.getNumExceptionParameterOffsets(); ++k) {
+    Offset o;
+    force.getExceptionParameterOffset(k, o.parameter, o.index, o.charge, o.sigma, o.epsilon);
+    checkIndex("exception", o.index, baseExceptions.size());
+    ofExceptions.push_back(std::move(o));
+  }
+  particleOffsets = std::move(ofParticles);
+  exceptionOffsets = std::move(ofExceptions);
 }
 
 bool DCHParameterSet::follow(OpenMM::ContextImpl& context) {

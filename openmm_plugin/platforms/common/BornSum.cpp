@@ -31,7 +31,7 @@ void addForce(const HostState& state, std::size_t i, std::size_t j, dch::Vec3 fo
 
 double BornSum::add(OpenMM::ContextImpl& context, bool includeEnergy) {
   return withErrorsOfHost([&] {
-    if (model.isPeriodic) checkBox(boxVectorsOf(context), model.cutoff);
+    if (model.isPeriodic) checkBoxOfNow(boxVectorsOf(context), model.cutoff);
     const HostState state = hostStateOf(context, model.isPeriodic);
     follow(state);
     integrals.assign(model.particles.size(), 0);

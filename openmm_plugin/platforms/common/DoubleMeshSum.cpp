@@ -4,6 +4,8 @@
 #include <openmm/reference/ReferencePME.h>
 #include <openmm/reference/ReferencePlatform.h>
 
+#include "HostErrors.h"
+
 namespace OpenMMDCH {
 namespace {
 
@@ -44,7 +46,11 @@ void execute(void* function, bool isOfDispersion, PlatformData& data, const std:
 
 }  // namespace
 
-void DoubleMeshSum::start(int particles) { function = makeFunction(alpha, particles, grid); }
+/// OpenMM's function does not look at its numbers, and ends the program without a grid.
+void DoubleMeshSum::start(int particles) {
+  withErrorsOfHost([&] { dch::EwaldMesh(std::array<int, 3>{grid[0], grid[1], grid[2]}, alpha, 1, what); });
+  function = makeFunction(alpha, particles, grid);
+}
 
 double DoubleMeshSum::addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) {
   double energy = 0;

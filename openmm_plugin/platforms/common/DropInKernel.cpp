@@ -2,6 +2,7 @@
 #include "DropInKernel.h"
 
 #include <openmm/OpenMMException.h>
+#include <set>
 #include <utility>
 
 #include "internal/DropInRegistry.h"
@@ -21,9 +22,10 @@ std::string reasonForNative(const NonbondedForce& force) {
   return "";
 }
 
-void readGrid(const ReciprocalSum* sum, double& alpha, int& nx, int& ny, int& nz) {
+void readGrid(const ReciprocalSum* sum, const std::string& methods, double& alpha, int& nx, int& ny,
+              int& nz) {
   if (!sum || !sum->gridSize())
-    throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using PME");
+    throw OpenMM::OpenMMException("getPMEParametersInContext: This Context is not using " + methods);
   alpha = sum->splitting();
   nx = sum->gridSize()[0];
   ny = sum->gridSize()[1];
@@ -34,6 +36,25 @@ void readGrid(const ReciprocalSum* sum, double& alpha, int& nx, int& ny, int& nz
 std::string reasonForNative(double splittingTimesCutoff) {
   constexpr double kMax = 6;  // of the series of dch::CoulombTerm and dch::DispersionTerm
   return splittingTimesCutoff <= kMax ? "" : "the splitting parameter times the cutoff is over 6";
+}
+
+/// How many exceptions act, or may by an offset: OpenMM has this number stay.
+int countOfActingExceptions(const NonbondedForce& force) {
+  std::string parameter;
+  int k, i, j;
+  double first, second, third;
+  std::set<int> offset;
+  for (int n = 0; n < force.getNumExceptionParameterOffsets(); ++n) {
+    force.getExceptionParameterOffset(n, parameter, k, first, second, third);
+    offset.insert(k);
+  }
+  int count = 0;
+  for (k = 0; k < force.getNumExceptions(); ++k) {
+    double chargeProd, sigma, epsilon;
+    force.getExceptionParameters(k, i, j, chargeProd, sigma, epsilon);
+    count += chargeProd != 0 || epsilon != 0 || offset.count(k) > 0;
+  }
+  return count;
 }
 
 OpenMM::CalcNonbondedForceKernel& kernelIn(OpenMM::Kernel& kernel) {
@@ -84,6 +105,7 @@ void DropInKernel::initialize(const OpenMM::System& system, const NonbondedForce
     DropInRegistry::get().sayOnce("NonbondedForce", reason);
   }
   owner = &force;
+  actingExceptions = countOfActingExceptions(force);
   rememberStatus(reason);
 }
 
@@ -130,20 +152,23 @@ void DropInKernel::copyParametersToContext(OpenMM::ContextImpl& ofContext, const
                                            int firstParticle, int lastParticle, int firstException,
                                            int lastException) {
   const int range[] = {firstParticle, lastParticle, firstException, lastException};
-  if (sums.pairs)
-    sums.pairs->copyParameters(ofContext.getSystem(), force);
-  else
-    copyParameters(kernelIn(native), ofContext, force, range, 0);
+  if (!sums.pairs) return copyParameters(kernelIn(native), ofContext, force, range, 0);
+  const int actingNow = countOfActingExceptions(force);
+  if (actingNow != actingExceptions)
+    throw OpenMM::OpenMMException(
+        "updateParametersInContext: The number of non-excluded exceptions has changed from " +
+        std::to_string(actingExceptions) + " to " + std::to_string(actingNow) + "; reinitialize the Context");
+  sums.pairs->copyParameters(ofContext.getSystem(), force);
 }
 
 void DropInKernel::getPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
   if (!sums.pairs)
     return native.getAs<OpenMM::CalcNonbondedForceKernel>().getPMEParameters(alpha, nx, ny, nz);
-  readGrid(reciprocal, alpha, nx, ny, nz);
+  readGrid(reciprocal, "PME or LJPME", alpha, nx, ny, nz);
 }
 
 void DropInKernel::getLJPMEParameters(double& alpha, int& nx, int& ny, int& nz) const {
-  if (sums.pairs) return readGrid(dispersion, alpha, nx, ny, nz);
+  if (sums.pairs) return readGrid(dispersion, "LJPME", alpha, nx, ny, nz);
   native.getAs<OpenMM::CalcNonbondedForceKernel>().getLJPMEParameters(alpha, nx, ny, nz);
 }
 

@@ -51,6 +51,7 @@ class DropInKernel : public OpenMM::CalcNonbondedForceKernel {
   OpenMM::ContextImpl& context;
   const OpenMM::KernelFactory& nativeFactory;
   const OpenMM::NonbondedForce* owner = nullptr;
+  int actingExceptions = 0;             ///< that act, or may by an offset
   SumsOfPlatform sums;                  ///< null if OpenMM's kernel computes the force
   ReciprocalSum* reciprocal = nullptr;  ///< one of them; null without a lattice sum too
   ReciprocalSum* dispersion = nullptr;  ///< the same, of dispersion

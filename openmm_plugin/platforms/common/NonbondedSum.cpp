@@ -56,7 +56,7 @@ void NonbondedSum::follow(OpenMM::ContextImpl& context) {
 }
 
 HostState NonbondedSum::stateOf(OpenMM::ContextImpl& context) const {
-  if (isPeriodic) checkBox(boxVectorsOf(context), potential().cutoffDistance());
+  if (isPeriodic) checkBoxOfNow(boxVectorsOf(context), potential().cutoffDistance());
   return hostStateOf(context, isPeriodic);
 }
 

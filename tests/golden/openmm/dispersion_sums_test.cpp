@@ -85,7 +85,7 @@ TEST_P(DispersionSumTest, ParametersAreThoseOfOpenMM) {
   }
   water->force->setNonbondedMethod(NonbondedForce::PME);
   EXPECT_THAT(message_of([&] { parameters_of_ljpme(*drop_in(water->system)); }),
-              testing::HasSubstr("not using PME"));
+              testing::HasSubstr("not using LJPME"));
 }
 
 TEST_P(DispersionSumTest, OffsetsAndUpdatesActInBothParts) {

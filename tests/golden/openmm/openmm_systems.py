@@ -49,16 +49,16 @@ def water_box(per_side=6, cutoff=0.8):
     return system, np.array(positions), topology
 
 
-def context_of(system, platform, integrator=None):
+def context_of(system, platform, integrator=None, threads=2):
     integrator = integrator or openmm.VerletIntegrator(0.001)
-    properties = {"Threads": "2"} if platform == "CPU" else {}
+    properties = {"Threads": str(threads)} if platform == "CPU" else {}
     return openmm.Context(system, integrator, openmm.Platform.getPlatformByName(platform), properties)
 
 
-def energy_and_forces(context, positions=None):
+def energy_and_forces(context, positions=None, groups=-1):
     if positions is not None:
         context.setPositions(positions)
-    state = context.getState(getEnergy=True, getForces=True)
+    state = context.getState(getEnergy=True, getForces=True, groups=groups)
     forces = state.getForces(asNumpy=True).value_in_unit(unit.kilojoule_per_mole / unit.nanometer)
     return state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole), np.array(forces)
 

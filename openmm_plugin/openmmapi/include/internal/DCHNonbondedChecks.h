@@ -22,8 +22,11 @@ void checkNotNegative(const std::string& name, double value, const std::string& 
 /// @throws OpenMMException if it is not finite.
 void checkFinite(const std::string& name, double value, const std::string& of);
 
+/// @param complaint  what the message begins with
 /// @throws OpenMMException if the cutoff is over half the width of the box along an axis.
-void checkBox(const OpenMM::Vec3* boxVectors, double cutoff);
+void checkBox(const OpenMM::Vec3* boxVectors, double cutoff, const std::string& complaint);
+/// The same of the box that a Context has by now.
+void checkBoxOfNow(const OpenMM::Vec3* boxVectors, double cutoff);
 
 /// A number as messages write it.
 std::string textOf(double value);

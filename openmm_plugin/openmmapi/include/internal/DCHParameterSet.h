@@ -27,7 +27,7 @@ class DCHParameterSet {
 
   /// Takes the parameters of a force anew.
   /// @throws OpenMMException if the number of particles or exceptions has changed, or the particles of an
-  ///   exception.
+  ///   exception, and for an offset of a particle or an exception that does not exist; nothing is taken then.
   void take(const OpenMM::NonbondedForce& force);
 
   /// Follows the Context's global parameters. Says whether anything has changed since the last call.
@@ -46,6 +46,7 @@ class DCHParameterSet {
     int index;
     double charge, sigma, epsilon;
   };
+  void takeOffsets(const OpenMM::NonbondedForce& force);
   void evaluate(OpenMM::ContextImpl& context);
 
   std::vector<Particle> baseParticles, nowParticles;
