@@ -2,6 +2,8 @@
 //
 // LennardJones over cluster pairs, on one thread or several.
 #include <algorithm>
+#include <cmath>
+#include <mutex>
 #include <string>
 
 #include <dch/base/error.hpp>
@@ -32,11 +34,40 @@ struct Kernels<float> {
   static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
 };
 
+/// The particles whose forces are not finite, from any thread.
+class Unresolved {
+ public:
+  /// @param particles  null if nobody asks
+  explicit Unresolved(std::vector<std::int32_t>* particles) : particles_(particles) {}
+  template <class Real>
+  bool may_be_in(const ClusterOfFour<Real>& force) const {
+    if (!particles_) return false;
+    Real zero[ClusterPairs::kSlots];
+    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
+      zero[slot] = 0 * (force.x[slot] + force.y[slot] + force.z[slot]);
+    return (zero[0] + zero[1]) + (zero[2] + zero[3]) != 0;
+  }
+  /// Whether a particle is one of them.
+  bool takes(std::int32_t particle, const Vec3& force) {
+    if (std::isfinite(force.x) && std::isfinite(force.y) && std::isfinite(force.z)) return false;
+    const std::lock_guard lock(mutex_);
+    particles_->push_back(particle);
+    return true;
+  }
+  void sort() {
+    if (particles_) std::sort(particles_->begin(), particles_->end());
+  }
+
+ private:
+  std::vector<std::int32_t>* particles_;
+  std::mutex mutex_;
+};
+
 /// Gives particles the forces on their clusters: what their task has found and what earlier ones have. A
 /// particle stands in one slot at most.
 template <class Real>
 void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<ClusterOfFour<Real>>& found,
-              std::vector<ClusterOfFour<Real>>& earlier, Span<Vec3> forces) {
+              std::vector<ClusterOfFour<Real>>& earlier, Unresolved& unresolved, Span<Vec3> forces) {
   for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
     ClusterOfFour<Real> force = found[c];
     found[c] = {};
@@ -44,16 +75,30 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
       detail::add(earlier[c], force);
       earlier[c] = {};
     }
+    const bool looks = unresolved.may_be_in(force);
     for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
       const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
       if (i < 0) continue;
+      const Vec3 more{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
+      if (looks && unresolved.takes(i, more)) continue;
       Vec3& to = forces[static_cast<std::size_t>(i)];
-      to = to + Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
+      to = to + more;
     }
   }
 }
 
 }  // namespace
+
+/// But for what a worker makes room for itself.
+template <class Real>
+void LennardJones::make_room(std::size_t clusters, std::size_t workers, Scratch<Real>& scratch) const {
+  scratch.force.resize(workers);
+  scratch.lanes.resize(workers);
+  scratch.earlier.resize(clusters);
+  if (has_charges_) scratch.charge.resize(clusters);
+  if (has_dispersion_) scratch.dispersion.resize(clusters);
+  if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
+}
 
 template <class Real>
 void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
@@ -64,12 +109,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
   const auto tasks = static_cast<int>(pairs.tasks.size()) - 1;
   const int workers = executor_ ? std::min(executor_->threads(), tasks) : 1;
   const auto clusters = static_cast<std::size_t>(pairs.clusters());
-  scratch.force.resize(static_cast<std::size_t>(workers));
-  scratch.lanes.resize(static_cast<std::size_t>(workers));
-  scratch.earlier.resize(clusters);
-  if (has_charges_) scratch.charge.resize(clusters);
-  if (has_dispersion_) scratch.dispersion.resize(clusters);
-  if (mixes_) scratch.half_sigma.resize(clusters), scratch.root_epsilon.resize(clusters);
+  make_room(clusters, static_cast<std::size_t>(workers), scratch);
   detail::run_parts(executor_, workers, [&](int worker) {
     const ClusterPairs::Range own = detail::share(pairs.clusters(), worker, workers);
     scratch.force[static_cast<std::size_t>(worker)].resize(clusters);
@@ -80,6 +120,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
     if (mixes_) detail::sort_by_slot(pairs, root_epsilon_, 1, own, scratch.root_epsilon);
   });
   detail::Turns turns(tasks);
+  Unresolved unresolved(unresolved_);
   detail::run_parts(executor_, workers, [&](int worker) {
     auto& force = scratch.force[static_cast<std::size_t>(worker)];
     auto& lanes = scratch.lanes[static_cast<std::size_t>(worker)];
@@ -113,9 +154,10 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
         detail::add_for_later(ranges, force, scratch.earlier);
         if (sums) detail::give(found, *sums);
       });
-      hand_out(pairs, {own.first_cluster, next.first_cluster}, force, scratch.earlier, forces);
+      hand_out(pairs, {own.first_cluster, next.first_cluster}, force, scratch.earlier, unresolved, forces);
     }
   });
+  unresolved.sort();
 }
 
 void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
@@ -126,6 +168,7 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
         "a series has a splitting times cutoff of 3.6 or more, or a coefficient or squared cutoff is "
         "outside 1.2e-38..3.4e38, the range of single precision; use other units or "
         "ForcePrecision::double_precision");
+  if (unresolved_) unresolved_->clear();
   if (pairs.tasks.size() < 2) return;
   if (precision == ForcePrecision::mixed) {
     run(pairs, charges, mixed_, scratch_float_, forces, sums);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 #include <dch/base/executor.hpp>
 #include <dch/forces/lennard_jones.hpp>
@@ -78,6 +79,45 @@ TEST_P(ForcesOnThreads, AreTheSameBits) {
       ASSERT_EQ(found.sums.virial, expected.sums.virial);
     }
   }
+}
+
+/// Two particles are brought to one place. With parameters or without, their forces have no value.
+TEST_P(ForcesOnThreads, WhatIsNotFiniteIsLeftOutWhereItIsAskedFor) {
+  std::vector<std::int32_t> pair;
+  std::vector<Vec3> moved = points;
+  pairs.for_each([&](std::int32_t i, std::int32_t j, const Vec3& apart) {
+    const Vec3 at = points[static_cast<std::size_t>(i)];
+    if (!pair.empty() || norm2(apart) > 1) return;
+    if (norm2(points[static_cast<std::size_t>(j)] - at - apart) > 1e-12) return;  // another image
+    pair = {std::min(i, j), std::max(i, j)};
+    moved[static_cast<std::size_t>(j)] = at;
+  });
+  ASSERT_EQ(pair.size(), 2u);
+  for (const double epsilon : {1.0, 0.0})
+    for (const ForcePrecision precision : {ForcePrecision::mixed, ForcePrecision::double_precision}) {
+      pairs.refresh(moved, box);
+      LennardJones potential({epsilon, 0.9, kThreadCutoff});
+      if (epsilon == 0) charges.clear();
+      if (epsilon > 0) potential.set_coulomb({1, 0, {kThreadCutoff}, 0, 0});
+      const Found with_all = compute(potential, precision, nullptr);
+      std::vector<std::int32_t> unresolved{7};
+      potential.set_unresolved(&unresolved);
+      for (const int threads : {1, 3}) {
+        const auto pool = make_thread_pool(threads);
+        const Found found = compute(potential, precision, pool.get());
+        EXPECT_EQ(unresolved, pair);
+        EXPECT_FALSE(std::isfinite(found.sums.energy));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const bool is_left_out =
+              static_cast<std::int32_t>(i) == pair[0] || static_cast<std::int32_t>(i) == pair[1];
+          ASSERT_NE(std::isfinite(norm2(with_all.forces[i])), is_left_out) << i;
+          ASSERT_EQ(found.forces[i], is_left_out ? Vec3({0.125, 0, 0}) : with_all.forces[i]) << i;
+        }
+      }
+      pairs.refresh(points, box);
+      compute(potential, precision, nullptr);
+      EXPECT_EQ(unresolved, std::vector<std::int32_t>());
+    }
 }
 
 TEST_P(ForcesOnThreads, PositionsAreTakenAlike) {

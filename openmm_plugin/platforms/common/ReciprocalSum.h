@@ -14,6 +14,12 @@
 
 namespace OpenMMDCH {
 
+/// Whether a version of OpenMM, "8.1.2" for example, takes a net charge away by an even background: 8.3 and
+/// later ones.
+bool countsBackground(const std::string& version);
+/// What such a background adds to the energy of a net charge in a lattice sum [kJ/mol].
+double energyOfBackground(double charge, double splitting, double volume);
+
 /// The part of a lattice sum in reciprocal space, on a platform on the processor.
 class ReciprocalSum {
  public:
@@ -26,7 +32,7 @@ class ReciprocalSum {
   /// Three numbers, or null for a sum without a grid.
   virtual const int* gridSize() const { return nullptr; }
   /// Adds forces to those of the Context [kJ/mol/nm] and returns the energy [kJ/mol], that of each particle
-  /// with itself taken away.
+  /// with itself taken away, and that of a background where OpenMM counts it.
   double add(OpenMM::ContextImpl& context, const std::vector<DCHParameterSet::Particle>& particles);
   /// As NonbondedStatus has it.
   virtual std::string computedBy() const = 0;

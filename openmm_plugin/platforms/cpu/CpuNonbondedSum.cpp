@@ -75,6 +75,7 @@ void CpuNonbondedSum::makeForces() {
     forces.emplace(cutoff, parametersOf);
   }
   forces->set_executor(&executor);
+  forces->set_unresolved(&unresolved);
   const std::size_t types = std::max(side, std::size_t{1});
   keeper->setTypes(std::move(kinds.of), static_cast<int>(types));
   setCharges(types * types);
@@ -103,12 +104,31 @@ double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
   const auto precision =
       forces->fits_single() && !isDouble ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
-  if (!includeEnergy) {
+  dch::LennardJonesSums sums;
+  if (includeEnergy)
+    sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);
+  else
     forces->add_forces(pairs, precision, state.forces, charges);
-    return 0;
-  }
-  const dch::LennardJonesSums sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);
+  if (!unresolved.empty()) return resolve(pairs, state, includeEnergy);
   return sums.energy + sums.coulomb_energy;
+}
+
+double CpuNonbondedSum::resolve(const dch::ClusterPairs& pairs, const HostState& state,
+                                bool includeEnergy) const {
+  std::vector<bool> isUnresolved(state.positions.size());
+  for (const std::int32_t i : unresolved) isUnresolved[static_cast<std::size_t>(i)] = true;
+  double energy = 0;
+  pairs.for_each([&](std::int32_t first, std::int32_t second, const dch::Vec3& apart) {
+    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+    if (!includeEnergy && !isUnresolved[i] && !isUnresolved[j]) return;
+    const auto& particles = parameters().particles();
+    const PairTerms terms = potential().ofParticles(particles[i], particles[j], norm2(apart));
+    const dch::Vec3 force = terms.forceOverR * apart;
+    if (isUnresolved[i]) state.forces[i] = state.forces[i] - force;
+    if (isUnresolved[j]) state.forces[j] = state.forces[j] + force;
+    energy += terms.energy;
+  });
+  return energy;
 }
 
 double CpuNonbondedSum::addWithoutCutoff(const HostState& state, bool includeEnergy) {

@@ -2,6 +2,7 @@
 #ifndef OPENMM_DCH_CPU_NONBONDED_SUM_H_
 #define OPENMM_DCH_CPU_NONBONDED_SUM_H_
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,8 @@ class CpuNonbondedSum : public NonbondedSum {
   /// In single precision, or in double where that has no value.
   double addWithoutCutoff(const HostState& state, bool includeEnergy);
   double addAllPairs(const HostState& state);
+  /// Adds the forces of unresolved particles in double, and returns the energy of all pairs if it is wanted.
+  double resolve(const dch::ClusterPairs& pairs, const HostState& state, bool includeEnergy) const;
 
   PoolExecutor executor;
   bool isDouble;
@@ -44,7 +47,8 @@ class CpuNonbondedSum : public NonbondedSum {
   std::optional<dch::LennardJones> forces;             ///< the same
   std::optional<dch::AllPairForces> forcesOfAllPairs;  ///< without one
   std::vector<dch::Vec3> found;                        ///< the same
-  std::vector<double> charges;  ///< empty if all are 0 and dispersion has no lattice sum
+  std::vector<std::int32_t> unresolved;  ///< particles whose forces by pairs of clusters have no value
+  std::vector<double> charges;           ///< empty if all are 0 and dispersion has no lattice sum
   std::vector<std::vector<dch::Vec3>> forcesByThread;  ///< of all pairs
 };
 

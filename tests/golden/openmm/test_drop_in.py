@@ -205,6 +205,13 @@ class ScriptTest(unittest.TestCase):
         self.assertEqual(out, "")
         self.assertIn("OPENMM_PLUGIN_DIR", err)
 
+    def test_plugins_that_were_loaded_before_openmms_own_are_told(self):
+        own = openmm.Platform.getDefaultPluginsDirectory()
+        out, err = run_script(f"import openmm, openmm_dch\nopenmm.Platform.loadPluginsFromDirectory({own!r})\n"
+                              "openmm_dch.enable()", OPENMM_PLUGIN_DIR=os.path.dirname(__file__))
+        self.assertEqual(out, "")
+        self.assertIn("the platform CPU has no kernels of openmm_dch; load OpenMM's own plugins first", err)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <dch/base/executor.hpp>
@@ -117,6 +119,11 @@ class LennardJones {
   void set_dispersion(const DispersionTerm& term);
   /// Threads to compute forces of cluster pairs with; null for that of the caller alone. Not owned.
   void set_executor(Executor* executor) { executor_ = executor; }
+  /// Has each call for cluster pairs leave out forces that are not finite and write the particles that they
+  /// are of, ascending, to a list; null (as at first) to have them added. Not owned. There are some where
+  /// particles coincide, with parameters or without, and where single precision has no number; energy and
+  /// virial are not finite then.
+  void set_unresolved(std::vector<std::int32_t>* particles) { unresolved_ = particles; }
 
   int types() const { return types_; }
   /// Whether single precision can hold the coefficients and its series are long enough: else only
@@ -183,6 +190,8 @@ class LennardJones {
   void add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces, Span<const double> charges,
            LennardJonesSums* sums);
   template <class Real>
+  void make_room(std::size_t clusters, std::size_t workers, Scratch<Real>& scratch) const;
+  template <class Real>
   void run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
            Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const;
   void add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
@@ -211,6 +220,7 @@ class LennardJones {
   bool mixes_ = false;                             ///< parameters are those of particles
   std::vector<double> half_sigma_, root_epsilon_;  ///< by particle then; 4 epsilon of a pair is the product
   Executor* executor_ = nullptr;
+  std::vector<std::int32_t>* unresolved_ = nullptr;
   Tables<double> full_;
   Tables<float> mixed_;
   Scratch<double> scratch_;
