@@ -12,10 +12,6 @@
 namespace LAMMPS_NS {
 namespace {
 
-// Neighbors of an atom, each pair counted once, below which pairs one by one are faster: see
-// docs/lammps/design.md.
-constexpr double kFewNeighbors = 9;
-
 double distance2(const double* a, const double* b) {
   return norm2(dch::Vec3{a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
@@ -156,7 +152,9 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
   if (list.one_by_one) {
     params.shell = skin;
     fill_pair_list(points, search, params, list);
-    if (static_cast<double>(list.count()) <= kFewNeighbors * points.owned()) return;
+    list.by_size = !search.has_cluster_pairs();
+    list.pairs_an_atom = static_cast<double>(list.count()) / std::max(points.owned(), 1);
+    if (list.by_size || list.pairs_an_atom <= ClusterList::kFewNeighbors) return;
     list.one_by_one = false;
     list.pair_list = {};
   }

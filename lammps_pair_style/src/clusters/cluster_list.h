@@ -29,12 +29,19 @@ struct ClusterList {
     int kind;  ///< 1 to 3: 1-2, 1-3, 1-4
   };
 
+  /// Neighbors of an atom, each pair counted once, up to which pairs one by one are faster: see
+  /// docs/lammps/design.md.
+  static constexpr double kFewNeighbors = 9;
+
   std::vector<char> interacts;  ///< ntypes x ntypes: whether pairs of these types (from 0) are wanted
 
-  bool one_by_one = true;   ///< which of the next two is filled
-  double chosen_for = 0;    ///< radius at which that was chosen [length]
-  dch::PairList pair_list;  ///< of points: LAMMPS's indices
-  dch::ClusterPairs pairs;  ///< of the same
+  bool by_levels = false;    ///< r-RESPA splits the forces, so nothing is filled
+  bool one_by_one = true;    ///< which of the next two is filled
+  double pairs_an_atom = 0;  ///< by which that was chosen, if by_size does not decide
+  bool by_size = false;      ///< each class of sizes has a structure, of which there are no cluster pairs
+  double chosen_for = 0;     ///< radius at which that was chosen [length]
+  dch::PairList pair_list;   ///< of points: LAMMPS's indices
+  dch::ClusterPairs pairs;   ///< of the same
   std::vector<Special> special;
   /// Whether pairs of these types, from 1, are wanted.
   bool pairs_interact(int a, int b, int types) const {

@@ -143,7 +143,8 @@ Request parse_precision(const std::vector<std::string>& words) {
 
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
-      "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
+      "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch explain', "
+      "'dch verify yes|no|every N', "
       "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' "
       "or "
       "'dch skin auto|fixed'";
@@ -155,10 +156,17 @@ Request parse_request(const std::vector<std::string>& words) {
   if (words[0] == "order") return parse_order(words);
   if (words[0] == "expiry") return parse_expiry(words);
   if (words[0] == "precision") return parse_precision(words);
-  if (words[0] != "off" && words[0] != "stats") refuse("unknown keyword '" + words[0] + "'" + remedy);
-  expect_no_more(words, 1);
   Request request;
-  request.action = words[0] == "off" ? Request::Action::off : Request::Action::stats;
+  if (words[0] == "off") {
+    request.action = Request::Action::off;
+  } else if (words[0] == "stats") {
+    request.action = Request::Action::stats;
+  } else if (words[0] == "explain") {
+    request.action = Request::Action::explain;
+  } else {
+    refuse("unknown keyword '" + words[0] + "'" + remedy);
+  }
+  expect_no_more(words, 1);
   return request;
 }
 

@@ -20,7 +20,7 @@ enum class ExpiryRule { automatic, exact, half };
 
 /// What one `dch ...` line of an input script asks for.
 struct Request {
-  enum class Action { on, off, stats, verify, precision, threads, skin, order, expiry };
+  enum class Action { on, off, stats, explain, verify, precision, threads, skin, order, expiry };
   Action action = Action::on;
   std::string engine = "dch";  ///< `on`: what fills lists, see dch::make_search
   bool has_c = false;          ///< `on c`, which has no effect any more

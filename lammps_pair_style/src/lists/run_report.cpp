@@ -81,6 +81,8 @@ std::string work_table(const RunReport& r) {
       "neither %lld times",
       r.radius, r.levels, static_cast<long long>(r.structures_built), static_cast<long long>(r.repairs),
       static_cast<long long>(r.refreshes));
+  text += std::string("  size classes            ") + (r.by_size ? "a structure for each: " : "none: ") +
+          r.size_reason + "\n";
   text += std::string("  points                  ") +
           (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";
   text += "  atoms in memory         " +

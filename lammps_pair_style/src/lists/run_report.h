@@ -9,16 +9,39 @@
 
 namespace dch::lammps {
 
+/// Why something is not ours, or not done.
+struct Obstacle {
+  std::string reason;  ///< empty if there is none
+  std::string remedy;  ///< words for the script; empty if none would help
+
+  bool empty() const { return reason.empty(); }
+};
+
 /// One neighbor list of LAMMPS, or the cluster pairs in place of one: who fills it.
 struct ListNote {
   int number = 0;      ///< from 1, as LAMMPS prints them; 0 for cluster pairs
   std::string name;    ///< who asked for it, and what kind it is
   std::string reason;  ///< why it is native; empty if it is ours
+  std::string remedy;  ///< what would make it ours; empty if nothing does
 
   friend bool operator==(const ListNote& a, const ListNote& b) {
     return a.number == b.number && a.name == b.name && a.reason == b.reason;
   }
 };
+
+/// A style of the script, and how it computes.
+struct StyleNote {
+  std::string name;  ///< with its kind: "pair lj/cut/dch", "fix 1, nve"
+  std::string how;   ///< and why, with the remedy if there is one
+};
+
+/// How often a style of ours has computed by its kernel, and how often it had the plain style do it.
+struct Turns {
+  std::int64_t by_kernel = 0, by_plain = 0;
+};
+
+/// @param why the plain style is taken at times
+std::string describe(const Turns& turns, const std::string& why);
 
 /// What is said of lists that half the skin would end. The largest of all processes counts.
 enum class ExpiryVerdict {
@@ -60,6 +83,12 @@ struct RunReport {
   int processes = 1;
   double radius = 0;          ///< of the search [length]
   std::string engine;         ///< that fills lists and cluster pairs
+  std::string engine_reason;  ///< who has asked for it
+  bool by_size = false;       ///< a structure for each class of sizes
+  std::string size_reason;    ///< why, or why not
+  int threads = 1;            ///< of each process
+  double script_skin = 0;     ///< [length]
+  std::string skin_obstacle;  ///< why no other skin is looked for
   std::string choice;         ///< what it has chosen and why, on the first process; empty if nothing
   int processes_on_grid = 0;  ///< by their own choice
   double skin = 0;            ///< that was found or is being tried; 0 if it is the script's [length]
@@ -76,9 +105,13 @@ struct RunReport {
   int levels = 0;                                                         ///< the largest of any process
   std::int64_t memory_bytes = 0;                                          ///< structures and lists, summed
   std::vector<ListNote> lists;
+  std::vector<StyleNote> styles;  ///< for `dch explain`
 };
 
 /// The report as `dch stats` prints it.
 std::string format_report(const RunReport& report);
+
+/// What was chosen for each list and style, and why, as `dch explain` prints it.
+std::string format_explanation(const RunReport& report);
 
 }  // namespace dch::lammps

@@ -5,6 +5,7 @@
 #include <atom.h>
 #include <cmath>
 #include <comm.h>
+#include <cstdio>
 #include <error.h>
 #include <neigh_list.h>
 #include <new>
@@ -25,6 +26,15 @@ namespace {
 
 // The search reaches farther than the cutoff, by more than rounding can move an atom.
 constexpr double kRadiusMargin = 1.0 + 1e-6;
+
+// A pair of clusters' pairs takes less time than one by one, by these factors: see docs/lammps/measured.md.
+constexpr double kMostPairsDouble = 2.7, kMostPairsMixed = 4.2;
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 }  // namespace
 
@@ -112,6 +122,7 @@ void NeighborDCH::init() {
   }
   rules_.copy_settings();
   classify_references();
+  give_up_clusters_by_levels();
   classify_lists();
   announce(before);
   if (served_.empty() && clusters_.empty()) {
@@ -128,27 +139,60 @@ void NeighborDCH::init() {
   hide_bins();
 }
 
-/// Whether a hierarchy for each class of sizes is worth its while. Cluster pairs come from a single one.
-bool NeighborDCH::sizes_differ_much() const {
+/// Whether sizes differ so much that a hierarchy for each class of sizes is faster than one for all.
+bool NeighborDCH::sizes_differ_much() {
   constexpr double kRatio = 2;
   const bool any_by_radius =
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
-  if (!clusters_.empty()) return false;
-  if (!any_by_radius) {
+  double ratio = 1;
+  if (any_by_radius) {
+    const auto [min, max] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
+    if (atom->nlocal > 0) ratio = *max / *min;
+  } else {
     for (int a = 1; a <= atom->ntypes; ++a) {
       const double own = std::sqrt(cutneighsq[a][a]);
-      if (own > skin && cutneighmax > kRatio * own) return true;
+      if (own > skin) ratio = std::max(ratio, cutneighmax / own);
     }
-    return false;
   }
-  if (atom->nlocal == 0) return false;
-  const auto [min, max] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
-  return *max > kRatio * *min;
+  size_reason_ = (any_by_radius ? "the largest grain is " : "the largest cutoff with the skin is ") +
+                 short_number(ratio) +
+                 (any_by_radius ? " times the smallest" : " times the least of a type with itself");
+  return ratio > kRatio;
+}
+
+/// How many pairs cluster pairs hold for each pair of a list: they go as far for all types. By the number of
+/// atoms of each type, on all processes, as if types were mixed evenly.
+double NeighborDCH::pairs_of_clusters() const {
+  const auto types = static_cast<std::size_t>(atom->ntypes) + 1;
+  std::vector<bigint> atoms(types, 0);
+  for (int i = 0; i < atom->nlocal; ++i) ++atoms[static_cast<std::size_t>(atom->type[i])];
+  MPI_Allreduce(MPI_IN_PLACE, atoms.data(), static_cast<int>(types), MPI_LMP_BIGINT, MPI_SUM, world);
+  double of_clusters = 0, of_lists = 0;
+  for (std::size_t a = 1; a < types; ++a) {
+    for (std::size_t b = 1; b < types; ++b) {
+      const double partners = static_cast<double>(atoms[a]) * static_cast<double>(atoms[b]);
+      of_clusters += partners * std::pow(cutneighmax, 3);
+      of_lists += partners * std::pow(cutneighsq[a][b], 1.5);
+    }
+  }
+  return of_lists > 0 ? of_clusters / of_lists : 1;
+}
+
+/// There are no cluster pairs of size classes, but pairs one by one.
+bool NeighborDCH::choose_size_classes() {
+  if (!sizes_differ_much()) return false;
+  if (clusters_.empty()) return true;
+  const double most = precision_ == dch::ForcePrecision::mixed ? kMostPairsMixed : kMostPairsDouble;
+  const double pairs = pairs_of_clusters();
+  size_reason_ += ", and cluster pairs without them hold " + short_number(pairs) +
+                  " times the pairs of lists" + (pairs > most ? ", more than " : ", at most ") +
+                  short_number(most);
+  return pairs > most;
 }
 
 void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
-  const bool by_size = sizes_differ_much();
+  const bool by_size = choose_size_classes();
   const int threads = pool_ ? pool_->threads() : 1;
   const std::string engine = enabled_ ? engine_ : kHierarchy;
   const bool is_ready = search_ && radius == params_.radius && by_size == params_.size_classes &&
@@ -170,7 +214,7 @@ void NeighborDCH::prepare_search() {
 
 /// A style that asks for cluster pairs has no list to fall back on by then.
 void NeighborDCH::check_engine_makes_clusters() {
-  if (clusters_.empty() || search_->has_cluster_pairs()) return;
+  if (clusters_.empty() || search_->has_cluster_pairs() || params_.size_classes) return;
   error->all(FLERR,
              "DCH neighbor lists: the engine '" + engine_in_use_ +
                  "' makes no cluster pairs, which pair styles with the suffix dch compute forces with; give "

@@ -99,7 +99,7 @@ class NeighborDCH : public Neighbor {
   /// asks LAMMPS for beside them is the one that they are compared with; it is built for that alone.
   /// @param obstacle why the style cannot use them, for dch stats; then there are none and null is returned
   std::shared_ptr<ClusterList> request_clusters(const Pair& asker, const std::string& style_name,
-                                                const std::string& obstacle);
+                                                const dch::lammps::Obstacle& obstacle);
 
   /// What the lists of the last run did, over all processes. Every process has to call it.
   dch::lammps::RunReport report() const;
@@ -116,16 +116,19 @@ class NeighborDCH : public Neighbor {
   struct ServedClusters {
     std::shared_ptr<ClusterList> list;
     const void* asker;   ///< the style, as LAMMPS knows who asked for a list
+    std::string owner;   ///< its name
     int reference = -1;  ///< in Neighbor::lists; -1 if there is none
   };
 
   void classify_lists();
+  void give_up_clusters_by_levels();
   void classify_references();
   void mark_needed(const NeighList* list, std::vector<char>& marks) const;
   bool is_needed(int m) const { return needed_[static_cast<std::size_t>(m)] != 0; }
   std::string list_name(const NeighList& list) const;
-  std::string native_reason(const NeighList& list) const;
-  std::string reason_of_style(const NeighList& list) const;
+  dch::lammps::Obstacle native_reason(const NeighList& list) const;
+  dch::lammps::Obstacle reason_of_style(const NeighList& list) const;
+  dch::lammps::Obstacle reason_of_settings(const NeighList& list) const;
   void announce(const std::vector<dch::lammps::ListNote>& before) const;
   void show_bins();
   void hide_bins();
@@ -148,7 +151,10 @@ class NeighborDCH : public Neighbor {
   ListExpiry::Wanted wanted_pairs() const;
   void note_expiry();
   double builds_saved() const;
-  bool sizes_differ_much() const;
+  bool choose_size_classes();
+  dch::lammps::RunReport settings_of_run() const;
+  bool sizes_differ_much();
+  double pairs_of_clusters() const;
   bool fills_lists() const { return enabled_ && !served_.empty(); }
   void build_ours();
   void fill_lists();
@@ -186,6 +192,8 @@ class NeighborDCH : public Neighbor {
   std::vector<dch::lammps::ListNote> requested_notes_;
   dch::ForcePrecision precision_ = dch::ForcePrecision::double_precision;
   dch::HierarchyParams params_;
+  std::string size_reason_;    ///< why there are size classes, or none
+  std::string skin_obstacle_;  ///< why the skin stays that of the script, if another one is wanted
 
   AtomPoints points_;
   AtomOrder order_;

@@ -26,6 +26,31 @@ void take_longest_times(dch::lammps::RunCounters& counters, MPI_Comm world) {
 
 }  // namespace
 
+/// What the run went by.
+dch::lammps::RunReport NeighborDCH::settings_of_run() const {
+  dch::lammps::RunReport report;
+  report.enabled = enabled_;
+  if (tuner_) report.skin = tuner_->skin();
+  report.skin_settled = tuner_ && tuner_->settled();
+  report.verify_every = verify_every_;
+  report.processes = comm->nprocs;
+  report.radius = params_.radius;
+  report.engine = engine_in_use_;
+  report.engine_reason =
+      enabled_ ? "'dch on' takes it for lists" : "cluster pairs are asked for without 'dch on'";
+  if (enabled_ && !clusters_.empty()) report.engine_reason += " and cluster pairs";
+  report.by_size = params_.size_classes;
+  report.size_reason = size_reason_;
+  report.threads = threads_;
+  report.script_skin = skin;
+  report.skin_obstacle = skin_obstacle_;
+  report.in_box = points_.in_box();
+  report.order_obstacle = order_.obstacle();
+  report.expiry_obstacle = expiry_obstacle_;
+  report.instructions = dch::name(dch::instruction_set());
+  return report;
+}
+
 dch::lammps::RunReport NeighborDCH::report() const {
   const dch::SearchStats now = search_stats();
   std::size_t bytes = now.memory_bytes;
@@ -51,20 +76,9 @@ dch::lammps::RunReport NeighborDCH::report() const {
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_LMP_BIGINT, MPI_MAX,
                 world);
 
-  dch::lammps::RunReport report;
-  report.enabled = enabled_;
-  if (tuner_) report.skin = tuner_->skin();
-  report.skin_settled = tuner_ && tuner_->settled();
-  report.verify_every = verify_every_;
-  report.processes = comm->nprocs;
-  report.radius = params_.radius;
-  report.engine = engine_in_use_;
+  dch::lammps::RunReport report = settings_of_run();
   report.choice = choice;
   report.processes_on_grid = static_cast<int>(sums[8]);
-  report.in_box = points_.in_box();
-  report.order_obstacle = order_.obstacle();
-  report.expiry_obstacle = expiry_obstacle_;
-  report.instructions = dch::name(dch::instruction_set());
   report.counters = run_;
   report.counters.builds_saved = builds_saved();
   report.counters.entries = sums[0];

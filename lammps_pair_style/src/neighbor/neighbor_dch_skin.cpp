@@ -15,14 +15,19 @@ namespace LAMMPS_NS {
 void NeighborDCH::prepare_skin() {
   const bool any_by_radius =
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
-  std::string obstacle;
+  skin_obstacle_.clear();
+  if (!tunes_skin_) {
+    tuner_.reset();
+    return;
+  }
+  std::string& obstacle = skin_obstacle_;
   if (!dist_check) obstacle = "lists are rebuilt without a check (neigh_modify check no)";
   if (build_once) obstacle = "lists are built once (neigh_modify once yes)";
   if (any_by_radius) obstacle = "a granular list is in use";
   if (!native_plist_.empty()) obstacle = "a native list is in use";
   if (!(skin > 0)) obstacle = "it is 0";
-  if (!tunes_skin_ || !obstacle.empty()) {
-    if (tunes_skin_ && comm->me == 0) utils::logmesg(lmp, "DCH: the skin stays as it is: " + obstacle + "\n");
+  if (!obstacle.empty()) {
+    if (comm->me == 0) utils::logmesg(lmp, "DCH: the skin stays as it is: " + obstacle + "\n");
     tuner_.reset();
     return;
   }

@@ -10,6 +10,7 @@
 
 #include "dch_options.h"
 #include "neighbor_dch.h"
+#include "style_notes.h"
 #include "styles.h"
 
 namespace LAMMPS_NS {
@@ -53,6 +54,12 @@ void DchCommand::command(int narg, char** arg) {
     case Request::Action::threads:
       neighbor_dch->set_threads(request.threads);
       break;
+    case Request::Action::explain: {
+      dch::lammps::RunReport report = neighbor_dch->report();
+      report.styles = style_notes(*lmp);
+      if (comm->me == 0) utils::logmesg(lmp, dch::lammps::format_explanation(report));
+      break;
+    }
     case Request::Action::stats: {
       const dch::lammps::RunReport report = neighbor_dch->report();
       if (comm->me == 0) utils::logmesg(lmp, dch::lammps::format_report(report));

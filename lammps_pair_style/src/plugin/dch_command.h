@@ -10,7 +10,7 @@ CommandStyle(dch,DchCommand);
 
 namespace LAMMPS_NS {
 
-/// The input script command `dch on|off|stats|verify ...`.
+/// The input script command `dch on|off|stats|explain|verify ...`.
 class DchCommand : public Command {
  public:
   explicit DchCommand(LAMMPS* lammps) : Command(lammps) {}

@@ -40,6 +40,7 @@ void AngleDCH::take_coefficients() {
 }
 
 void AngleDCH::init_style() {
+  turns_ = {};
   plain_->init_style();
   kernel_.reset();
 }
@@ -50,13 +51,21 @@ void AngleDCH::write_data(FILE* file) { plain_->write_data(file); }
 double AngleDCH::single(int type, int i, int apex, int k) { return plain_->single(type, i, apex, k); }
 double AngleDCH::memory_usage() { return plain_->memory_usage(); }
 
+dch::lammps::StyleNote AngleDCH::explain() const {
+  const char* const why = force->newton_bond ? "at steps that want energies, or virials by atom"
+                                             : "newton is off for bonds; give 'newton on'";
+  return {"angle " + plain_.name(), describe(turns_, why)};
+}
+
 void AngleDCH::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   const bool by_atom = (vflag & ~(VIRIAL_PAIR | VIRIAL_FDOTR)) != 0;
   if (eflag_either || by_atom || !force->newton_bond) {
+    ++turns_.by_plain;
     compute_plain(eflag, vflag);
     return;
   }
+  ++turns_.by_kernel;
   if (neighbor->nanglelist == 0) return;
   try {
     if (!kernel_) kernel_ = make_kernel(plain_.coefficients(atom->nangletypes, *error));

@@ -8,6 +8,7 @@
 
 #include <dch/forces/angles.hpp>
 
+#include "explained.h"
 #include "plain_style.h"
 
 namespace LAMMPS_NS {
@@ -15,7 +16,7 @@ namespace LAMMPS_NS {
 /// An angle style whose forces come from a SIMD kernel. Everything else is the plain style's, of which it
 /// keeps an object, which also computes at steps that want energy or virials by atom, and always if newton is
 /// off for bonds.
-class AngleDCH : public Angle {
+class AngleDCH : public Angle, public Explained {
  public:
   ~AngleDCH() override;
   AngleDCH(const AngleDCH&) = delete;
@@ -30,6 +31,7 @@ class AngleDCH : public Angle {
   void write_data(FILE* file) override;
   double single(int type, int i, int apex, int k) override;
   double memory_usage() override;
+  dch::lammps::StyleNote explain() const override;
 
  protected:
   /// @param plain_style the plain style's name
@@ -45,6 +47,7 @@ class AngleDCH : public Angle {
 
   PlainStyle<Angle> plain_;
   std::optional<dch::AngleForces> kernel_;  ///< of the coefficients as they are
+  dch::lammps::Turns turns_;                ///< of this run
 };
 
 }  // namespace LAMMPS_NS

@@ -40,6 +40,7 @@ void BondDCH::take_coefficients() {
 }
 
 void BondDCH::init_style() {
+  turns_ = {};
   plain_->init_style();
   has_kernel_ = false;
 }
@@ -55,6 +56,12 @@ void BondDCH::write_data(FILE* file) { plain_->write_data(file); }
 void* BondDCH::extract(const char* name, int& dimension) { return plain_->extract(name, dimension); }
 double BondDCH::memory_usage() { return plain_->memory_usage(); }
 
+dch::lammps::StyleNote BondDCH::explain() const {
+  const char* const why = force->newton_bond ? "at steps that want energies, or virials by atom"
+                                             : "newton is off for bonds; give 'newton on'";
+  return {"bond " + plain_.name(), describe(turns_, why)};
+}
+
 double BondDCH::single(int type, double rsq, int i, int j, double& fforce) {
   return plain_->single(type, rsq, i, j, fforce);
 }
@@ -63,9 +70,11 @@ void BondDCH::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   const bool by_atom = (vflag & ~(VIRIAL_PAIR | VIRIAL_FDOTR)) != 0;
   if (eflag_either || by_atom || !force->newton_bond) {
+    ++turns_.by_plain;
     compute_plain(eflag, vflag);
     return;
   }
+  ++turns_.by_kernel;
   if (neighbor->nbondlist == 0) return;
   try {
     if (!has_kernel_) make_kernel(plain_.coefficients(atom->nbondtypes, *error));

@@ -10,6 +10,7 @@
 #include <dch/base/vec3.hpp>
 #include <dch/forces/fene.hpp>
 
+#include "explained.h"
 #include "plain_style.h"
 
 namespace LAMMPS_NS {
@@ -17,7 +18,7 @@ namespace LAMMPS_NS {
 /// A bond style whose forces come from a SIMD kernel. Everything else is the plain style's, of which it keeps
 /// an object, which also computes at steps that want energy or virials by atom, and always if newton is off
 /// for bonds.
-class BondDCH : public Bond {
+class BondDCH : public Bond, public Explained {
  public:
   ~BondDCH() override;
   BondDCH(const BondDCH&) = delete;
@@ -34,6 +35,7 @@ class BondDCH : public Bond {
   void* extract(const char* name, int& dimension) override;
   void reinit() override;
   double memory_usage() override;
+  dch::lammps::StyleNote explain() const override;
 
  protected:
   /// @param plain_style the plain style's name
@@ -53,7 +55,8 @@ class BondDCH : public Bond {
   void take_coefficients();
   void compute_plain(int eflag, int vflag);
 
-  bool has_kernel_ = false;  ///< of the coefficients as they are
+  bool has_kernel_ = false;   ///< of the coefficients as they are
+  dch::lammps::Turns turns_;  ///< of this run
 };
 
 }  // namespace LAMMPS_NS

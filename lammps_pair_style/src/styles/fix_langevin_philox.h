@@ -14,11 +14,13 @@ FixStyle(langevin/philox,FixLangevinPhilox);
 
 #include <dch/base/vec3.hpp>
 
+#include "explained.h"
+
 namespace LAMMPS_NS {
 
 /// langevin/philox: drag and random forces of fix langevin, with random numbers that depend on seed, atom ID
 /// and step alone. `suffix dch` does not find it, as it takes other numbers than fix langevin.
-class FixLangevinPhilox : public Fix {
+class FixLangevinPhilox : public Fix, public Explained {
  public:
   FixLangevinPhilox(LAMMPS* lammps, int narg, char** arg);
 
@@ -28,6 +30,9 @@ class FixLangevinPhilox : public Fix {
   void post_force(int) override;
   void reset_dt() override;
   int modify_param(int narg, char** arg) override;
+  dch::lammps::StyleNote explain() const override {
+    return {"langevin/philox", "SIMD kernel, random numbers by seed, atom ID and step"};
+  }
 
  private:
   void read_keywords(int narg, char** arg);

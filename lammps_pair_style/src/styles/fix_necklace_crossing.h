@@ -15,6 +15,7 @@ FixStyle(necklace/crossing,FixNecklaceCrossing);
 #include "atom_pasts.h"
 #include "crossing_finder.h"
 #include "crossing_log.h"
+#include "explained.h"
 #include "moving_atoms.h"
 #include "moving_bonds.h"
 
@@ -25,7 +26,7 @@ namespace LAMMPS_NS {
 ///
 /// A process that is alone looks at its atoms in the periodic box. Of several, each tests the bonds that its
 /// atoms hold against those of its atoms and ghosts. No process gathers all chains.
-class FixNecklaceCrossing : public Fix {
+class FixNecklaceCrossing : public Fix, public Explained {
  public:
   FixNecklaceCrossing(LAMMPS* lammps, int narg, char** arg);
   ~FixNecklaceCrossing() override;
@@ -33,6 +34,7 @@ class FixNecklaceCrossing : public Fix {
   FixNecklaceCrossing& operator=(const FixNecklaceCrossing&) = delete;
 
   int setmask() override;
+  dch::lammps::StyleNote explain() const override { return {"necklace/crossing", "structure of its own"}; }
   void init() override;
   void setup(int) override;
   void end_of_step() override;

@@ -24,6 +24,7 @@ int FixNVEDCH::setmask() { return plain_->setmask(); }
 
 void FixNVEDCH::init() {
   plain_->init();
+  turns_ = {};
   take_step();
 }
 
@@ -56,7 +57,10 @@ void FixNVEDCH::for_atoms(Act act) {
   });
 }
 
+dch::lammps::StyleNote FixNVEDCH::explain() const { return {"nve/dch", describe(turns_, "r-RESPA")}; }
+
 void FixNVEDCH::initial_integrate(int) {
+  ++turns_.by_kernel;
   for_atoms([this](int first, int count, dch::Span<const double> over_mass) {
     dch::kick_and_drift(over_mass, step_, vectors(atom->f, first, count), vectors(atom->v, first, count),
                         vectors(atom->x, first, count));
@@ -70,6 +74,7 @@ void FixNVEDCH::final_integrate() {
 }
 
 void FixNVEDCH::initial_integrate_respa(int vflag, int level, int loop) {
+  ++turns_.by_plain;
   plain_->initial_integrate_respa(vflag, level, loop);
 }
 

@@ -11,11 +11,13 @@ FixStyle(nve/dch,FixNVEDCH);
 #include <memory>
 #include <vector>
 
+#include "explained.h"
+
 namespace LAMMPS_NS {
 
 /// nve/dch: the operations of fix nve, in its order, by SIMD kernels: positions and velocities have its bits.
 /// It keeps an object of the plain style, which knows the steps of r-RESPA and computes there.
-class FixNVEDCH : public Fix {
+class FixNVEDCH : public Fix, public Explained {
  public:
   FixNVEDCH(LAMMPS* lammps, int narg, char** arg);
 
@@ -26,6 +28,7 @@ class FixNVEDCH : public Fix {
   void initial_integrate_respa(int vflag, int level, int loop) override;
   void final_integrate_respa(int level, int loop) override;
   void reset_dt() override;
+  dch::lammps::StyleNote explain() const override;
 
  private:
   /// Calls act(first, count, half a step over the mass of each) for the group's atoms.
@@ -36,6 +39,7 @@ class FixNVEDCH : public Fix {
   std::unique_ptr<Fix> plain_;
   double step_ = 0, half_step_ = 0;          ///< [time], [time ftm2v]
   std::vector<double> half_step_over_mass_;  ///< by type
+  dch::lammps::Turns turns_;                 ///< of this run
 };
 
 }  // namespace LAMMPS_NS

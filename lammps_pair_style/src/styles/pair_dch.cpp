@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atom.h>
 #include <comm.h>
+#include <cstdio>
+#include <cstring>
 #include <domain.h>
 #include <error.h>
 #include <force.h>
@@ -46,6 +48,7 @@ PairDCH::PairDCH(LAMMPS* lammps, std::string plain) : Pair(lammps), plain_name_(
   writedata = plain_->writedata;
   reinitflag = plain_->reinitflag;
   unit_convert_flag = plain_->unit_convert_flag;
+  respa_enable = plain_->respa_enable;
   ewaldflag = plain_->ewaldflag;
   pppmflag = plain_->pppmflag;
   msmflag = plain_->msmflag;
@@ -175,29 +178,73 @@ double PairDCH::memory_usage() {
 // --------------------------------------------------------------------------------------------------------------------
 // Pairs
 
-std::string PairDCH::reason_for_plain() const {
-  if (!atom->tag_enable) return "atoms have no IDs (atom_modify id no)";
-  if (atom->molecular == Atom::TEMPLATE) return "atom_style template";
-  if (neighbor->includegroup) return "neigh_modify include";
-  if (GhostsSent::of_one_group(*comm)) return "ghosts of one group only (comm_modify group)";
+dch::lammps::Obstacle PairDCH::reason_for_plain() const {
+  if (!atom->tag_enable) return {"atoms have no IDs (atom_modify id no)", "'atom_modify id yes'"};
+  if (atom->molecular == Atom::TEMPLATE) return {"atom_style template", "another atom style"};
+  if (neighbor->includegroup) return {"neigh_modify include", "'neigh_modify include all'"};
+  if (GhostsSent::of_one_group(*comm))
+    return {"ghosts of one group only (comm_modify group)", "'comm_modify group all'"};
   return {};
+}
+
+/// Whether r-RESPA may ask for inner, middle and outer forces. Which levels there are its class does not
+/// tell, but the list that the plain style asks for does.
+bool PairDCH::may_have_levels() const {
+  return force->pair == this && plain_->respa_enable && std::strcmp(update->integrate_style, "respa") == 0;
 }
 
 void PairDCH::init_style() {
   clusters_.reset();
   pairs_of_types_.clear();
   has_kernel_ = false;
+  computed_ = pair_by_pair_ = 0;
+  has_lists_of_plain_ = may_have_levels();
   // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
   // this style's name, to compare with.
   const int requests = neighbor->nrequest;
   plain_->init_style();
-  withdraw_requests(*neighbor, requests);
-  const std::string reason = reason_for_plain();
+  if (!has_lists_of_plain_) withdraw_requests(*neighbor, requests);
+  obstacle_ = reason_for_plain();
   NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
-  clusters_ = neighbor_dch->request_clusters(*this, plain_name_ + "/dch", reason);
-  if (!clusters_ || neighbor_dch->verifies()) neighbor->request(this, instance_me);
+  const Pair& asker = has_lists_of_plain_ ? *plain_ : *this;
+  clusters_ = neighbor_dch->request_clusters(asker, plain_name_ + "/dch", obstacle_);
+  if (!has_lists_of_plain_ && (!clusters_ || neighbor_dch->verifies())) neighbor->request(this, instance_me);
 }
 
 void PairDCH::init_list(int id, NeighList* neighbors) { plain_->init_list(id, neighbors); }
+
+// --------------------------------------------------------------------------------------------------------------------
+// What was chosen
+
+std::string PairDCH::way() const {
+  const ClusterList& chosen = *clusters_;
+  char pairs[64];
+  std::snprintf(pairs, sizeof pairs, "%.3g pairs an atom%s", chosen.pairs_an_atom,
+                comm->nprocs > 1 ? " on process 0" : "");
+  if (chosen.one_by_one)
+    return std::string("pairs one by one, in double precision, as there are ") +
+           (chosen.by_size ? "size classes, of which none makes cluster pairs"
+                           : std::string(pairs) + ", not more than 9");
+  const bool is_mixed = NeighborDCH::install(lmp)->precision() == dch::ForcePrecision::mixed;
+  return std::string("cluster pairs, in ") + (is_mixed ? "mixed" : "double") + " precision, as there are " +
+         pairs + ", more than 9";
+}
+
+dch::lammps::StyleNote PairDCH::explain() const {
+  const std::string name = "pair " + plain_name_ + "/dch";
+  if (clusters_ && clusters_->by_levels)
+    return {name,
+            "plain style on a neighbor list, as r-RESPA splits the forces of pairs into levels; give "
+            "all pair forces one level ('run_style respa ... pair N')"};
+  if (!obstacle_.empty())
+    return {name, "plain style on a neighbor list, " + obstacle_.reason + "; give " + obstacle_.remedy};
+  if (computed_ == 0) return {name, "no run yet"};
+  std::string how = way();
+  if (pair_by_pair_ > 0)
+    how += "; of " + std::to_string(computed_) + " times " + std::to_string(pair_by_pair_) +
+           " by single(), for energies or virials by atom" +
+           (force->newton_pair ? "" : ", or for sums with newton off");
+  return {name, how};
+}
 
 }  // namespace LAMMPS_NS

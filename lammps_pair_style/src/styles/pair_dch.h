@@ -11,6 +11,7 @@
 #include <dch/forces/lennard_jones.hpp>
 
 #include "cluster_list.h"
+#include "explained.h"
 
 namespace LAMMPS_NS {
 
@@ -18,11 +19,13 @@ namespace LAMMPS_NS {
 /// the plain style's, of which it keeps an object: arguments, coefficients, mixing, tail corrections,
 /// restarts, single().
 ///
+/// With r-RESPA that splits the forces of pairs into levels the plain style computes, on its own lists.
+///
 /// Ordinary pairs go through a SIMD kernel. Bonded pairs with weights, steps that want energies by atom or
 /// other tallies, and newton off with ghosts go pair by pair through the plain style's single(). Where
 /// cluster pairs cannot be had (settings that dch stats names) the plain style computes, on a neighbor list.
 /// Wherever it computes, it does so without its tables of Coulomb forces, as the kernels do.
-class PairDCH : public Pair {
+class PairDCH : public Pair, public Explained {
  public:
   /// @param plain name of the plain style
   PairDCH(LAMMPS* lammps, std::string plain);
@@ -31,6 +34,9 @@ class PairDCH : public Pair {
   PairDCH& operator=(const PairDCH&) = delete;
 
   void compute(int eflag, int vflag) override;
+  void compute_inner() override;
+  void compute_middle() override;
+  void compute_outer(int eflag, int vflag) override;
   void settings(int narg, char** arg) override;
   void coeff(int narg, char** arg) override;
   void init_style() override;
@@ -49,6 +55,7 @@ class PairDCH : public Pair {
   void add_tally_callback(Compute* compute) override;
   void del_tally_callback(Compute* compute) override;
   double memory_usage() override;
+  dch::lammps::StyleNote explain() const override;
 
  protected:
   /// Pairs of types, from 1, that this style computes with coefficients as they are now.
@@ -73,12 +80,15 @@ class PairDCH : public Pair {
   bool shifts_energy() const { return offset_flag != 0; }
 
  private:
-  std::string reason_for_plain() const;
+  dch::lammps::Obstacle reason_for_plain() const;
+  bool may_have_levels() const;
+  Pair& plain_of_levels() const;
+  std::string way() const;
   void take_flags();
   void take_coefficients();
   void prepare_kernel();
   void refresh();
-  void compute_plain(int eflag, int vflag);
+  void take_sums_of_plain();
   void compute_clusters(bool with_sums);
   void compute_pair_by_pair();
   void compute_special();
@@ -86,7 +96,10 @@ class PairDCH : public Pair {
 
   std::string plain_name_;
   std::unique_ptr<Pair> plain_;
-  std::shared_ptr<ClusterList> clusters_;  ///< null if the plain style computes
+  std::shared_ptr<ClusterList> clusters_;         ///< null if the plain style computes
+  dch::lammps::Obstacle obstacle_;                ///< why it does
+  bool has_lists_of_plain_ = false;               ///< those that the plain style has asked for
+  std::int64_t computed_ = 0, pair_by_pair_ = 0;  ///< in this run: how often, and how often by single()
   std::vector<PairOfTypes> pairs_of_types_;
   bool has_kernel_ = false;           ///< for the coefficients as they are
   std::vector<dch::Vec3> of_ghosts_;  ///< forces on ghosts before ours

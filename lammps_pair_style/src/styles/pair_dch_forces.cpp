@@ -16,11 +16,13 @@
 namespace LAMMPS_NS {
 
 void PairDCH::compute(int eflag, int vflag) {
-  if (!clusters_) {
-    compute_plain(eflag, vflag);
+  ev_init(eflag, vflag);
+  if (!clusters_ || clusters_->by_levels) {
+    plain_->compute(eflag, vflag);
+    take_sums_of_plain();
     return;
   }
-  ev_init(eflag, vflag);
+  ++computed_;
   const bool by_atom = eflag_atom || vflag_atom || cvflag_atom || num_tally_compute > 0;
   const bool wants_sums = eflag_either || vflag_either;
   // With newton off each of two processes has half of a pair with a ghost, which the sums do not know.
@@ -28,6 +30,7 @@ void PairDCH::compute(int eflag, int vflag) {
   try {
     refresh();
     if (by_atom || has_halves) {
+      ++pair_by_pair_;
       compute_pair_by_pair();
     } else {
       compute_clusters(wants_sums);
@@ -40,9 +43,25 @@ void PairDCH::compute(int eflag, int vflag) {
   compute_special();
 }
 
-void PairDCH::compute_plain(int eflag, int vflag) {
+/// Only where the plain style has lists with these levels.
+Pair& PairDCH::plain_of_levels() const {
+  if (!has_lists_of_plain_)
+    error->all(FLERR, "Pair style " + plain_name_ +
+                          "/dch has no inner, middle and outer forces for r-RESPA under pair_style hybrid; "
+                          "give 'suffix off' before the pair_style, or all pair forces one level");
+  return *plain_;
+}
+
+void PairDCH::compute_inner() { plain_of_levels().compute_inner(); }
+void PairDCH::compute_middle() { plain_of_levels().compute_middle(); }
+
+void PairDCH::compute_outer(int eflag, int vflag) {
   ev_init(eflag, vflag);
-  plain_->compute(eflag, vflag);
+  plain_of_levels().compute_outer(eflag, vflag);
+  take_sums_of_plain();
+}
+
+void PairDCH::take_sums_of_plain() {
   eng_vdwl = plain_->eng_vdwl;
   eng_coul = plain_->eng_coul;
   std::copy_n(plain_->virial, 6, virial);

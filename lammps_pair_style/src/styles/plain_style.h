@@ -22,8 +22,9 @@ class PlainStyle {
   PlainStyle(const char* kind, const char* name, std::size_t coefficients)
       : kind_(kind), name_(name), count_(coefficients) {}
 
+  std::string name() const { return name_ + "/dch"; }
   /// "Bond style harmonic/dch", for messages.
-  std::string title() const { return kind_ + " style " + name_ + "/dch"; }
+  std::string title() const { return kind_ + " style " + name(); }
 
   /// @param made by LAMMPS; null if there is no such style
   void take(Style* made, Error& error) {

@@ -152,6 +152,7 @@ class Errors(unittest.TestCase):
                               ("precision half", "does not know 'half'"),
                               ("of", "unknown keyword 'of'"),
                               ("off now", "'now' after 'dch off' has no meaning"),
+                              ("explain all", "'all' after 'dch explain' has no meaning"),
                               ("on c", "'dch on c' lacks its value, which has no effect any more"),
                               ("on fast", "unknown option 'fast'"),
                               ("on engine tree", "'dch on engine' does not know 'tree'; give 'dch on engine dch'"),

@@ -36,6 +36,7 @@ TEST(DchOptions, On) {
 TEST(DchOptions, OffAndStats) {
   EXPECT_EQ(parse_request({"off"}).action, Request::Action::off);
   EXPECT_EQ(parse_request({"stats"}).action, Request::Action::stats);
+  EXPECT_EQ(parse_request({"explain"}).action, Request::Action::explain);
 }
 
 TEST(DchOptions, Verify) {
@@ -78,7 +79,8 @@ TEST(DchOptions, Threads) {
 
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
-      "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch verify yes|no|every N', "
+      "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch explain', "
+      "'dch verify yes|no|every N', "
       "'dch precision double|mixed', "
       "'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{

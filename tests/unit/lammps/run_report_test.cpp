@@ -26,8 +26,8 @@ RunReport example() {
   r.promotions = 17;
   r.demotions = 19;
   r.memory_bytes = 3 << 20;
-  r.lists = {{1, "pair lj/cut, half, newton on", ""},
-             {2, "compute coord/atom, full", "built on demand only"}};
+  r.lists = {{1, "pair lj/cut, half, newton on", "", ""},
+             {2, "compute coord/atom, full", "built on demand only", ""}};
   return r;
 }
 
@@ -62,6 +62,15 @@ TEST(RunReport, SaysWhichEngineWasTakenAndWhy) {
   EXPECT_THAT(format_report(report),
               HasSubstr("auto, on process 0 dch: 9.0 points a cell, spread 7.1; 2 of 3 "
                         "processes on the grid\n"));
+}
+
+TEST(RunReport, SaysWhetherSizesHaveStructuresOfTheirOwn) {
+  RunReport report = example();
+  report.size_reason = "cutoffs are equal";
+  EXPECT_THAT(format_report(report), HasSubstr("size classes            none: cutoffs are equal\n"));
+  report.by_size = true;
+  EXPECT_THAT(format_report(report),
+              HasSubstr("size classes            a structure for each: cutoffs are equal\n"));
 }
 
 TEST(RunReport, SaysWhatThePointsAre) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "style_notes.h"
+
+#include <algorithm>
+#include <angle.h>
+#include <bond.h>
+#include <dihedral.h>
+#include <fix.h>
+#include <force.h>
+#include <improper.h>
+#include <kspace.h>
+#include <modify.h>
+#include <pair.h>
+#include <string>
+
+#include "explained.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+using dch::lammps::StyleNote;
+
+/// Without the suffix of one of LAMMPS's packages.
+std::string plain_name(const std::string& name) {
+  for (const std::string suffix : {"/opt", "/omp", "/intel", "/gpu", "/kk"}) {
+    const bool ends =
+        name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+    if (ends) return name.substr(0, name.size() - suffix.size());
+  }
+  return name;
+}
+
+template <class Styles>
+StyleNote note(const Styles& styles, const char* kind, const std::string& name, const Explained* explained) {
+  if (explained) return explained->explain();
+  const std::string plain = plain_name(name), ours = plain + "/dch", opt = name + "/opt";
+  if (styles.count(ours) > 0)
+    return {kind + name, "native, as the script names it; give 'suffix dch' before it for " + ours};
+  std::string how = "native, there is no " + ours;
+  if (styles.count(opt) > 0) how += "; give 'suffix opt' before it for " + opt;
+  return {kind + name, how};
+}
+
+bool is_hybrid(const std::string& name) { return name.compare(0, 6, "hybrid") == 0; }
+
+/// Styles under this one: itself, or those of a hybrid one. LAMMPS finds them by their names alone.
+template <class Style, class Styles, class Find>
+void add_notes(const Styles& styles, const char* kind, Style* style, const char* name, const Find& find,
+               std::vector<StyleNote>& notes) {
+  if (!style) return;
+  if (!is_hybrid(name)) {
+    notes.push_back(note(styles, kind, name, dynamic_cast<const Explained*>(style)));
+    return;
+  }
+  std::vector<Style*> known{style};
+  for (const auto& entry : styles) {
+    for (int which = 1;; ++which) {
+      Style* const found = find(entry.first, which);
+      if (!found || std::find(known.begin(), known.end(), found) != known.end()) break;
+      known.push_back(found);
+      notes.push_back(note(styles, kind, entry.first, dynamic_cast<const Explained*>(found)));
+    }
+  }
+}
+
+void add_fixes(Modify& modify, std::vector<StyleNote>& notes) {
+  for (int k = 0; k < modify.nfix; ++k) {
+    Fix* const fix = modify.fix[k];
+    const std::string name = fix->style;
+    const std::string kind = std::string("fix ") + fix->id + ", ";
+    if (std::isupper(static_cast<unsigned char>(name[0]))) continue;  // LAMMPS's and our own helpers
+    StyleNote found = note(*modify.fix_map, "", name, dynamic_cast<const Explained*>(fix));
+    found.name = kind + found.name;
+    const std::string philox = name + "/philox";
+    if (modify.fix_map->count(philox) > 0)
+      found.how += "; " + philox + " is faster, with random numbers of its own";
+    notes.push_back(found);
+  }
+}
+
+}  // namespace
+
+std::vector<StyleNote> style_notes(const LAMMPS& lmp) {
+  std::vector<StyleNote> notes;
+  Force& force = *lmp.force;
+  add_notes(
+      *force.pair_map, "pair ", force.pair, force.pair_style,
+      [&](const std::string& name, int which) { return force.pair_match(name, 1, which); }, notes);
+  add_notes(
+      *force.bond_map, "bond ", force.bond, force.bond_style,
+      [&](const std::string& name, int) { return force.bond_match(name); }, notes);
+  add_notes(
+      *force.angle_map, "angle ", force.angle, force.angle_style,
+      [&](const std::string& name, int) { return force.angle_match(name); }, notes);
+  add_notes(
+      *force.dihedral_map, "dihedral ", force.dihedral, force.dihedral_style,
+      [&](const std::string& name, int) { return force.dihedral_match(name); }, notes);
+  add_notes(
+      *force.improper_map, "improper ", force.improper, force.improper_style,
+      [&](const std::string& name, int) { return force.improper_match(name); }, notes);
+  add_notes(
+      *force.kspace_map, "kspace ", force.kspace, force.kspace_style,
+      [&](const std::string&, int) { return static_cast<KSpace*>(nullptr); }, notes);
+  add_fixes(*lmp.modify, notes);
+  return notes;
+}
+
+}  // namespace LAMMPS_NS
