@@ -7,10 +7,14 @@ import numpy.typing as npt
 
 version: str
 
-class InvalidParameter(ValueError): ...
-class InvalidBox(InvalidParameter): ...
-class InvalidPosition(InvalidParameter): ...
-class CutoffTooLarge(InvalidParameter): ...
+class InvalidParameter(ValueError):
+    """An argument that does not fit. The message names the value, the limit and the remedy."""
+class InvalidBox(InvalidParameter):
+    """A cell of which no volume is left, or with numbers that are not finite."""
+class InvalidPosition(InvalidParameter):
+    """A position that is not finite, or too far from the cell to be wrapped."""
+class CutoffTooLarge(InvalidParameter):
+    """A cutoff for which nearest images do not suffice."""
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]

@@ -8,7 +8,6 @@ import json
 import os
 import random
 import re
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -17,7 +16,7 @@ import h5py
 import numpy
 
 from contact_oracle import Contacts, chains_by_molecule, lay_chains, read_dump
-from dch_command import Checks, check_keys, expect_failure, run, write_chain
+from dch_command import Checks, check_keys, expect_failure, run, run_example, write_chain
 from drawings import drawing_faults
 
 CARDS = ["Contact map", "P(s)", "Contacts of a frame", "Duration of contacts"]
@@ -271,11 +270,8 @@ def check_summary(checks, command, path, docs, folder):
     print(result.stdout)
     quiet = run(command, "contacts", path, "--gap", "1", "--quiet")
     checks.that((quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", ""), f"--quiet: {quiet}")
-    blocks = re.findall(r"```python\n(.*?)```", open(os.path.join(docs, "cli.md")).read(), re.DOTALL)
-    example = next(block for block in blocks if "contacts.h5" in block)
-    shown = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
-    checks.that(shown.returncode == 0 and "longest contact" in shown.stdout, f"the example: {shown}")
-    print("the example of cli.md:", shown.stdout.strip())
+    shown = run_example(checks, docs, folder, "contacts.h5", "longest contact")
+    checks.that("longest contact" in shown, f"the example: {shown}")
 
 
 def main(command, data, docs):

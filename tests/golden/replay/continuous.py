@@ -15,7 +15,7 @@ import h5py
 import numpy
 
 from contact_oracle import read_dump
-from dch_command import Checks, check_keys, expect_failure, run
+from dch_command import Checks, check_keys, expect_failure, run, run_example
 from drawings import drawing_faults
 
 CARDS = ["Between frames", "How close hidden contacts come", "How long hidden contacts last"]
@@ -202,7 +202,7 @@ def check_what_cannot_be_followed(checks, command, folder):
     checks.that(report["between"]["hidden"] == 1 and report["between"]["followed"] == 1, "a flip is no change")
 
 
-def check_real(checks, command, data, folder):
+def check_real(checks, command, data, docs, folder):
     """All real trajectories with two frames or more, verified; one against NumPy."""
     for name, cutoff, options in (("nacl.lammpstrj", "4", ["--verify", "all"]), ("cell_shapes.xtc", "0.3", ["--verify", "all"]),
                                   ("water.trr", "0.3", ["--frames", ":8", "--verify", "all"]),
@@ -225,6 +225,8 @@ def check_real(checks, command, data, folder):
     ids = frames[0]["id"].astype(int).tolist()
     compare(checks, "polymer", folder, report,
             [(ids, points[k], points[k + 1], numpy.array(frames[k]["box"]), numpy.array(frames[k + 1]["box"])) for k in (0, 1)], 4)
+    shown = run_example(checks, docs, folder, "lists.h5", "between frames")
+    checks.that(len(shown.splitlines()) == report["between"]["hidden"] > 0, f"the example: {shown}")
 
 
 def check_usage(checks, command, data, folder):
@@ -243,7 +245,7 @@ def main(command, data, docs):
         check_random(checks, command, docs, folder)
         check_atoms_that_change(checks, command, folder)
         check_what_cannot_be_followed(checks, command, folder)
-        check_real(checks, command, data, folder)
+        check_real(checks, command, data, docs, folder)
         check_usage(checks, command, data, folder)
     checks.finish()
 

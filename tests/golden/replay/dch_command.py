@@ -78,6 +78,16 @@ def replay(command, path, *options):
         return result, content
 
 
+def run_example(checks, docs, folder, data, expected):
+    """Runs the example of cli.md that reads a file of data in a folder and whose text holds what is expected of its output."""
+    blocks = re.findall(r"```python\n(.*?)```", open(os.path.join(docs, "cli.md")).read(), re.DOTALL)
+    example = next(block for block in blocks if data in block and expected in block)
+    shown = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
+    checks.that(shown.returncode == 0 and shown.stdout.strip() != "", f"the example of {data}: {shown}")
+    print("the example of cli.md:", *shown.stdout.splitlines()[:3], sep="\n  ")
+    return shown.stdout
+
+
 def documented_keys(docs, command):
     """The table of report-schema.md for a subcommand: key -> when it is present."""
     sections = re.split(r"^## ", open(os.path.join(docs, "report-schema.md")).read(), flags=re.MULTILINE)

@@ -7,12 +7,11 @@
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-from dch_command import Checks, check_keys, info, replay, run
+from dch_command import Checks, check_keys, info, replay, run, run_example
 from drawings import drawing_faults
 
 SVG_CARDS = ["Pairs", "Cost of a frame", "Repairs", "Neighbors of an atom", "Levels"]
@@ -99,11 +98,8 @@ def check_lists(checks, command, data, docs, folder):
         doubled = [sorted(frame + [(b, a) for a, b in frame]) for frame in kinds["half"]]
         checks.that(doubled == [sorted(frame) for frame in kinds["full"]], f"{name}: half and full lists differ")
     run(command, "replay", os.path.join(data, "water.trr"), "--cutoff", "0.4", "--out", os.path.join(folder, "lists.h5"))
-    blocks = re.findall(r"```python\n(.*?)```", open(os.path.join(docs, "cli.md")).read(), re.DOTALL)
-    example = next(block for block in blocks if "has the neighbors" in block)
-    result = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
-    checks.that(result.returncode == 0 and "has the neighbors [" in result.stdout, f"the example: {result}")
-    print("the example of cli.md:", result.stdout.strip())
+    shown = run_example(checks, docs, folder, "lists.h5", "has the neighbors")
+    checks.that("has the neighbors [" in shown, f"the example: {shown}")
 
 
 def pairs_of(file):

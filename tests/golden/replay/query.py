@@ -18,7 +18,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
 from contact_oracle import read_dump
-from dch_command import Checks, check_keys, expect_failure, run
+from dch_command import Checks, check_keys, expect_failure, run, run_example
 from drawings import drawing_faults
 
 CARDS = ["Nearest atoms", "Closest pair", "Clusters at every cutoff", "Largest cluster", "Sizes of clusters"]
@@ -172,6 +172,8 @@ def check_real(checks, command, data, docs, folder):
               for frame in read_dump(path)[:4:2]]
     found, report, table = ask(checks, command, folder, path, "--nearest", "3", "--clusters", "5.0123", "--frames", ":4:2")
     compare(checks, "polymer", frames, 3, [5.0123], found, report)
+    shown = run_example(checks, docs, folder, "query.h5", "atoms/nearest")
+    checks.that(shown.startswith("["), f"the example: {shown}")
     page = open(os.path.join(folder, "page.html")).read()
     for card in CARDS:
         checks.that(f"<h2>{card}" in page, f"the page lacks the card {card}")
