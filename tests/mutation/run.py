@@ -46,7 +46,7 @@ HIERARCHY = (["unit/core/dch_unit_core", "unit/hierarchy/dch_unit_hierarchy", "p
 STALE_TEST = (["unit/core/dch_unit_core", "property/dch_property_expiry"], ["*StaleTest*:*VerletList*", "*AffineMotion*"])
 LIST_KERNELS = (["unit/core/dch_unit_core"], ["*ListKernelsTest*"])
 PAIR_FILTER = (["unit/core/dch_unit_core"], ["PairFilter.*", "*CellSearch.*/orthorhombic*"])
-ORDERED_ROWS = (["unit/core/dch_unit_core"], ["*OrderedRows*:RowParts.*"])
+ORDERED_ROWS = (["unit/core/dch_unit_core"], ["*OrderedRows*:RowParts.*:StartRows.*"])
 LATTICE = (["unit/core/dch_unit_core"], ["Lattice.*"])
 LIST_LIMITS = (["unit/core/dch_unit_core", "property/dch_property_hierarchy"],
                ["ListLimits.*", "RandomScenes.*:*ListsEqualTheOracleInTheSmallestBox*"])

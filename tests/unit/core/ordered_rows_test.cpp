@@ -125,10 +125,53 @@ TEST_P(OrderedRowsTest, TakePiecesAsTheyComeWhereThereIsRoom) {
       placed += static_cast<int>(rows.place(piece, pieces[static_cast<std::size_t>(piece)].data()));
     }
     EXPECT_EQ(placed == 40, list == 1);
+    EXPECT_EQ(got[0].near_end.capacity() > 0, GetParam() && list == 1);
     rows.make_room();
     for (int piece = placed; piece < 40; ++piece)
       ASSERT_TRUE(rows.place(piece, pieces[static_cast<std::size_t>(piece)].data()));
   }
+}
+
+TEST_P(OrderedRowsTest, HaveAShellThatTheListBeforeHadNot) {
+  NeighborList got = list_of(30), piece = list_of(20);
+  got.near_end = std::vector<std::int64_t>();
+  start_rows(got);
+  const std::vector<NeighborList*> out{&got};
+  OrderedRows rows(out, 1);
+  rows.count(0, &piece);
+  EXPECT_EQ(rows.place(0, &piece), !GetParam());
+  rows.make_room();
+  ASSERT_TRUE(rows.place(0, &piece));
+  expect_same(got, piece);
+}
+
+TEST_P(OrderedRowsTest, LeaveAListThatIsLongEnoughWhereItIs) {
+  NeighborList piece = list_of(20), got;
+  got.j.reserve(static_cast<std::size_t>(piece.first.back()));
+  start_rows(got);
+  const std::int32_t* const at = got.j.data();
+  const std::vector<NeighborList*> out{&got};
+  OrderedRows rows(out, 1);
+  rows.count(0, &piece);
+  rows.make_room();
+  EXPECT_EQ(got.j.data(), at);
+}
+
+TEST(StartRows, MakesAnEmptyHalfListOfAllTheMemoryThatThereIs) {
+  NeighborList list;
+  list.kind = ListKind::full;
+  list.margin = 1;
+  list.first = {0, 3};
+  list.particle = {5};
+  list.near_end = {1};
+  list.j = {6, 7, 8};
+  list.j.reserve(100);
+  start_rows(list);
+  EXPECT_EQ(list.kind, ListKind::half);
+  EXPECT_EQ(list.margin, 0);
+  EXPECT_EQ(list.size(), 0U);
+  EXPECT_TRUE(list.particle.empty() && list.near_end.empty());
+  EXPECT_EQ(list.j.size(), list.j.capacity());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shells, OrderedRowsTest, testing::Bool(),
