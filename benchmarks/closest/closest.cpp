@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The closest pair of points of which a few move in each step, or all a little: kept up, and found anew by a
-// tree that is built in each step, of this library or of nanoflann.
+// tree that is built in each step, of this library or of nanoflann; and the tree of points itself, kept up.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdint>
@@ -165,6 +165,49 @@ void rebuilt_tree(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PointTree(hierarchy.view()).nodes().size());
 }
 BENCHMARK(rebuilt_tree)->Arg(2000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+
+void check_tree(benchmark::State& state, Hierarchy& hierarchy, const PointTree& tree) {
+  const ClosestPoints found = closest_pair(tree), expected = closest_pair(PointTree(hierarchy.view()));
+  if (found.a != expected.a || found.b != expected.b || tree.node(0).points != state.range(0))
+    state.SkipWithError("the tree is another one");
+}
+
+/// The tree kept up, told which points come and go: without the exchange.
+void kept_tree_exchange(benchmark::State& state) {
+  Scene scene(state.range(0));
+  Hierarchy hierarchy = scene.hierarchy();
+  PointTree tree(hierarchy.view());
+  for (auto _ : state) {
+    state.PauseTiming();
+    exchange(scene, hierarchy, state.range(1));
+    const HierarchyView view = hierarchy.kept_view();
+    state.ResumeTiming();
+    tree.update(view, scene.moved);
+  }
+  check_tree(state, hierarchy, tree);
+}
+BENCHMARK(kept_tree_exchange)
+    ->ArgsProduct({{2000, 100000}, {1, 10, 100, 1000}})
+    ->Unit(benchmark::kMicrosecond);
+
+/// The same where positions of all points are looked at, and all have moved by so many ten thousandths of the
+/// mean distance of neighbors at most.
+void kept_tree_shake(benchmark::State& state) {
+  Scene scene(state.range(0));
+  Hierarchy hierarchy = scene.hierarchy();
+  PointTree tree(hierarchy.view());
+  for (auto _ : state) {
+    state.PauseTiming();
+    scene.shake(1e-4 * static_cast<double>(state.range(1)));
+    hierarchy.update(scene.positions, Box::none());
+    const HierarchyView view = hierarchy.view();
+    state.ResumeTiming();
+    tree.update(view);
+  }
+  state.counters["builds"] = static_cast<double>(tree.work().builds);
+  check_tree(state, hierarchy, tree);
+}
+BENCHMARK(kept_tree_shake)->ArgsProduct({{2000, 100000}, {1, 10, 100}})->Unit(benchmark::kMicrosecond);
 
 void search_of_tree(benchmark::State& state) {
   const Scene scene(state.range(0));

@@ -29,13 +29,15 @@ class ClosestPairSearch {
   explicit ClosestPairSearch(const PointTree& tree) : tree_(tree), least_id_(tree.nodes().size()) {}
 
   ClosestPoints search() {
-    // Children stand behind their parents: from the end, so that small nodes give a small limit early.
-    for (std::size_t k = tree_.nodes().size(); k-- > 0;) {
-      const PointTree::Node& node = tree_.nodes()[k];
+    // Children before their parents, so that small nodes give a small limit early.
+    const std::vector<std::int32_t> order = from_the_root();
+    for (auto k = order.rbegin(); k != order.rend(); ++k) {
+      const PointTree::Node& node = tree_.node(*k);
       const std::int32_t end = node.first_child + node.children;
-      least_id_[k] = node.representative;
+      std::int32_t& least_id = least_id_[static_cast<std::size_t>(*k)];
+      least_id = node.representative;
       for (std::int32_t x = node.first_child; x < end; ++x) {
-        least_id_[k] = std::min(least_id_[k], least_id_[static_cast<std::size_t>(x)]);
+        least_id = std::min(least_id, least_id_[static_cast<std::size_t>(x)]);
         for (std::int32_t y = x + 1; y < end; ++y) push(x, y);
       }
     }
@@ -54,6 +56,18 @@ class ClosestPairSearch {
   }
 
  private:
+  /// All nodes, children behind their parents.
+  std::vector<std::int32_t> from_the_root() const {
+    std::vector<std::int32_t> order;
+    order.reserve(tree_.nodes().size());
+    if (tree_.size() > 0) order.push_back(0);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const PointTree::Node& node = tree_.node(order[k]);
+      for (std::int32_t c = 0; c < node.children; ++c) order.push_back(node.first_child + c);
+    }
+    return order;
+  }
+
   void push(std::int32_t x, std::int32_t y) {
     ++looked_at_;
     const PointTree::Node &one = tree_.node(x), &other = tree_.node(y);

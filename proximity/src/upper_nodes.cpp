@@ -4,22 +4,24 @@
 namespace dch::detail {
 
 UpperNodes::UpperNodes(const Structure& structure) : structure_(structure) {
-  ids.resize(structure.count());
-  if (ids.empty()) return;
+  tree.ids.resize(structure.count());
+  if (tree.ids.empty()) return;
   count_points();
-  nodes.emplace_back();
-  nodes[0].points = static_cast<std::int32_t>(ids.size());
+  tree.nodes.emplace_back();
+  tree.nodes[0].points = static_cast<std::int32_t>(tree.ids.size());
+  tree.nets.emplace_back();
+  tree.first_point.push_back(0);
   std::vector<Subtree> children;
   for (std::int32_t root = 0; root < structure.levels.back().size(); ++root)
     if (structure.levels.back().is_alive(root)) children.push_back({structure.top(), root});
   subtree_.push_back(children.front());
   if (children.size() > 1) add_children(0, children);
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (nodes[k].children > 0) continue;
+  for (std::size_t k = 0; k < tree.nodes.size(); ++k) {
+    if (tree.nodes[k].children > 0) continue;
     const Subtree at = pass_only_children(subtree_[k]);
     list_children(at, children);
     if (children.empty()) {
-      take_points(at, static_cast<std::size_t>(nodes[k].first_point));
+      take_points(at, static_cast<std::size_t>(tree.first_point[k]));
     } else {
       add_children(k, children);
     }
@@ -48,6 +50,12 @@ std::int32_t UpperNodes::count(Subtree at) const {
   return at.level == 0 ? 1 : count_[static_cast<std::size_t>(at.level)][static_cast<std::size_t>(at.node)];
 }
 
+Vec3 UpperNodes::site(Subtree at) const {
+  return at.level == 0 ? structure_.box.wrap(structure_.raw[static_cast<std::size_t>(at.node)])
+                       : structure_.levels[static_cast<std::size_t>(at.level)]
+                             .position[static_cast<std::size_t>(at.node)];
+}
+
 /// None of a leaf, whose points are taken as they are.
 void UpperNodes::list_children(Subtree of, std::vector<Subtree>& children) const {
   children.clear();
@@ -66,27 +74,27 @@ UpperNodes::Subtree UpperNodes::pass_only_children(Subtree at) const {
   return at;
 }
 
+/// Of the points below nodes of a level all are within its radius (thesis 5.3), but while a repair is put
+/// off.
 void UpperNodes::add_children(std::size_t parent, const std::vector<Subtree>& children) {
-  nodes[parent].first_child = static_cast<std::int32_t>(nodes.size());
-  nodes[parent].children = static_cast<std::int32_t>(children.size());
-  std::int32_t place = nodes[parent].first_point;
+  const int level = children.back().level;  // no singleton, of which there is one at most, in front
+  tree.nets[parent].radius = structure_.levels[static_cast<std::size_t>(level)].radius;
+  tree.begin_row(parent, children.size());
+  std::int32_t place = tree.first_point[parent];
   for (const Subtree at : children) {
-    PointTree::Node node;
-    node.first_point = place;
-    node.points = count(at);
-    place += node.points;
-    nodes.push_back(node);
+    tree.add(parent, place, count(at), site(at));
+    place += count(at);
     subtree_.push_back(at);
   }
 }
 
 void UpperNodes::take_points(Subtree of, std::size_t place) {
   if (of.level == 0) {
-    ids[place] = of.node;
+    tree.ids[place] = of.node;
     return;
   }
   structure_.for_each_child(1, of.node,
-                            [&](std::int32_t slot) { ids[place++] = structure_.points.id[slot]; });
+                            [&](std::int32_t slot) { tree.ids[place++] = structure_.points.id[slot]; });
 }
 
 }  // namespace dch::detail

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <dch/proximity/point_tree.hpp>
-
 #include "hierarchy/structure.hpp"
+#include "new_tree.hpp"
 
 namespace dch::detail {
 
@@ -16,8 +16,7 @@ class UpperNodes {
  public:
   explicit UpperNodes(const Structure& structure);
 
-  std::vector<PointTree::Node> nodes;
-  std::vector<std::int32_t> ids;
+  NewTree tree;
 
  private:
   struct Subtree {
@@ -25,6 +24,7 @@ class UpperNodes {
   };
   void count_points();
   std::int32_t count(Subtree at) const;
+  Vec3 site(Subtree at) const;
   void list_children(Subtree of, std::vector<Subtree>& children) const;
   Subtree pass_only_children(Subtree at) const;
   void add_children(std::size_t parent, const std::vector<Subtree>& children);

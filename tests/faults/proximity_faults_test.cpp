@@ -2,8 +2,10 @@
 //
 // Queries of trees of points, neighbors at any radius, nearest neighbors and spanning trees hold nothing when
 // memory did not suffice, and give the same answer as ever when asked again.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +58,52 @@ TEST(ProximityFaults, Trees) {
     for (const PointTree::Node& node : tree.nodes()) answer.push_back(node.radius);
     return answer;
   });
+}
+
+/// A tree that has thrown is empty, and the next update makes it right, whatever ids it is told.
+TEST(ProximityFaults, TreesThatAreKeptUp) {
+  struct Subject {
+    Hierarchy hierarchy{params_for()};
+    std::optional<PointTree> tree;
+  };
+  const Scene scene(60);
+  const std::vector<std::int32_t> changed{7, 60}, none;
+  for (const bool is_told : {true, false}) {
+    const auto make = [&] {
+      auto subject = std::make_unique<Subject>();
+      subject->hierarchy.build(scene.points, scene.box);
+      subject->tree.emplace(subject->hierarchy.view());
+      subject->hierarchy.remove(7);
+      subject->hierarchy.insert({0.1, 0.2, 0.3});
+      subject->hierarchy.insert({0.1, 0.2, 0.4});
+      subject->hierarchy.view();
+      return subject;
+    };
+    const auto update = [&](auto& subject) {
+      if (is_told) return subject->tree->update(subject->hierarchy.view(), changed);
+      subject->tree->update(subject->hierarchy.view());
+    };
+    const auto answer_of = [](const PointTree& tree) {
+      const ClosestPoints closest = closest_pair(tree);
+      Answer answer(tree.ids().begin(), tree.ids().end());
+      std::sort(answer.begin(), answer.end());
+      answer.insert(answer.end(), {closest.a + 0.0, closest.b + 0.0, closest.distance2});
+      return answer;
+    };
+    const auto expected = make();
+    update(expected);
+    EXPECT_EQ(expected->tree->work().builds, 1);
+    expect_sound(sweep(make, update,
+                       [&](auto& subject, Ending ending) -> std::string {
+                         if (ending == Ending::threw && subject->tree->size() > 0)
+                           return after(ending, "points in a tree that threw");
+                         if (ending == Ending::threw) subject->tree->update(subject->hierarchy.view(), none);
+                         return answer_of(*subject->tree) == answer_of(*expected->tree)
+                                    ? ""
+                                    : after(ending, "another answer");
+                       }),
+                 5);
+  }
 }
 
 TEST(ProximityFaults, QueriesOfTrees) {

@@ -60,9 +60,10 @@ TEST(ClosestPairs, OfFewerThanTwoPointsThereAreNone) {
 
 }  // namespace
 
-void check_closest_pair(ProximityScene& scene) {
+void check_closest_pair(ProximityScene& scene) { check_closest_pair(scene, PointTree(scene.view())); }
+
+void check_closest_pair(ProximityScene& scene, const PointTree& tree) {
   const std::vector<std::int32_t> ids = scene.ids();
-  const PointTree tree(scene.view());
   std::tuple<double, std::int32_t, std::int32_t> expected{kInfinity, -1, -1};
   for (std::size_t p = 0; p < ids.size(); ++p)
     for (std::size_t q = p + 1; q < ids.size(); ++q)

@@ -74,9 +74,8 @@ void check_radii(const PointTree& tree, const std::vector<std::int32_t>& ids,
 }
 
 /// @param worst ratio to the optimum so far
-void check_against_best(ProximityScene& scene, double& worst) {
+void check_against_best(const PointTree& tree, ProximityScene& scene, double& worst) {
   const std::vector<std::int32_t> ids = scene.ids();
-  const PointTree tree(scene.view());
   const std::vector<std::int64_t> all = up_to(ids.size());
   const KCenters found = k_centers(tree, all);
   ASSERT_NO_FATAL_FAILURE(check_radii(tree, ids, all, found, scene.what()));
@@ -87,9 +86,8 @@ void check_against_best(ProximityScene& scene, double& worst) {
   }
 }
 
-void check_some(ProximityScene& scene) {
+void check_some(const PointTree& tree, ProximityScene& scene) {
   const std::vector<std::int32_t> ids = scene.ids();
-  const PointTree tree(scene.view());
   std::vector<std::int64_t> some;
   for (int q = 0; q < 4 && !ids.empty(); ++q)
     some.push_back(1 + static_cast<std::int64_t>(scene.random.below(ids.size())));
@@ -101,7 +99,7 @@ TEST(KCenters, AreWithinFourTimesTheOptimumOfSmallSets) {
   for (int k = 0; k < effort(400); ++k) {
     ProximityScene scene(5000000 + static_cast<std::uint64_t>(k), 12);
     for (int step = 0; step < 3; step += 2) {
-      ASSERT_NO_FATAL_FAILURE(check_against_best(scene, worst)) << "step " << step;
+      ASSERT_NO_FATAL_FAILURE(check_against_best(PointTree(scene.view()), scene, worst)) << "step " << step;
       scene.change(step);
     }
   }
@@ -115,7 +113,7 @@ TEST(KCenters, HaveTheRadiusThatTheySayInRandomScenes) {
     ProximityScene scene(6000000 + static_cast<std::uint64_t>(k), 200);
     for (int step = 0; step < 4; ++step) {
       pending += scene.view().repair_pending();
-      ASSERT_NO_FATAL_FAILURE(check_some(scene)) << "step " << step;
+      ASSERT_NO_FATAL_FAILURE(check_some(PointTree(scene.view()), scene)) << "step " << step;
       scene.change(step);
     }
   }
@@ -173,10 +171,12 @@ TEST(KCenters, BadInputIsNamed) {
 
 }  // namespace
 
-void check_centers(ProximityScene& scene) {
-  if (scene.ids().size() > 12) return check_some(scene);
+void check_centers(ProximityScene& scene) { check_centers(scene, PointTree(scene.view())); }
+
+void check_centers(ProximityScene& scene, const PointTree& tree) {
+  if (scene.ids().size() > 12) return check_some(tree, scene);
   double worst = 0;
-  check_against_best(scene, worst);
+  check_against_best(tree, scene, worst);
 }
 
 }  // namespace dch

@@ -31,7 +31,7 @@ std::int64_t maintained(const ProximityScene& scene) { return scene.stats().repa
 
 /// Where policy and motion allow that repairs are put off, there are more steps; a set that has become empty
 /// has none to come.
-void age(ProximityScene& scene, int steps, KeptClosestPair& kept) {
+void age(ProximityScene& scene, int steps, KeptClosestPair& kept, PointTree& tree) {
   const std::int64_t enough = maintained(scene) + steps;
   for (int step = 0; step < steps || (maintained(scene) < enough && step < 4 * steps); ++step) {
     scene.move();
@@ -40,10 +40,11 @@ void age(ProximityScene& scene, int steps, KeptClosestPair& kept) {
     if (step % 100 == 0) {
       ASSERT_NO_FATAL_FAILURE(check_kept_closest_pair(scene, kept)) << "step " << step;
     }
+    if (step % 4 == 0) tree.update(scene.view());
   }
 }
 
-void check_all(ProximityScene& scene) {
+void check_all(ProximityScene& scene, PointTree& tree) {
   ASSERT_NO_FATAL_FAILURE(check_nearest(scene));
   ASSERT_NO_FATAL_FAILURE(check_neighbors_within(scene));
   ASSERT_NO_FATAL_FAILURE(check_spanning_tree(scene));
@@ -52,6 +53,11 @@ void check_all(ProximityScene& scene) {
   ASSERT_NO_FATAL_FAILURE(check_centers(scene));
   ASSERT_NO_FATAL_FAILURE(check_closest_pair(scene));
   ASSERT_NO_FATAL_FAILURE(check_far_sums(scene));
+  ASSERT_NO_FATAL_FAILURE(check_kept_point_tree(scene, tree));
+  ASSERT_NO_FATAL_FAILURE(check_well_separated_pairs(scene, tree));
+  ASSERT_NO_FATAL_FAILURE(check_spanner(scene, tree));
+  ASSERT_NO_FATAL_FAILURE(check_centers(scene, tree));
+  ASSERT_NO_FATAL_FAILURE(check_closest_pair(scene, tree));
 }
 
 class AgedScenes : public testing::TestWithParam<int> {};
@@ -68,9 +74,10 @@ TEST_P(AgedScenes, AnswerAsAllPairsDo) {
                          is_small ? 24 : 200, 5);
     set_instruction_set(sets[scene.random.below(sets.size())]);
     KeptClosestPair kept;
+    PointTree tree(scene.view());
     for (const int steps : kAges) {
-      ASSERT_NO_FATAL_FAILURE(age(scene, steps, kept));
-      ASSERT_NO_FATAL_FAILURE(check_all(scene)) << "after " << maintained(scene) << " repairs";
+      ASSERT_NO_FATAL_FAILURE(age(scene, steps, kept, tree));
+      ASSERT_NO_FATAL_FAILURE(check_all(scene, tree)) << "after " << maintained(scene) << " repairs";
     }
     repairs += maintained(scene);
     changes += scene.stats().inserted + scene.stats().removed;

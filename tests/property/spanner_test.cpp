@@ -134,9 +134,10 @@ TEST(Spanners, OfNothingAndOfOnePointThereAreNoEdges) {
 
 }  // namespace
 
-void check_spanner(ProximityScene& scene) {
+void check_spanner(ProximityScene& scene) { check_spanner(scene, PointTree(scene.view())); }
+
+void check_spanner(ProximityScene& scene, const PointTree& tree) {
   const std::vector<std::int32_t> ids = scene.ids();
-  const PointTree tree(scene.view());
   const double epsilon = std::pow(10, scene.random.uniform(-1.5, 1.5));
   const Spanner spanner(tree, epsilon);
   const std::vector<double> expected = all_paths(spanner, ids);

@@ -19,6 +19,7 @@
 #include "effort.hpp"
 #include "error_message.hpp"
 #include "liquid.hpp"
+#include "point_tree_checks.hpp"
 #include "proximity_checks.hpp"
 #include "proximity_scene.hpp"
 #include "scenes.hpp"
@@ -26,38 +27,23 @@
 namespace dch {
 namespace {
 
-/// Checks what PointTree promises, point by point.
+/// Checks what a tree that was just built promises.
 void check_tree(const PointTree& tree, const std::vector<std::int32_t>& expected_ids,
                 const std::string& what) {
-  std::vector<std::int32_t> ids = tree.ids();
-  std::sort(ids.begin(), ids.end());
-  ASSERT_EQ(ids, expected_ids) << what;
-  ASSERT_LT(tree.nodes().size(), 2 * ids.size() + 1) << what;
-  if (ids.empty()) return;
-  ASSERT_EQ(static_cast<std::size_t>(tree.node(0).points), ids.size()) << what;
-  for (const PointTree::Node& node : tree.nodes()) {
-    ASSERT_EQ(node.children == 0, node.points == 1) << what;
-    ASSERT_NE(node.children, 1) << what;
-    std::int32_t next = node.first_point;
-    for (std::int32_t k = 0; k < node.children; ++k) {
-      const PointTree::Node& child = tree.node(node.first_child + k);
-      ASSERT_EQ(child.first_point, next) << what;
-      next += child.points;
-    }
-    ASSERT_EQ(node.children == 0 ? next + 1 : next, node.first_point + node.points) << what;
+  ASSERT_NO_FATAL_FAILURE(check_kept_tree(tree, expected_ids, what));
+  const std::vector<std::int32_t> nodes = nodes_from_the_root(tree);
+  ASSERT_EQ(tree.nodes().size(), nodes.size()) << what;
+  for (const std::int32_t k : nodes) {
+    const PointTree::Node& node = tree.node(k);
+    ASSERT_LT(node.parent, k) << what;
     const Vec3 representative = tree.box().wrap(tree.position(node.representative));
     double farthest = 0;
     double nearest = std::numeric_limits<double>::infinity();
-    bool is_below = false;
     for (const std::int32_t id : tree.points_below(node)) {
       const Vec3 at = tree.box().wrap(tree.position(id));
       nearest = std::min(nearest, tree.box().distance2(node.center, at));
-      is_below = is_below || id == node.representative;
       farthest = std::max(farthest, tree.box().distance2(representative, at));
-      ASSERT_LE(tree.box().distance2(node.center, at), node.radius * node.radius) << what;
-      ASSERT_LE(tree.box().distance2(representative, at), node.reach * node.reach) << what;
     }
-    ASSERT_TRUE(is_below) << what;
     ASSERT_EQ(tree.box().distance2(node.center, representative), nearest) << what;
     ASSERT_EQ(node.radius == 0, farthest == 0) << what;
     ASSERT_LE(node.radius, node.reach) << what;
@@ -68,13 +54,17 @@ void check_tree(const PointTree& tree, const std::vector<std::int32_t>& expected
 /// How often the pairs cover each pair of points, by places in the tree's order.
 std::vector<int> covers(const PointTree& tree, const WellSeparatedPairs& decomposition) {
   const std::size_t n = tree.size();
+  std::vector<std::size_t> place(tree.capacity());
+  std::size_t next = 0;
+  for (const std::int32_t id : tree.ids()) place[static_cast<std::size_t>(id)] = next++;
   std::vector<int> times(n * n, 0);
-  for (const WellSeparatedPair& pair : decomposition.pairs) {
-    const PointTree::Node &a = tree.node(pair.a), &b = tree.node(pair.b);
-    for (std::int32_t p = a.first_point; p < a.first_point + a.points; ++p)
-      for (std::int32_t q = b.first_point; q < b.first_point + b.points; ++q)
-        ++times[static_cast<std::size_t>(std::min(p, q)) * n + static_cast<std::size_t>(std::max(p, q))];
-  }
+  for (const WellSeparatedPair& pair : decomposition.pairs)
+    for (const std::int32_t p : tree.points_below(tree.node(pair.a)))
+      for (const std::int32_t q : tree.points_below(tree.node(pair.b))) {
+        const auto [low, high] =
+            std::minmax({place[static_cast<std::size_t>(p)], place[static_cast<std::size_t>(q)]});
+        ++times[low * n + high];
+      }
   return times;
 }
 
@@ -100,9 +90,7 @@ struct PairsSeen {
   std::int64_t in_one_image = 0, in_several = 0;
 };
 
-void check_pairs(ProximityScene& scene, PairsSeen& seen) {
-  const PointTree tree(scene.view());
-  ASSERT_NO_FATAL_FAILURE(check_tree(tree, scene.ids(), scene.what()));
+void check_pairs_of(const PointTree& tree, ProximityScene& scene, PairsSeen& seen) {
   const double s = std::pow(10, scene.random.uniform(-1, 1.3));
   const std::string what = scene.what() + ", s = " + std::to_string(s);
   const WellSeparatedPairs decomposition = well_separated_pairs(tree, s);
@@ -114,6 +102,12 @@ void check_pairs(ProximityScene& scene, PairsSeen& seen) {
     ASSERT_NO_FATAL_FAILURE(check_pair(tree, pair, s, what));
     ++(pair.has_one_image ? seen.in_one_image : seen.in_several);
   }
+}
+
+void check_pairs(ProximityScene& scene, PairsSeen& seen) {
+  const PointTree tree(scene.view());
+  ASSERT_NO_FATAL_FAILURE(check_tree(tree, scene.ids(), scene.what()));
+  ASSERT_NO_FATAL_FAILURE(check_pairs_of(tree, scene, seen));
 }
 
 TEST(WellSeparatedPairs, CoverEachPairOnceInRandomScenes) {
@@ -206,6 +200,11 @@ TEST(WellSeparatedPairs, OfNothingAndOfOnePointThereAreNone) {
 void check_well_separated_pairs(ProximityScene& scene) {
   PairsSeen seen;
   check_pairs(scene, seen);
+}
+
+void check_well_separated_pairs(ProximityScene& scene, const PointTree& kept) {
+  PairsSeen seen;
+  check_pairs_of(kept, scene, seen);
 }
 
 }  // namespace dch

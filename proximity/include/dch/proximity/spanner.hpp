@@ -24,7 +24,7 @@ struct SpannerPath {
 ///
 /// The nodes of a pair are separated as the proof needs, in terms of how far points really are from their
 /// representatives: a third of the pairs that s = 4 + 8 / epsilon takes. Lengths hold up to rounding, which
-/// is PointTree::rounding() a step. Good while the tree is.
+/// is PointTree::rounding() a step. Good until the tree is updated.
 class Spanner {
  public:
   /// @param epsilon positive; O(n / epsilon^3) edges for n points while that is below n^2 / 2.

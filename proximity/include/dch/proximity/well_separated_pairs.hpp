@@ -11,7 +11,7 @@ namespace dch {
 
 /// Two nodes of a PointTree whose balls are far apart for their size.
 struct WellSeparatedPair {
-  std::int32_t a = -1, b = -1;  ///< nodes, no point below both
+  std::int32_t a = -1, b = -1;  ///< nodes, no point below both; of the tree until it is updated
   /// Whether the displacement from each point of one to each of the other is, by nearest images, that of the
   /// centers and of the points from their centers: no other image of a pair is as near. Always without a
   /// periodic box.
