@@ -17,9 +17,10 @@ namespace {
 
 /// A ball is measured anew after this share of its points has changed.
 constexpr std::int32_t kShareOfChanges = 2;
-/// And after its points have moved by this share of its radius, or of that of the net they are in.
+/// And after its points have moved by this share of its radius.
 constexpr double kShareOfRadius = 16;
-/// Points that move leave a child where they are farther from its site than this many radii of the net.
+/// Points that move need another place where they are farther from their site than this many radii of the
+/// net.
 constexpr double kStray = 1 + 1 / kShareOfRadius;
 
 }  // namespace
@@ -171,10 +172,11 @@ void TreeChanges::measure(std::int32_t k) {
   net(k).changes = 0;
 }
 
-/// Whether a point below a node does not belong there.
-bool TreeChanges::strays(std::int32_t k, Vec3 at) {
-  const std::int32_t parent = node(k).parent;
-  return parent >= 0 && distance(net(k).site, at) > kStray * net(parent).radius;
+/// Whether a point is to leave its node. It is looked at by the last net alone: nets above are so much wider
+/// that what this one lets pass is little to them.
+bool TreeChanges::strays(std::int32_t leaf, Vec3 at) {
+  const std::int32_t parent = node(leaf).parent;
+  return parent >= 0 && distance(net(leaf).site, at) > kStray * net(parent).radius;
 }
 
 std::vector<std::int32_t> TreeChanges::move(const std::vector<std::int32_t>& moved, bool at_once) {
@@ -185,19 +187,18 @@ std::vector<std::int32_t> TreeChanges::move(const std::vector<std::int32_t>& mov
     for (const std::int32_t id : moved) move_alone(id);
   }
   std::sort(strayed_.begin(), strayed_.end());
-  strayed_.erase(std::unique(strayed_.begin(), strayed_.end()), strayed_.end());
   return strayed_;
 }
 
 void TreeChanges::move_alone(std::int32_t id) {
   const std::int32_t leaf = tree_.node_of_[static_cast<std::size_t>(id)];
   const Vec3 at = place_now(id);
-  for (std::int32_t k = leaf; k >= 0; k = node(k).parent, ++tree_.work_.nodes)
-    if (strays(k, at)) return strayed_.push_back(id);
+  if (strays(leaf, at)) return strayed_.push_back(id);
   const double step = distance(node(leaf).center, at);
   node(leaf).center = at;
   tree_.positions_[static_cast<std::size_t>(id)] = structure_.raw[static_cast<std::size_t>(id)];
   for (std::int32_t k = node(leaf).parent; k >= 0; k = node(k).parent) {
+    ++tree_.work_.nodes;
     if (node(k).representative == id) node(k).reach = (node(k).reach + step + tree_.rounding_) * kInflate;
     grow(k, at);
     note_change(k);
@@ -220,9 +221,10 @@ double TreeChanges::move_below(std::int32_t k) {
   here.reach = (here.reach + 2 * step) * kInflate;
   double& moved = net(k).moved;
   moved += step;
-  double least = here.radius - moved;
-  if (here.parent >= 0) least = std::min(least, net(here.parent).radius);
-  if (kShareOfRadius * moved > least) examine(k);
+  if (kShareOfRadius * moved > here.radius - moved) {
+    measure(k);
+    moved = 0;
+  }
   return farthest;
 }
 
@@ -249,14 +251,6 @@ double TreeChanges::move_leaf(std::int32_t k) {
   leaf.center = at;
   before = given;
   return step;
-}
-
-/// Measures a ball after motion, and finds points that do not belong there.
-void TreeChanges::examine(std::int32_t k) {
-  net(k).moved = 0;
-  measure(k);
-  for (std::size_t p = 0; p < ids_.size(); ++p)
-    if (strays(k, at_[p])) strayed_.push_back(ids_[p]);
 }
 
 }  // namespace dch::detail

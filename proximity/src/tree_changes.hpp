@@ -24,8 +24,8 @@ class TreeChanges {
   void insert(std::int32_t id);
   /// Of several points.
   void remove(std::int32_t id);
-  /// Has points move and the balls above them grow. Returns those that are farther from a site above than
-  /// nets allow, and need another place, ascending.
+  /// Has points move and the balls above them grow. Returns those that are farther from their site than nets
+  /// allow, and need another place, ascending.
   /// @param at_once all balls are looked at once, and all points that have moved are taken, else those above
   /// each of the points
   std::vector<std::int32_t> move(const std::vector<std::int32_t>& moved, bool at_once);
@@ -46,12 +46,11 @@ class TreeChanges {
   void choose_representative(std::int32_t k);
   void grow(std::int32_t k, Vec3 at);
   void note_change(std::int32_t k);
-  bool strays(std::int32_t k, Vec3 at);
+  bool strays(std::int32_t leaf, Vec3 at);
   void move_alone(std::int32_t id);
   double move_below(std::int32_t k);
   void ask_for_places(std::int32_t first, std::int32_t end);
   double move_leaf(std::int32_t k);
-  void examine(std::int32_t k);
   void measure(std::int32_t k);
 
   PointTree& tree_;

@@ -26,6 +26,16 @@
 namespace dch {
 namespace {
 
+int depth_of(const PointTree& tree) {
+  int depth = 0;
+  for (std::int32_t at : nodes_from_the_root(tree)) {
+    int levels = 0;
+    for (; at >= 0; at = tree.node(at).parent) ++levels;
+    depth = std::max(depth, levels);
+  }
+  return depth;
+}
+
 TEST(KeptPointTrees, HoldAllPointsInRandomScenes) {
   int pending = 0;
   std::int64_t kept_up = 0, built = 0;
@@ -128,33 +138,58 @@ TEST(KeptPointTrees, HoldPointsThatCoincideOrNearlyDo) {
       tree.update(hierarchy.view(), changed);
       const std::string what = "scene " + std::to_string(k) + ", step " + std::to_string(step);
       ASSERT_NO_FATAL_FAILURE(check_kept_tree(tree, ids_of(hierarchy.view()), what));
-      std::int32_t depth = 0;
-      for (std::int32_t at : nodes_from_the_root(tree)) {
-        std::int32_t levels = 0;
-        for (; at >= 0; at = tree.node(at).parent) ++levels;
-        depth = std::max(depth, levels);
-      }
-      ASSERT_LE(depth, 80) << what;  // 60 of distances, 8 of points on a spot
+      ASSERT_LE(depth_of(tree), 80) << what;  // 60 of distances, 8 of points on a spot
     }
   }
 }
 
-/// All are removed but those in a corner, and others come far away: nodes and nets of before hold no one up.
+/// Points that come far from all others, in ever smaller and ever larger places: nets of before hold no one
+/// up.
 TEST(KeptPointTrees, FollowPointsThatGoElsewhere) {
-  MovingPoints scene(3000, Box::none(), 79);
-  PointTree tree(scene.hierarchy->view());
-  for (int step = 0; step < 60; ++step) {
+  for (const double factor : {0.5, 1.5}) {
+    MovingPoints scene(3000, Box::none(), 79);
+    PointTree tree(scene.hierarchy->view());
+    double size = factor < 1 ? 1e6 : 1;
+    for (int step = 0; step < 60; ++step, size *= factor) {
+      std::vector<std::int32_t> changed;
+      for (int k = 0; k < 200; ++k)
+        changed.push_back(scene.replace(scene.random.in_cube(size) + Vec3{1e5 * step, 0, 0}));
+      tree.update(scene.hierarchy->view(), changed);
+      const std::string what = "factor " + std::to_string(factor) + ", step " + std::to_string(step);
+      ASSERT_NO_FATAL_FAILURE(check_kept_tree(tree, ids_of(scene.hierarchy->view()), what));
+      std::int32_t most = 0;
+      for (const PointTree::Node& node : tree.nodes()) most = std::max(most, node.children);
+      ASSERT_LE(most, 60) << what;
+    }
+    EXPECT_EQ(tree.work().builds, 1);
+  }
+}
+
+/// Halves of spots go on being halved as points come.
+TEST(KeptPointTrees, HaveFewLevelsOfPointsThatCoincide) {
+  Hierarchy hierarchy = liquid(8, Box::none());
+  PointTree tree(hierarchy.view());
+  for (int step = 0; step < 30; ++step) {
     std::vector<std::int32_t> changed;
-    for (int k = 0; k < 200; ++k)
-      changed.push_back(scene.replace(scene.random.in_cube(std::pow(2, 20 - step)) + Vec3{1e5 * step, 0, 0}));
-    tree.update(scene.hierarchy->view(), changed);
-    ASSERT_NO_FATAL_FAILURE(
-        check_kept_tree(tree, ids_of(scene.hierarchy->view()), "step " + std::to_string(step)));
-    std::int32_t most = 0;
-    for (const PointTree::Node& node : tree.nodes()) most = std::max(most, node.children);
-    ASSERT_LE(most, 100) << "step " << step;
+    for (int k = 0; k < 30; ++k) changed.push_back(hierarchy.insert({3, 3, 3}));
+    tree.update(hierarchy.view(), changed);
   }
   EXPECT_EQ(tree.work().builds, 1);
+  EXPECT_LE(depth_of(tree), 24);
+}
+
+/// The node above a set of points and one far away is a ball between them.
+TEST(KeptPointTrees, PutBallsBetweenWhatTheyHold) {
+  for (const Box& box : {Box::none(), Box::orthorhombic({100, 100, 100})}) {
+    MovingPoints scene(400, box, 82);
+    for (Vec3& p : scene.positions) p = scene.random.in_cube(1);
+    scene.hierarchy->build(scene.positions, box);
+    PointTree tree(scene.hierarchy->view());
+    tree.update(scene.hierarchy->view(), std::vector<std::int32_t>{scene.hierarchy->insert({0, 40, 0})});
+    EXPECT_EQ(tree.work().builds, 1);
+    EXPECT_EQ(tree.node(0).children, 2);
+    EXPECT_LE(tree.node(0).radius, 22);
+  }
 }
 
 TEST(KeptPointTrees, AreTheSameWhetherToldOrNot) {
