@@ -22,8 +22,13 @@ void NestedNets::complete() {
   // Nodes that a split adds stand at the end, so they get their turn.
   for (std::size_t k = 0; k < tree_.nodes.size(); ++k) {
     PointTree::Node& node = tree_.nodes[k];
-    measure_ball(box_, points_of(k), node);
-    if (node.points == 1) continue;
+    const PointsOfNode points = points_of(k);
+    if (node.points == 1) {
+      node.center = points.at[0];
+      node.representative = points.ids[0];
+      continue;
+    }
+    measure_ball(box_, points, node);
     const double radius = node.reach > 0 ? center_radius_below(node.reach / kInflate, base_radius_) : 0;
     tree_.nets[k].radius = std::max(tree_.nets[k].radius, radius);
     if (node.children == 0) split(k);
