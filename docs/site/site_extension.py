@@ -16,31 +16,34 @@ from sphinx.util.docutils import SphinxDirective
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 XML = ROOT / "build" / "docs" / "xml"
-MEMBERS = {"enum": "enum", "typedef": "typedef", "variable": "variable", "function": "function"}
+# Of namespaces and, of files, what is in none.
+MEMBERS = {"namespace": ("enum", "typedef", "variable", "function"), "file": ("define",)}
+
+
+def entries_of(definition):
+    """(place, directive, name) of a class, or of what a namespace or a file holds."""
+    kind, scope = definition.get("kind"), definition.findtext("compoundname")
+    if kind in ("class", "struct"):
+        yield definition.find("location"), kind, scope
+        return
+    members = [member for member in definition.iter("memberdef") if member.get("kind") in MEMBERS.get(kind, ())]
+    times = collections.Counter(member.findtext("name") for member in members)
+    for member in members:
+        name = member.findtext("name")
+        overload = member.findtext("argsstring") if times[name] > 1 else ""
+        yield member.find("location"), member.get("kind"), f"{scope}::{name}{overload}" if kind == "namespace" else name
 
 
 def declarations():
-    """Header -> (line, directive, name) of what namespaces hold."""
-    found = collections.defaultdict(list)
+    """Header -> (line, directive, name) of what is declared in it, but for members of classes."""
+    found, classes = collections.defaultdict(list), set()
     for compound in ET.parse(XML / "index.xml").getroot().findall("compound"):
-        kind = compound.get("kind")
-        if kind not in ("namespace", "class", "struct"):
-            continue
         definition = ET.parse(XML / f"{compound.get('refid')}.xml").getroot().find("compounddef")
-        if kind != "namespace":
-            place = definition.find("location")
-            found[place.get("file")].append((int(place.get("line")), kind, definition.findtext("compoundname")))
-            continue
-        members = [member for member in definition.iter("memberdef") if member.get("kind") in MEMBERS]
-        times = collections.Counter(member.findtext("name") for member in members)
-        for member in members:
-            place = member.find("location")
-            name = f"{definition.findtext('compoundname')}::{member.findtext('name')}"
-            if times[member.findtext("name")] > 1:
-                name += member.findtext("argsstring")
-            found[place.get("file")].append((int(place.get("line")), MEMBERS[member.get("kind")], name))
-    names = {name for entries in found.values() for _, kind, name in entries if kind in ("class", "struct")}
-    return {header: sorted(entry for entry in entries if entry[2].rpartition("::")[0] not in names)
+        for place, kind, name in entries_of(definition):
+            found[place.get("file")].append((int(place.get("line")), kind, name))
+            if kind in ("class", "struct"):
+                classes.add(name)
+    return {header: sorted(entry for entry in entries if entry[2].rpartition("::")[0] not in classes)
             for header, entries in found.items()}
 
 
@@ -56,8 +59,11 @@ class PublicHeaders(SphinxDirective):
         parent = nodes.section()
         for header in headers:
             self.env.note_dependency(str(header))
+            entries = self.env.dch_declarations.get(str(header.relative_to(ROOT)))
+            if not entries:
+                raise self.error(f"Doxygen knows of nothing in {header}")
             lines = [f"## {str(header).split('/include/')[1]}", ""]
-            for _, kind, name in self.env.dch_declarations.get(str(header.relative_to(ROOT)), []):
+            for _, kind, name in entries:
                 lines += [f"```{{doxygen{kind}}} {name}", *([":members:", ":undoc-members:"] if kind in ("class", "struct") else []),
                           "```", ""]
             self.state.nested_parse(StringList(lines, source=str(header)), 0, parent, match_titles=True)

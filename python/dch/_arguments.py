@@ -125,6 +125,39 @@ def quantities(letters: Any) -> str:
     return letters
 
 
+def is_single(dtype: Any) -> bool:
+    """Whether numbers are asked for as float32, else as float64."""
+    try:
+        kind = np.dtype(dtype)
+    except TypeError as error:
+        raise InvalidParameter(f"dtype is {dtype!r}, which is no type of numbers; give float32 or float64") from error
+    if kind not in (np.float32, np.float64):
+        raise InvalidParameter(f"dtype is {kind}; give float32 or float64")
+    return kind == np.float32
+
+
+def given_arrays(out: Any, letters: str, single: bool, *read: Floats) -> tuple[Any, ...] | None:
+    """Arrays to write to, one for each letter; none of them overlaps another one, or those that are read meanwhile."""
+    if out is None:
+        return None
+    arrays = (out,) if isinstance(out, np.ndarray) else tuple(out) if isinstance(out, (tuple, list)) else ()
+    if len(arrays) != len(letters) or len(set(letters)) != len(letters):
+        raise InvalidParameter(f"out has {len(arrays)} arrays for the quantities {letters!r}; give an array for each letter, "
+                               "and each letter once")
+    for letter, array in zip(letters, arrays):
+        kind = np.dtype(np.int64 if letter in "ijS" else np.float32 if single else np.float64)
+        width = (3,) if letter in "DS" else ()
+        if not isinstance(array, np.ndarray) or array.dtype != kind or array.ndim != 1 + len(width) or array.shape[1:] != width:
+            found = f"the shape {array.shape} and the type {array.dtype}" if isinstance(array, np.ndarray) else repr(array)
+            raise InvalidParameter(f"out for {letter} has {found}; give an array of {kind} with the shape {('n', *width)}")
+        if not (array.flags.writeable and array.flags.c_contiguous and array.flags.aligned):
+            raise InvalidParameter(f"out for {letter} is read-only or not contiguous; give an array that numpy has made")
+    for k, array in enumerate(arrays):
+        if any(np.may_share_memory(array, other) for other in (*arrays[:k], *read)):
+            raise InvalidParameter(f"out for {letters[k]} shares memory with another array; give arrays of their own")
+    return arrays
+
+
 def in_order(letters: str, find: Callable[[str], tuple[Any, ...]]) -> Any:
     """The array of each letter, found once, in a tuple; the array itself for one letter."""
     distinct = "".join(dict.fromkeys(letters))

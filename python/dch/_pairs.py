@@ -57,29 +57,34 @@ def described(cutoff: Any) -> str:
     return f"<{len(cutoff)} radii>" if np.ndim(cutoff) == 1 else f"<{len(cutoff)} types>"
 
 
-def no_pairs(quantities: str) -> tuple[Any, ...]:
+def no_pairs(quantities: str, single: bool, out: tuple[Any, ...] | None) -> tuple[Any, ...]:
+    if out is not None:
+        return tuple(array[:0] for array in out)
     shapes = {"i": (0,), "j": (0,), "d": (0,), "D": (0, 3), "S": (0, 3)}
-    return tuple(np.zeros(shapes[letter], float if letter in "dD" else np.int64) for letter in quantities)
+    real = np.float32 if single else np.float64
+    return tuple(np.zeros(shapes[letter], real if letter in "dD" else np.int64) for letter in quantities)
 
 
 def find(quantities: str, positions: Any, cell: Any, pbc: Any, cutoff: Any, kinds: Any, self_interaction: bool,
-         half: bool, threads: int | None) -> Any:
+         half: bool, threads: int | None, dtype: Any, out: Any) -> Any:
     letters = arguments.quantities(quantities)
     points = arguments.points(positions)
+    single = arguments.is_single(dtype)
+    given = arguments.given_arrays(out, letters, single, points)
     vectors, periodic = arguments.box(cell, pbc)
     wanted = request(cutoff, kinds, len(points), half, BELOW)
     number = arguments.threads(threads)
 
     def arrays(distinct: str) -> tuple[Any, ...]:
         if wanted is None:
-            return no_pairs(distinct)
-        return _core.find_pairs(distinct, points, vectors, periodic, wanted, bool(self_interaction), number)
+            return no_pairs(distinct, single, given)
+        return _core.find_pairs(distinct, points, vectors, periodic, wanted, bool(self_interaction), number, single, given)
 
     return arguments.in_order(letters, arrays)
 
 
 def neighbor_list(quantities: str, a: Any, cutoff: Any, self_interaction: bool = False, *, half: bool = False,
-                  threads: int | None = None) -> Any:
+                  threads: int | None = None, dtype: Any = np.float64, out: Any = None) -> Any:
     """All pairs of atoms within a cutoff, over all images of the cell; called as ase.neighborlist.neighbor_list.
 
     The cutoff may be larger than the cell, atoms may lie outside it, and cells may be skewed.
@@ -101,6 +106,11 @@ def neighbor_list(quantities: str, a: Any, cutoff: Any, self_interaction: bool =
         Each pair once, i <= j.
     threads
         How many; by the environment variable DCH_NUM_THREADS, else 1, if None. Results do not depend on it.
+    dtype
+        float32 or float64, of 'd' and 'D'. Which pairs there are does not depend on it: float32 is float64, rounded.
+    out
+        An array for each letter, of the type and the shape of the result, with as many rows as there are pairs or more.
+        What is returned are views of their beginnings, and no new memory is taken for them.
 
     Returns
     -------
@@ -116,11 +126,12 @@ def neighbor_list(quantities: str, a: Any, cutoff: Any, self_interaction: bool =
     (48, 2.5456)
     """
     kinds = a.numbers if isinstance(cutoff, dict) else None
-    return find(quantities, a.positions, np.asarray(a.cell), a.pbc, cutoff, kinds, self_interaction, half, threads)
+    return find(quantities, a.positions, np.asarray(a.cell), a.pbc, cutoff, kinds, self_interaction, half, threads, dtype, out)
 
 
 def neighbour_list(quantities: str, atoms: Any = None, cutoff: Any = None, positions: Any = None, cell: Any = None,
-                   pbc: Any = None, numbers: Any = None, *, half: bool = False, threads: int | None = None) -> Any:
+                   pbc: Any = None, numbers: Any = None, *, half: bool = False, threads: int | None = None,
+                   dtype: Any = np.float64, out: Any = None) -> Any:
     """All pairs of atoms within a cutoff, called as matscipy.neighbours.neighbour_list.
 
     Takes atoms as neighbor_list does, or positions (n, 3), cell (3, 3) with vectors as rows (or three lengths) and
@@ -138,7 +149,7 @@ def neighbour_list(quantities: str, atoms: Any = None, cutoff: Any = None, posit
         positions, cell, pbc, numbers = atoms.positions, np.asarray(atoms.cell), atoms.pbc, atoms.numbers
     elif positions is None:
         raise InvalidParameter("there are no positions; give atoms, or an array of (n, 3)")
-    return find(quantities, positions, cell, pbc, cutoff, numbers, False, half, threads)
+    return find(quantities, positions, cell, pbc, cutoff, numbers, False, half, threads, dtype, out)
 
 
 class VerletList:
@@ -210,11 +221,13 @@ class VerletList:
         vectors, periodic = arguments.box(cell, pbc)
         return self._pairs.update(arguments.points(positions), vectors, periodic)
 
-    def pairs(self, quantities: str = "ijdDS", *, with_skin: bool = False, self_interaction: bool = False) -> Any:
+    def pairs(self, quantities: str = "ijdDS", *, with_skin: bool = False, self_interaction: bool = False,
+              dtype: Any = np.float64, out: Any = None) -> Any:
         """The pairs within the cutoff at the positions of the last update(), as neighbor_list returns them; with_skin:
-        all that are listed."""
-        return arguments.in_order(arguments.quantities(quantities),
-                                  lambda distinct: self._pairs.pairs(distinct, with_skin, self_interaction))
+        all that are listed. Arrays of out need as many rows as pairs are listed, those of the skin too."""
+        letters, single = arguments.quantities(quantities), arguments.is_single(dtype)
+        given = arguments.given_arrays(out, letters, single)
+        return arguments.in_order(letters, lambda distinct: self._pairs.pairs(distinct, with_skin, self_interaction, single, given))
 
     @property
     def rebuilds(self) -> int:

@@ -107,7 +107,7 @@ def all_pairs(positions: Any, cutoff: Any, cell: Any = None, pbc: Any = None, fu
 
 
 def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any = None, *, epsilon: float = 0,
-            threads: int | None = None) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]]:
+            threads: int | None = None, dtype: Any = np.float64) -> tuple[npt.NDArray[np.int32], npt.NDArray[Any]]:
     """The k nearest points of each point, itself left out, or of each query, nearest first.
 
     Distances are those of nearest images; each point counts once. Of points equally near, the one with the smaller
@@ -126,10 +126,12 @@ def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any
     epsilon
         If > 0, the j-th distance may be up to 1 + epsilon times that of the j-th nearest point, for less work. Only for
         queries.
+    dtype
+        float32 or float64, of the distances.
 
     Returns
     -------
-    index (m, k) int32 and distance (m, k) float64; -1 and infinity where there are fewer than k points.
+    index (m, k) int32 and distance (m, k); -1 and infinity where there are fewer than k points.
 
     >>> index, distance = nearest([[0, 0, 0], [1, 0, 0], [4.5, 0, 0]], 2, cell=[5, 5, 5])
     >>> index.tolist(), distance.tolist()
@@ -138,5 +140,7 @@ def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any
     vectors, periodic = arguments.box(cell, pbc)
     asked = None if queries is None else arguments.points(queries, "queries")
     many = arguments.count(k, "k", 1, 2**20)
-    return _core.nearest(arguments.points(points), vectors, periodic, asked, many,
-                         arguments.length(epsilon, "epsilon"), arguments.threads(threads))
+    kind = np.float32 if arguments.is_single(dtype) else np.float64
+    index, distance = _core.nearest(arguments.points(points), vectors, periodic, asked, many,
+                                    arguments.length(epsilon, "epsilon"), arguments.threads(threads))
+    return index, distance.astype(kind, copy=False)

@@ -55,7 +55,7 @@ def find(points: Any, request: Any, max_cutoff: float, min_cutoff: float | None,
     """Pairs i < j in (min_cutoff, max_cutoff], and their distances."""
     cell = cell_of(box)
     vectors, periodic = arguments.box(cell, None)
-    i, j, d = _core.find_pairs("ijd", points, vectors, periodic, request, False, arguments.threads(threads))
+    i, j, d = _core.find_pairs("ijd", points, vectors, periodic, request, False, arguments.threads(threads), False, None)
     if cell is not None and 2 * max_cutoff * np.linalg.norm(np.linalg.inv(cell), axis=0).max() >= 1:
         i, j, d = nearest_images(i, j, d)
     if min_cutoff is not None:

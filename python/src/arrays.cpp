@@ -53,14 +53,6 @@ double number_in(const char* path) {
   return file >> number ? number : std::numeric_limits<double>::infinity();
 }
 
-/// An array of numbers of type T, and where the elements are.
-template <class T, class Element>
-py::array column(Element*& elements, std::vector<py::ssize_t> shape) {
-  py::array_t<T> array(std::move(shape));
-  elements = reinterpret_cast<Element*>(array.mutable_data());
-  return array;
-}
-
 double free_of_machine() {
   std::ifstream file("/proc/meminfo");
   std::string word;
@@ -133,37 +125,78 @@ void check_memory(double things, double bytes_each, const char* what, const char
   throw py::error_already_set();
 }
 
-double PairArrays::bytes_per_pair(const std::string& quantities) {
-  double numbers = 0;
-  for (const char letter : quantities) numbers += letter == 'D' || letter == 'S' ? 3 : 1;
-  return numbers * sizeof(double);
+double PairOutput::bytes_per_pair() const {
+  if (arrays) return 0;
+  double bytes = 0;
+  for (const char letter : quantities) {
+    const bool is_real = letter == 'd' || letter == 'D';
+    bytes += (letter == 'D' || letter == 'S' ? 3.0 : 1.0) *
+             (is_real && is_single ? sizeof(float) : sizeof(double));
+  }
+  return bytes;
 }
 
-PairArrays::PairArrays(const std::string& quantities, std::int64_t pairs) : arrays_(quantities.size()) {
-  check_memory(static_cast<double>(pairs), bytes_per_pair(quantities), "pairs",
+PairArrays::PairArrays(const PairOutput& output, std::int64_t pairs)
+    : arrays_(output.quantities.size()), are_given_(output.arrays.has_value()) {
+  if (are_given_ && output.arrays->size() != arrays_.size())
+    throw InvalidParameter("out has " + std::to_string(output.arrays->size()) + " arrays for " +
+                           std::to_string(arrays_.size()) + " quantities; give one for each");
+  check_memory(static_cast<double>(pairs), output.bytes_per_pair(), "pairs",
                "take a smaller cutoff, or fewer quantities");
-  const auto n = static_cast<py::ssize_t>(pairs);
-  for (std::size_t k = 0; k < quantities.size(); ++k) {
-    switch (quantities[k]) {
+  for (std::size_t k = 0; k < output.quantities.size(); ++k) {
+    switch (output.quantities[k]) {
       case 'i':
-        arrays_[k] = column<std::int64_t>(i_, {n});
+        column<std::int64_t>(k, output, pairs, i_);
         break;
       case 'j':
-        arrays_[k] = column<std::int64_t>(j_, {n});
+        column<std::int64_t>(k, output, pairs, j_);
         break;
       case 'd':
-        arrays_[k] = column<double>(distance_, {n});
+        if (output.is_single)
+          column<float>(k, output, pairs, single_distance_);
+        else
+          column<double>(k, output, pairs, distance_);
         break;
       case 'D':
-        arrays_[k] = column<double>(displacement_, {n, 3});
+        if (output.is_single)
+          column<float>(k, output, pairs, single_displacement_);
+        else
+          column<double>(k, output, pairs, displacement_);
         break;
       case 'S':
-        arrays_[k] = column<std::int64_t>(shift_, {n, 3});
+        column<std::int64_t>(k, output, pairs, shift_);
         break;
       default:
-        throw InvalidParameter(std::string("'") + quantities[k] + "' is none of i, j, d, D and S");
+        throw InvalidParameter(std::string("'") + output.quantities[k] + "' is none of i, j, d, D and S");
     }
   }
+  if (are_given_) shorten(pairs);
+}
+
+/// An array of numbers of type T, new or given, and where the elements of its rows are.
+template <class T, class Element>
+void PairArrays::column(std::size_t k, const PairOutput& output, std::int64_t pairs, Element*& elements) {
+  constexpr auto kWidth = static_cast<py::ssize_t>(sizeof(Element) / sizeof(T));
+  py::array_t<T> array;
+  if (are_given_) {
+    const py::object given = (*output.arrays)[k];
+    const auto name = [&] { return "out[" + std::to_string(k) + "], that of " + output.quantities[k] + ","; };
+    if (!py::array_t<T, py::array::c_style>::check_(given))
+      throw InvalidParameter(name() + " is no contiguous array of the type of its results; give one");
+    array = py::reinterpret_borrow<py::array_t<T>>(given);
+    if (array.ndim() != (kWidth == 1 ? 1 : 2) || (kWidth != 1 && array.shape(1) != kWidth) ||
+        !array.writeable())
+      throw InvalidParameter(name() + " has another shape than its results or cannot be written to");
+    if (array.shape(0) < pairs)
+      throw InvalidParameter(name() + " has " + std::to_string(array.shape(0)) + " rows for " +
+                             std::to_string(pairs) + " pairs; give at least as many");
+  } else if (kWidth == 1) {
+    array = py::array_t<T>(pairs);
+  } else {
+    array = py::array_t<T>(std::vector<py::ssize_t>{static_cast<py::ssize_t>(pairs), kWidth});
+  }
+  elements = reinterpret_cast<Element*>(array.mutable_data());
+  arrays_[k] = std::move(array);
 }
 
 void PairArrays::move(std::int64_t from, std::int64_t count, std::int64_t to) {
@@ -171,18 +204,23 @@ void PairArrays::move(std::int64_t from, std::int64_t count, std::int64_t to) {
     if (elements != nullptr) std::copy(elements + from, elements + from + count, elements + to);
   };
   moved(i_), moved(j_), moved(distance_), moved(displacement_), moved(shift_);
+  moved(single_distance_), moved(single_displacement_);
 }
 
 void PairArrays::shorten(std::int64_t pairs) {
   for (std::size_t k = 0; k < arrays_.size(); ++k) {
     auto array = arrays_[k].cast<py::array>();
+    if (are_given_) {
+      arrays_[k] = array[py::slice(0, static_cast<py::ssize_t>(pairs), 1)];
+      continue;
+    }
     std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
     shape[0] = pairs;
     array.resize(shape, false);  // nobody else has it
   }
 }
 
-py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const std::string& quantities,
+py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const PairOutput& output,
                      NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor) {
   const std::size_t n = positions.size();
   // Rows have places for all that is listed; a range of rows leaves no gap within.
@@ -190,7 +228,7 @@ py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, con
   for (std::size_t i = 0; i < n; ++i)
     place[i + 1] = place[i] + pairs.listed_in_row(static_cast<std::int32_t>(i)) +
                    static_cast<int>(!has_self.empty() && has_self[i] != 0);
-  PairArrays arrays(quantities, place.back());
+  PairArrays arrays(output, place.back());
   std::int64_t found = 0;
   {
     const py::gil_scoped_release release;

@@ -59,40 +59,58 @@ double available_memory();
 /// @throws py::error_already_set, a MemoryError, if things take more than that; needs the interpreter's lock.
 void check_memory(double things, double bytes_each, const char* what, const char* remedy);
 
+/// Which arrays of pairs are asked for.
+struct PairOutput {
+  std::string quantities;             ///< letters of ijdDS, each at most once
+  bool is_single = false;             ///< d and D are float32, else float64
+  std::optional<py::tuple> arrays{};  ///< given ones, one for each letter, in place of new ones
+
+  /// That new arrays take.
+  double bytes_per_pair() const;
+};
+
 /// Arrays of some of i, j, d, D and S, filled pair by pair.
 class PairArrays {
  public:
-  /// @param quantities letters of ijdDS, each at most once
-  /// @throws py::error_already_set, a MemoryError, if the machine has not that much memory.
-  PairArrays(const std::string& quantities, std::int64_t pairs);
-
-  static double bytes_per_pair(const std::string& quantities);
+  /// @throws py::error_already_set, a MemoryError, if the machine has not that much memory; InvalidParameter
+  /// for
+  ///   given arrays of another type or with fewer rows than pairs.
+  PairArrays(const PairOutput& output, std::int64_t pairs);
 
   void put(std::int64_t at, std::int32_t i, std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) const {
     if (i_ != nullptr) i_[at] = i;
     if (j_ != nullptr) j_[at] = j;
     if (distance_ != nullptr) distance_[at] = std::sqrt(norm2(d));
     if (displacement_ != nullptr) displacement_[at] = d;
+    if (single_distance_ != nullptr) single_distance_[at] = static_cast<float>(std::sqrt(norm2(d)));
+    if (single_displacement_ != nullptr)
+      single_displacement_[at] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
     if (shift_ != nullptr) shift_[at] = {s[0], s[1], s[2]};
   }
   /// Moves pairs to an earlier place.
   void move(std::int64_t from, std::int64_t count, std::int64_t to);
-  /// Leaves out those behind.
+  /// Leaves out those behind. Of given arrays the beginnings stay, as views.
   void shorten(std::int64_t pairs);
   /// One for each letter.
   py::tuple tuple() const { return arrays_; }
 
  private:
+  template <class T, class Element>
+  void column(std::size_t k, const PairOutput& output, std::int64_t pairs, Element*& elements);
+
   py::tuple arrays_;
+  bool are_given_ = false;
   std::int64_t *i_ = nullptr, *j_ = nullptr;
   double* distance_ = nullptr;
   Vec3* displacement_ = nullptr;
+  float* single_distance_ = nullptr;
+  std::array<float, 3>* single_displacement_ = nullptr;
   std::array<std::int64_t, 3>* shift_ = nullptr;
 };
 
 /// The pairs of a NeighborPairs that are within their cutoff, or all that are listed, row after row.
 /// @param has_self by particle, whether it is paired with itself, with S = 0; empty if none is
-py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const std::string& quantities,
+py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const PairOutput& output,
                      NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor);
 
 }  // namespace dch::python

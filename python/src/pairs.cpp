@@ -35,7 +35,9 @@ NeighborPairs find(Span<const Vec3> positions, const Box& box, NeighborPairsPara
 }
 
 py::tuple find_pairs(const std::string& quantities, const Doubles& positions, const Doubles& cell,
-                     std::array<bool, 3> periodic, Request& request, bool self_interaction, int threads) {
+                     std::array<bool, 3> periodic, Request& request, bool self_interaction, int threads,
+                     bool single, std::optional<py::tuple> out) {
+  const PairOutput output{quantities, single, std::move(out)};
   const Span<const Vec3> points = points_of(positions);
   const Box box = box_of(cell, periodic);
   Threads pool(threads);
@@ -44,9 +46,9 @@ py::tuple find_pairs(const std::string& quantities, const Doubles& positions, co
   NeighborPairs pairs;
   {
     const py::gil_scoped_release release;
-    pairs = find(points, box, params, PairArrays::bytes_per_pair(quantities));
+    pairs = find(points, box, params, output.bytes_per_pair());
   }
-  return fill_pairs(pairs, points, quantities, NeighborPairs::Within::cutoff_and_skin,
+  return fill_pairs(pairs, points, output, NeighborPairs::Within::cutoff_and_skin,
                     self_interaction ? request.with_themselves(points.size()) : std::vector<char>(),
                     params.executor);
 }
@@ -81,12 +83,13 @@ class VerletPairs {
     return is_new;
   }
 
-  py::tuple pairs(const std::string& quantities, bool with_skin, bool self_interaction) {
+  py::tuple pairs(const std::string& quantities, bool with_skin, bool self_interaction, bool single,
+                  std::optional<py::tuple> out) {
     const InUse in_use(used_, "VerletList");
     if (positions_.size() != pairs_.particles() || rebuilds_ == 0)
       throw InvalidParameter(
           "this VerletList has no positions yet, or the last update failed; call update()");
-    return fill_pairs(pairs_, positions_, quantities,
+    return fill_pairs(pairs_, positions_, {quantities, single, std::move(out)},
                       with_skin ? NeighborPairs::Within::cutoff_and_skin : NeighborPairs::Within::cutoff,
                       self_interaction ? request_.with_themselves(positions_.size()) : std::vector<char>(),
                       threads_.executor());
@@ -125,13 +128,13 @@ void bind_pairs(py::module_& m) {
            py::arg("half"), py::arg("exclusions").noconvert() = py::none());
   m.def("find_pairs", &find_pairs, py::arg("quantities"), py::arg("positions").noconvert(),
         py::arg("cell").noconvert(), py::arg("pbc"), py::arg("request"), py::arg("self_interaction"),
-        py::arg("threads"));
+        py::arg("threads"), py::arg("single"), py::arg("out"));
   py::class_<VerletPairs>(m, "VerletPairs")
       .def(py::init<Request, double, int>(), py::arg("request"), py::arg("skin"), py::arg("threads"))
       .def("update", &VerletPairs::update, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
            py::arg("pbc"))
       .def("pairs", &VerletPairs::pairs, py::arg("quantities"), py::arg("with_skin"),
-           py::arg("self_interaction"))
+           py::arg("self_interaction"), py::arg("single"), py::arg("out"))
       .def("text", &VerletPairs::text)
       .def_property_readonly("rebuilds", &VerletPairs::rebuilds)
       .def_property_readonly("particles", &VerletPairs::particles);
