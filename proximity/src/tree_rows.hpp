@@ -18,11 +18,11 @@ class TreeRows {
   /// @throws InvalidParameter for more places than 32-bit numbers name.
   std::int32_t append(std::int32_t parent);
   /// Takes a child out of its row. The last one of the row is put in its place.
-  void erase(std::int32_t node);
+  void erase(std::int32_t erased);
   /// Puts a new node in the place of another one, which becomes its only child. Returns the number of that.
-  std::int32_t push_down(std::int32_t node);
+  std::int32_t push_down(std::int32_t above);
   /// Puts an only child in the place of its parent.
-  void pull_up(std::int32_t parent);
+  void pull_up(std::int32_t above);
   /// Puts all nodes side by side if they take less than half of the places: children behind their parents.
   void close_gaps();
 
