@@ -147,20 +147,46 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
     exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
     params.exclusions = &exclusions;
   }
+  list.by_size = !search.has_cluster_pairs();
   // `dch skin auto` changes the radius.
-  if (std::exchange(list.chosen_for, params.list_radius()) != params.list_radius()) list.one_by_one = true;
-  if (list.one_by_one) {
+  const bool chooses = std::exchange(list.chosen_for, params.list_radius()) != params.list_radius();
+  if (list.by_size || (list.one_by_one && !chooses)) {
+    list.one_by_one = true;
     params.shell = skin;
     fill_pair_list(points, search, params, list);
-    list.by_size = !search.has_cluster_pairs();
-    list.pairs_an_atom = static_cast<double>(list.count()) / std::max(points.owned(), 1);
-    if (list.by_size || list.pairs_an_atom <= ClusterList::kFewNeighbors) return;
-    list.one_by_one = false;
-    list.pair_list = {};
+    return;
   }
-  params.shell = 0;
   search.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
+  if (chooses) choose_kind(points, search, skin, params, list);
+}
+
+/// Whichever is not taken gives its memory back: pairs one by one take several times that of cluster pairs.
+void ClusterListFiller::choose_kind(AtomPoints& points, dch::PairSearch& search, double skin,
+                                    const dch::ListParams& params, ClusterList& list) {
+  list.pairs_an_atom = static_cast<double>(pairs_within(params, list.pairs)) / std::max(points.owned(), 1);
+  list.one_by_one = list.pairs_an_atom <= ClusterList::kFewNeighbors;
+  if (list.one_by_one) {
+    list.pairs = {};
+    dch::ListParams one_by_one = params;
+    one_by_one.shell = skin;
+    fill_pair_list(points, search, one_by_one, list);
+  } else {
+    list.pair_list = {};
+    rows_ = {};
+  }
+}
+
+/// Pairs that a list with these cutoffs holds, of which cluster pairs hold more.
+std::int64_t ClusterListFiller::pairs_within(const dch::ListParams& params, const dch::ClusterPairs& pairs) {
+  std::int64_t count = 0;
+  pairs.for_each([&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
+    const double cutoff = params.types.empty() ? params.cutoffs(0, 0)
+                                               : params.cutoffs(params.types[static_cast<std::size_t>(i)],
+                                                                params.types[static_cast<std::size_t>(j)]);
+    count += norm2(from_i_to_j) <= cutoff * cutoff ? 1 : 0;
+  });
+  return count;
 }
 
 }  // namespace LAMMPS_NS

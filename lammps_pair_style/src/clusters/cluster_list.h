@@ -80,6 +80,9 @@ class ClusterListFiller : protected Pointers {
   std::uint16_t mask_by_pair(const AtomPoints& points, const std::int32_t* own, const std::int32_t* other,
                              std::uint16_t mask) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs);
+  void choose_kind(AtomPoints& points, dch::PairSearch& search, double skin, const dch::ListParams& params,
+                   ClusterList& list);
+  static std::int64_t pairs_within(const dch::ListParams& params, const dch::ClusterPairs& pairs);
   void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params, ClusterList& list);
 
   SpecialPairs& special_;

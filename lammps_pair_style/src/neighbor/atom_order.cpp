@@ -110,6 +110,7 @@ void AtomOrder::apply(const std::vector<std::int32_t>& indices) {
     if (i >= 0 && i < n && rank[3 * static_cast<std::size_t>(i)] < 0)
       rank[3 * static_cast<std::size_t>(i)] = next++;
   std::vector<double*> rows;
+  rows.reserve(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < rank.size(); i += 3) {
     if (rank[i] < 0) rank[i] = next++;
     rank[i + 1] = rank[i + 2] = 0.5;

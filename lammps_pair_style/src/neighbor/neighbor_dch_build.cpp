@@ -50,6 +50,7 @@ void NeighborDCH::build_ours() {
     if (points_.in_box() && fills_lists()) images_.gather(cutneighmax);
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
+    points_.forget_keys();
     run_.structure_seconds += seconds_since(clock);
     expiry_.remember(points_, wanted_pairs().by_radii);
     run_.entries = 0;

@@ -113,6 +113,11 @@ void AtomPoints::name_in_box() {
   keys_ = own_keys_;
 }
 
+void AtomPoints::forget_keys() {
+  own_keys_ = {};
+  keys_ = {};
+}
+
 void AtomPoints::name_in_open_space() {
   tags_.resize(static_cast<std::size_t>(count_));
   images_.resize(static_cast<std::size_t>(owned_));

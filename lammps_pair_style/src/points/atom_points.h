@@ -38,8 +38,10 @@ class AtomPoints : protected Pointers {
   /// Where the same points are by now: ghosts are where LAMMPS has last sent them.
   dch::Span<const dch::Vec3> present_positions();
   dch::Span<const std::uint64_t> keys() const { return keys_; }  ///< empty if the points have no names
-  dch::Span<const std::int32_t> types();                         ///< from 0
-  dch::Span<const double> radii();                               ///< of spheres [length]
+  /// Gives their memory back, once the search has taken them. keys() is empty from then on.
+  void forget_keys();
+  dch::Span<const std::int32_t> types();  ///< from 0
+  dch::Span<const double> radii();        ///< of spheres [length]
   int size() const { return static_cast<int>(positions_.size()); }
   int owned() const { return owned_; }  ///< the first so many points are owned atoms
   /// LAMMPS's index of a point.

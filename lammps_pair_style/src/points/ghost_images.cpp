@@ -80,7 +80,7 @@ void GhostImages::list_ghosts() {
   const int owned = atom->nlocal, ghosts = atom->nghost;
   if (tags_.size() != static_cast<std::size_t>(owned) || !std::equal(tags_.begin(), tags_.end(), atom->tag)) {
     tags_.assign(atom->tag, atom->tag + owned);
-    by_tag_.reset(tags_.size());
+    by_tag_.reset(tags_.size(), tags_.empty() ? 0 : *std::max_element(tags_.begin(), tags_.end()));
     for (int i = 0; i < owned; ++i) by_tag_.find_or_add(atom->tag[i], i);
   }
   owner_.resize(static_cast<std::size_t>(ghosts));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "point_keys.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dch::lammps {
@@ -21,7 +22,7 @@ Span<const std::uint64_t> PointKeys::assign(Span<const Vec3> points, Span<const 
                                             Span<const ImageFlags> images, const Lattice& lattice) {
   const std::size_t owned = images.size();
   keys_.resize(points.size());
-  by_tag_.reset(points.size());
+  by_tag_.reset(points.size(), tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()));
   for (std::size_t p = 0; p < owned; ++p) {
     keys_[p] = pack(tags[p], images[p]);
     by_tag_.find_or_add(tags[p], static_cast<std::int32_t>(p));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/resize.hpp"
 #include "geometry/lattice.hpp"
 #include "geometry/metric.hpp"
 #include "geometry/near_images.hpp"
@@ -108,7 +109,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
 
   const int slices = executor && executor->threads() > 1 ? kSlicesPerThread * executor->threads() : 1;
   slices_.resize(static_cast<std::size_t>(slices));
-  const std::int32_t nodes = scene.nodes.size();
+  if (slices == 1) swap_found(slices_[0], out);
   const auto search = [&](int p) {
     Slice& slice = slices_[static_cast<std::size_t>(p)];
     slice.rows.clear();
@@ -116,8 +117,12 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
     slice.shift.clear();
     slice.work = {};
     slice.excluded.assign(scene.request.exclusions ? static_cast<std::size_t>(out.clusters()) : 0, 0);
-    for (std::int32_t k = share_begin(nodes, p, slices); k < share_begin(nodes, p + 1, slices); ++k)
+    const std::int32_t first = share_begin(scene.nodes.size(), p, slices),
+                       last = share_begin(scene.nodes.size(), p + 1, slices);
+    for (std::int32_t k = first; k < last; ++k) {
+      slice.progress = {k - first, last - first};
       if (scene.nodes.is_alive(k)) find_around(scene, k, out, slice);
+    }
   };
   if (slices == 1) {
     search(0);
@@ -197,7 +202,7 @@ void ClusterPairFinder::append_rows(std::int32_t own, std::int32_t first_shift, 
     const std::int32_t first = s == 0 ? own + static_cast<std::int32_t>(is_alone) : slice.section[s];
     const std::int32_t count = slice.section[s + 1] - first;
     const std::size_t room = slice.written + static_cast<std::size_t>(count) + kEntriesAtOnce;
-    if (slice.entries.size() < room) slice.entries.resize(room + room / 2);
+    make_room_for(slice.entries, room, slice.written, slice.progress);
     ClusterPairs::Entry* const entries = slice.entries.data() + slice.written;
     const FoundRow found = kernels_->find_row(row, slice.near.from(first), count, limit_.out, entries);
     slice.work.beside_clusters += count;
@@ -238,17 +243,21 @@ ClusterPairFinder::Work ClusterPairFinder::work() const {
   return work;
 }
 
-/// All slices behind each other.
+/// A slice that is alone has the memory of the pairs themselves while it is searched.
+void ClusterPairFinder::swap_found(Slice& slice, ClusterPairs& out) {
+  out.rows.swap(slice.rows);
+  out.entries.swap(slice.entries);
+  out.shift.swap(slice.shift);
+}
+
 void ClusterPairFinder::join(ClusterPairs& out) {
-  out.rows.clear();
-  out.entries.clear();
-  out.shift.clear();
   if (slices_.size() == 1) {
-    out.rows.swap(slices_[0].rows);
     slices_[0].entries.resize(slices_[0].written);
-    out.entries.swap(slices_[0].entries);
-    out.shift.swap(slices_[0].shift);
+    swap_found(slices_[0], out);
   } else {
+    out.rows.clear();
+    out.entries.clear();
+    out.shift.clear();
     append_slices(out);
   }
   cut_into_tasks(out);

@@ -13,6 +13,7 @@
 #include <dch/lists/list_params.hpp>
 
 #include "base/aligned_vector.hpp"
+#include "base/resize.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
 #include "geometry/lattice.hpp"
 #include "hierarchy/build/block_order.hpp"
@@ -94,6 +95,7 @@ class ClusterPairFinder {
     std::vector<ClusterPairs::Row> rows;
     std::vector<ClusterPairs::Entry> entries;  ///< and room for more
     std::size_t written = 0;                   ///< entries
+    Progress progress;                         ///< in nodes
     std::vector<ClusterPairs::Shift> shift;
     Near near;                            ///< the clusters near a node, those of the node first
     std::vector<std::int32_t> section;    ///< where `near` begins, where entries name shifts from another
@@ -150,6 +152,7 @@ class ClusterPairFinder {
   static std::uint32_t pairs_of_wanted_types(const TypeCutoffs& cutoffs, std::int32_t a, std::int32_t b,
                                              const ClusterPairs& clusters);
   std::int32_t shift_count(std::size_t shifts) const;
+  static void swap_found(Slice& slice, ClusterPairs& out);
   void join(ClusterPairs& out);
   void append_slices(ClusterPairs& out) const;
   void cut_into_tasks(ClusterPairs& out);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include <dch/base/error.hpp>
 
@@ -98,21 +99,22 @@ void DchSearch::by_index(Span<const Vec3> positions, const Box& box) {
 
 void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const std::uint64_t> keys) {
   // The hierarchy may have lost its points in a list or a repair that was not finished.
-  if (hierarchy_.size() != names_.size()) state_ = State::empty;
+  const std::vector<std::uint64_t>& before = keys_.keys();
+  if (hierarchy_.size() != before.size()) state_ = State::empty;
   const bool are_as_before = state_ == State::keyed && keys.size() == positions.size() &&
-                             std::equal(keys.begin(), keys.end(), names_.begin(), names_.end());
+                             std::equal(keys.begin(), keys.end(), before.begin(), before.end());
   if (are_as_before) {
     hierarchy_.update(positions, box);
     return;
   }
-  fresh_keys_.fill(positions.size(), keys);
+  KeyTable fresh;
+  fresh.fill(positions.size(), keys);
   if (state_ == State::keyed && match(positions, keys)) {
     hierarchy_.update(positions, box);
   } else {
     hierarchy_.build(positions, box);
   }
-  std::swap(keys_, fresh_keys_);
-  names_.assign(keys.begin(), keys.end());
+  keys_ = std::move(fresh);
   state_ = State::keyed;
 }
 

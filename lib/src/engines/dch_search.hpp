@@ -54,8 +54,7 @@ class DchSearch final : public PairSearch {
   ListMaker list_maker_;
   ClusterPairMaker pair_maker_;
   State state_ = State::empty;
-  KeyTable keys_, fresh_keys_;
-  std::vector<std::uint64_t> names_;  ///< the keys of the last update, in order
+  KeyTable keys_;  ///< of the last update
   std::int64_t updates_ = 0;
   double maintain_seconds_ = 0, list_seconds_ = 0;
   mutable SearchStats stats_;

@@ -22,7 +22,6 @@ void start_rows(NeighborList& list) {
   list.first.assign(1, 0);
   list.particle.clear();
   list.near_end.clear();
-  list.j.resize(list.j.capacity());
   list.margin = 0;
 }
 

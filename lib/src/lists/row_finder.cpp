@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/resize.hpp"
+
 namespace dch::detail {
 namespace {
 
@@ -66,7 +68,7 @@ void RowFinder::append_group(const RowRequest& request, const OwnBlocks& own, st
     if (own.are_candidates) before += own.count[block];
   }
   const auto written = static_cast<std::size_t>(out.first.back());
-  make_room_in(out, written + most + kRoom);
+  make_room_for(out.j, written + most + kRoom, written, progress_);  // the largest part of all memory
   const bool is_ready = note_exclusions(*request.filter, own, first, last);
   const bool is_restricted = request.limits.per_pair || !is_ready;
   if (is_restricted && as_written_.size() < most) as_written_.resize(most);
@@ -90,21 +92,6 @@ void RowFinder::make_room(std::int32_t count) {
   open_lanes_.resize(entries);
   for (BlockNear& near : near_) near.candidates.make_room(room);
   room_ = entries;
-}
-
-/// Twice as much as before, or what a list takes by how far it is if that is less: the largest part of all
-/// memory.
-void RowFinder::make_room_in(NeighborList& out, std::size_t entries) const {
-  if (out.j.size() >= entries) return;
-  constexpr double kMore = 1.03;
-  const double whole =
-      done_ > 0 ? kMore * static_cast<double>(out.first.back()) * all_ / done_ : static_cast<double>(entries);
-  const std::size_t size = out.j.size(), least = std::max(entries + entries / 16, size + size / 16);
-  const std::size_t doubled = std::max(least, 2 * size);
-  const std::size_t wanted =
-      whole < static_cast<double>(doubled) ? std::max(least, static_cast<std::size_t>(whole)) : doubled;
-  out.j.reserve(wanted);
-  out.j.resize(wanted);
 }
 
 /// Writes the rows of a group as the kernels find them, and notes where each segment ends and what they leave

@@ -8,6 +8,7 @@
 #include <dch/base/span.hpp>
 #include <dch/lists/neighbor_list.hpp>
 
+#include "base/resize.hpp"
 #include "leaves/own_blocks.hpp"
 #include "lists/candidate_store.hpp"
 #include "lists/open_pairs.hpp"
@@ -24,10 +25,7 @@ class RowFinder {
 
   /// Says that `done` of `all` places have their rows, about as many each: lists that have no more room get
   /// memory by what they will hold.
-  void note_progress(std::int32_t done, std::int32_t all) {
-    done_ = done;
-    all_ = all;
-  }
+  void note_progress(std::int32_t done, std::int32_t all) { progress_ = {done, all}; }
 
   /// Appends the rows of the blocks to a list for each request, of which the first has the largest radius.
   /// @param around what may be within reach of the blocks, with room for kChunk more
@@ -50,7 +48,6 @@ class RowFinder {
   void append_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
                     const Candidates& around, std::int32_t count, NeighborList& out);
   void make_room(std::int32_t count);
-  void make_room_in(NeighborList& out, std::size_t entries) const;
   void write_group(const RowRequest& request, const OwnBlocks& own, std::int32_t first, std::int32_t last,
                    std::int32_t* to);
   static void ask_for_exclusions(const PairFilter& filter, const OwnBlocks& own, std::int32_t first,
@@ -67,7 +64,7 @@ class RowFinder {
 
   const ListKernels* kernels_ = nullptr;
   std::int64_t tested_ = 0;
-  std::int32_t done_ = 0, all_ = 0;  ///< see note_progress()
+  Progress progress_;
   CandidateStore around_request_, around_group_;
   std::vector<BlockNear> near_;        ///< of the blocks that are looked at together
   std::vector<OpenLanes> open_lanes_;  ///< of one of them
