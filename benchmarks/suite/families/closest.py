@@ -10,11 +10,14 @@ NAME = "closest"
 TITLE = "Closest pairs, kept up"
 HOSTS = ("nanoflann",)
 BASELINES = ("rebuilt_nanoflann", "rebuilt_hierarchy")  # the first that is there
+BASELINES_OF_TREES = ("rebuilt_tree",)
 WHAT = {"kept_exchange": "{} removed and inserted elsewhere", "kept_update": "update of which {} points moved",
         "kept_shake": "update, all points moved by up to {}e-4", "exchange_alone": "{} removed and inserted, no question",
         "update_alone": "update, all points moved by up to {}e-4, no question", "rebuilt_hierarchy": "hierarchy and tree built anew",
         "rebuilt_nanoflann": "nanoflann's tree built anew, nearest of all", "rebuilt_tree": "tree of points alone",
-        "search_of_tree": "search of that tree alone"}
+        "search_of_tree": "search of that tree alone",
+        "kept_tree_exchange": "the tree kept up, {} removed and inserted elsewhere",
+        "kept_tree_shake": "the tree kept up, all points moved by up to {}e-4"}
 
 
 def run(suite):
@@ -27,7 +30,8 @@ def run(suite):
     times = {name: [one["cpu_time"] for one in of_name] for name, of_name in runs.items()}
     for name, values in times.items():
         kind, count, *number = name.split("/")
-        against = next((f"{b}/{count}" for b in BASELINES if f"{b}/{count}" in times), "")
+        baselines = BASELINES_OF_TREES if kind.startswith("kept_tree") else BASELINES
+        against = next((f"{b}/{count}" for b in baselines if f"{b}/{count}" in times), "")
         has_baseline = against and against != name and len(times[against]) == len(values)
         result.measurements.append(Measurement(f"{count} uniform points", what(kind, number), "us", values,
                                                what(against.split("/")[0], []) if has_baseline else "",
