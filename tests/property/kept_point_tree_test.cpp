@@ -182,10 +182,10 @@ TEST(KeptPointTrees, HaveFewLevelsOfPointsThatCoincide) {
 TEST(KeptPointTrees, PutBallsBetweenWhatTheyHold) {
   for (const Box& box : {Box::none(), Box::orthorhombic({100, 100, 100})}) {
     MovingPoints scene(400, box, 82);
-    for (Vec3& p : scene.positions) p = scene.random.in_cube(1);
+    for (Vec3& p : scene.positions) p = Vec3{9, 9, 9} + scene.random.in_cube(1);
     scene.hierarchy->build(scene.positions, box);
     PointTree tree(scene.hierarchy->view());
-    tree.update(scene.hierarchy->view(), std::vector<std::int32_t>{scene.hierarchy->insert({0, 40, 0})});
+    tree.update(scene.hierarchy->view(), std::vector<std::int32_t>{scene.hierarchy->insert({9, 49, 9})});
     EXPECT_EQ(tree.work().builds, 1);
     EXPECT_EQ(tree.node(0).children, 2);
     EXPECT_LE(tree.node(0).radius, 22);
