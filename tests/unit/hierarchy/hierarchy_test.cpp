@@ -2,6 +2,7 @@
 //
 // More than 300 lines: one test a promise of hierarchy.hpp, in its order.
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include <dch/base/error.hpp>
+#include <dch/base/executor.hpp>
 #include <dch/lists/all_pairs.hpp>
 
 #include "error_message.hpp"
@@ -28,6 +30,15 @@ StructureParams with_radius(double radius) {
   return params;
 }
 
+/// Two threads, as far as tasks can tell: the parts of each run one after the other, the last of them last.
+class InTurn final : public Executor {
+ public:
+  int threads() const override { return 2; }
+  void run(int parts, const std::function<void(int)>& task) override {
+    for (int part = 0; part < parts; ++part) task(part);
+  }
+};
+
 // Positions are checked some at a time.
 TEST(HierarchyTest, AnUpdateNamesTheOneOfManyPositionsThatIsWrong) {
   for (const std::size_t wrong : {0u, 1023u, 1024u, 2500u}) {
@@ -35,6 +46,22 @@ TEST(HierarchyTest, AnUpdateNamesTheOneOfManyPositionsThatIsWrong) {
     ListedHierarchy h(with_radius(1));
     h.build(points, Box::none());
     points[wrong].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THAT(test::message_of<InvalidPosition>([&] { h.update(points, Box::none()); }),
+                testing::HasSubstr(" " + std::to_string(wrong) + " "));
+  }
+}
+
+// Each thread checks a part of them.
+TEST(HierarchyTest, AnUpdateOnThreadsNamesTheFirstOfManyPositionsThatAreWrong) {
+  InTurn executor;
+  StructureParams params = with_radius(1);
+  params.executor = &executor;
+  for (const std::size_t wrong : {10u, 1499u, 1500u, 2500u}) {
+    std::vector<Vec3> points = scenes::uniform(3000, {20, 20, 20}, 1);
+    ListedHierarchy h(params);
+    h.build(points, Box::none());
+    points[wrong].y = std::numeric_limits<double>::quiet_NaN();
+    if (wrong < 2000) points[wrong + 100].x = std::numeric_limits<double>::infinity();
     EXPECT_THAT(test::message_of<InvalidPosition>([&] { h.update(points, Box::none()); }),
                 testing::HasSubstr(" " + std::to_string(wrong) + " "));
   }

@@ -15,8 +15,8 @@
 namespace dch {
 
 namespace detail {
-class TreeChanges;
-class TreeRows;
+class __attribute__((visibility("hidden"))) TreeChanges;
+class __attribute__((visibility("hidden"))) TreeRows;
 
 /// Of a node of a PointTree: how points find their place in it.
 struct TreeNet {
