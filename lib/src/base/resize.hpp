@@ -20,13 +20,10 @@ struct Progress {
   std::int32_t done = 0, all = 0;
 };
 
-/// Makes an array that is being filled at least `wanted` long. What it will hold in the end is reserved as
-/// soon as the first part tells, so that it is not copied; it is written to, and so taken from the system,
-/// only as far as it is filled. Until then, twice as much as before.
-/// @param filled entries by now, which grow with the progress
+/// As make_room_for() has it, for an array that is too short. Not in loops that have room most of the time.
 template <class Vector>
-void make_room_for(Vector& array, std::size_t wanted, std::size_t filled, Progress progress) {
-  if (array.size() >= wanted) return;
+[[gnu::noinline]] void make_more_room_for(Vector& array, std::size_t wanted, std::size_t filled,
+                                          Progress progress) {
   constexpr double kMore = 1.03;
   constexpr std::int32_t kFewest = 64;  ///< steps that tell, and the part of all
   wanted += wanted / 16;
@@ -37,6 +34,15 @@ void make_room_for(Vector& array, std::size_t wanted, std::size_t filled, Progre
     array.reserve(std::max(wanted, static_cast<std::size_t>(whole)));
   }
   array.resize(wanted);
+}
+
+/// Makes an array that is being filled at least `wanted` long. What it will hold in the end is reserved as
+/// soon as the first part tells, so that it is not copied; it is written to, and so taken from the system,
+/// only as far as it is filled. Until then, twice as much as before.
+/// @param filled entries by now, which grow with the progress
+template <class Vector>
+void make_room_for(Vector& array, std::size_t wanted, std::size_t filled, Progress progress) {
+  if (array.size() < wanted) make_more_room_for(array, wanted, filled, progress);
 }
 
 }  // namespace dch::detail
