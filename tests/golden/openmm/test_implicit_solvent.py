@@ -16,6 +16,7 @@ from openmm.app.internal import customgbforces
 
 import born_oracle
 import openmm_dch
+from drop_in_case import DropInCase
 from openmm_systems import PLATFORMS, context_of, energy_and_forces, relative_error
 
 MODELS = ("GBSAOBC",) + tuple(born_oracle.FORMS)
@@ -29,20 +30,7 @@ def scale_of(scene):
     return max(1.0, float(np.sum(139 * scene["charge"]**2 / scene["radius"])))
 
 
-class ImplicitSolventTest(unittest.TestCase):
-    def setUp(self):
-        openmm_dch.enable()
-
-    def tearDown(self):
-        openmm_dch.disable()
-
-    def native(self, system, platform="Reference"):
-        openmm_dch.disable()
-        try:
-            return context_of(system, platform)
-        finally:
-            openmm_dch.enable()
-
+class ImplicitSolventTest(DropInCase):
     def ours(self, system, platform):
         context = context_of(system, platform)
         self.assertEqual([s["direct"] for s in openmm_dch.status(context)], ["DCH"] * system.getNumForces())
