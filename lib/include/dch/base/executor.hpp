@@ -30,7 +30,8 @@ class Executor {
 };
 
 /// A pool of `threads` - 1 standing threads and those that call run(), any number of them at once. It must
-/// outlive all calls.
+/// outlive all calls. A thread without work looks for some for about 50 microseconds before it sleeps, if the
+/// process may use as many processors as there are threads.
 /// @throws InvalidParameter unless 1 <= threads <= 4096, Error if the system does not give that many.
 std::unique_ptr<Executor> make_thread_pool(int threads);
 
