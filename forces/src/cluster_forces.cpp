@@ -25,13 +25,15 @@ struct Kernels<double> {
   static const auto& functions(const detail::ForceKernels& kernels) { return kernels.full; }
   static const auto& at(const ClusterPairs& pairs) { return pairs.at; }
   static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector; }
+  static double unit(const ClusterPairs&) { return 1; }
 };
 
 template <>
 struct Kernels<float> {
   static const auto& functions(const detail::ForceKernels& kernels) { return kernels.mixed; }
-  static const auto& at(const ClusterPairs& pairs) { return pairs.at_float; }
-  static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_vector_float; }
+  static const auto& at(const ClusterPairs& pairs) { return pairs.at_in_units; }
+  static const auto& shift(const ClusterPairs& pairs) { return pairs.shift_in_units; }
+  static double unit(const ClusterPairs& pairs) { return pairs.unit; }
 };
 
 /// The particles whose forces are not finite, from any thread.
@@ -68,6 +70,7 @@ class Unresolved {
 template <class Real>
 void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<ClusterOfFour<Real>>& found,
               std::vector<ClusterOfFour<Real>>& earlier, Unresolved& unresolved, Span<Vec3> forces) {
+  const double unit = Kernels<Real>::unit(pairs);
   for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
     ClusterOfFour<Real> force = found[c];
     found[c] = {};
@@ -79,7 +82,7 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
     for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
       const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
       if (i < 0) continue;
-      const Vec3 more{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
+      const Vec3 more = unit * Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
       if (looks && unresolved.takes(i, more)) continue;
       Vec3& to = forces[static_cast<std::size_t>(i)];
       to = to + more;
@@ -134,8 +137,11 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
       const detail::LjTask<Real> kernel_task{pairs.rows.data() + first_row,
                                              static_cast<std::int64_t>(last_row - first_row),
                                              pairs.entries.data(),
+                                             pairs.alone.empty() ? nullptr : pairs.alone.data() + first_row,
+                                             pairs.of_second.data(),
                                              Of::at(pairs).data(),
                                              Of::shift(pairs).data(),
+                                             Of::unit(pairs),
                                              pairs.type.data(),
                                              types_,
                                              detail::pointers_to(tables),
@@ -175,6 +181,11 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
   } else {
     run(pairs, charges, full_, scratch_, forces, sums);
   }
+}
+
+bool LennardJones::gains_by_joined_entries(ForcePrecision precision) {
+  return precision == ForcePrecision::mixed &&
+         Kernels<float>::functions(detail::force_kernels(instruction_set())).wants_lanes;
 }
 
 void LennardJones::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,

@@ -151,8 +151,9 @@ void BornSums::prepare(const ClusterPairs& pairs) {
 detail::BornTask BornSums::task_of(const ClusterPairs& pairs, const detail::BornConstants& constants) const {
   detail::BornTask task{};
   task.entries = pairs.entries.data();
-  task.at = pairs.at_float.data();
-  task.shift = pairs.shift_vector_float.data();
+  task.at = pairs.at_in_units.data();
+  task.shift = pairs.shift_in_units.data();
+  task.unit = pairs.unit;
   task.radius = numbers_of(radius_slots_);
   task.scaled = numbers_of(scaled_slots_);
   task.charge = numbers_of(charge_slots_);
@@ -191,7 +192,8 @@ void BornSums::hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, Work
     const ClusterOfFour<float> scalar = taken(found.scalar[c], earlier_scalar_[c], has_earlier);
     for_each_particle(pairs, c, [&](std::size_t i, std::size_t slot) {
       if (!forces.empty())
-        forces[i] = forces[i] + Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
+        forces[i] = forces[i] +
+                    pairs.unit * Vec3{double{force.x[slot]}, double{force.y[slot]}, double{force.z[slot]}};
       if (!scalars.empty()) scalars[i] += double{scalar.x[slot]};
     });
   }

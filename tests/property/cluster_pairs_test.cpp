@@ -159,8 +159,10 @@ TEST_P(ClusterPairsScenes, RefreshGivesWhatANewSearchGives) {
       ASSERT_EQ(before[c].x[slot], pairs.at[c].x[slot]);
       ASSERT_EQ(before[c].y[slot], pairs.at[c].y[slot]);
       ASSERT_EQ(before[c].z[slot], pairs.at[c].z[slot]);
-      const double in_single = double{pairs.at_float[c].x[slot]} + double{pairs.at_float[c].center[0]};
-      ASSERT_NEAR(in_single, pairs.at[c].x[slot], 1e-7);
+      const double origin = pairs.origin[static_cast<std::size_t>(pairs.origin_of[c])].x;
+      const double units = std::remainder((origin + pairs.at[c].x[slot]) / pairs.unit, 0x1p32);
+      ASSERT_LT(pairs.unit, 1e-7);
+      ASSERT_NEAR(std::remainder(static_cast<double>(pairs.at_in_units[c].x[slot]) - units, 0x1p32), 0, 1.01);
     }
 }
 

@@ -135,7 +135,7 @@ TEST_P(ForcesOnThreads, PositionsAreTakenAlike) {
       for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
         ASSERT_EQ(together.at[c].x[slot], alone.at[c].x[slot]);
         ASSERT_EQ(together.at[c].z[slot], alone.at[c].z[slot]);
-        ASSERT_EQ(together.at_float[c].y[slot], alone.at_float[c].y[slot]);
+        ASSERT_EQ(together.at_in_units[c].y[slot], alone.at_in_units[c].y[slot]);
       }
     ASSERT_EQ(together.split_clusters.size(), alone.split_clusters.size());
     for (std::size_t k = 0; k < alone.split_clusters.size(); ++k)

@@ -24,7 +24,7 @@ struct Necks {
     return {d, look_up(task, task.neck_at_of_j, p), look_up(task, task.neck_height_of_j, p)};
   }
   V look_up(const BornTask& task, const float* table, int p) const {
-    return S::lookup(table, task.kinds, row, column, p);
+    return S::lookup(table, task.kinds, row, S::columns(column), p);
   }
   std::int32_t row[4]{};
   const std::int32_t* column = nullptr;
@@ -184,13 +184,14 @@ struct ChainPass {
 
 template <class S, class Pass>
 DCH_FLATTEN void run_pass(const BornTask& task, Pass& pass) {
+  const typename S::V unit2 = S::set1(static_cast<typename S::Real>(task.unit * task.unit));
   for (std::int64_t r = 0; r < task.row_count; ++r) {
     const ClusterPairs::Row row = task.rows[r];
-    const Coordinates<S> i = spread<S>(task.at[row.cluster]);
+    const Places<S> i = spread<S>(task.at[row.cluster]);
     pass.begin(row.cluster);
     BornNumbers<S> sum;
     for (std::int64_t e = row.first; e < task.rows[r + 1].first; ++e)
-      pass.act(task.entries[e], born_apart<S>(task, row, i, task.entries[e]), sum);
+      pass.act(task.entries[e], born_apart<S>(task, row, i, task.entries[e], unit2), sum);
     if constexpr (Pass::kForces) S::subtract_over_j(sum.force, task.force[row.cluster]);
     if constexpr (Pass::kScalars) S::subtract_over_j(as_coordinates<S>(sum.scalar), task.scalar[row.cluster]);
   }

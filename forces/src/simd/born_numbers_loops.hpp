@@ -71,7 +71,7 @@ void fold_born_lanes(const BornTask& task, ClusterPairs::Range clusters) {
   }
 }
 
-/// Displacements from I to J and their squares.
+/// Displacements from I to J, in units, and squared distances.
 template <class S>
 struct BornApart {
   Coordinates<S> d;
@@ -79,17 +79,17 @@ struct BornApart {
 };
 
 template <class S>
-BornApart<S> born_apart(const BornTask& task, const ClusterPairs::Row& row, const Coordinates<S>& i,
-                        const ClusterPairs::Entry& entry) {
-  const auto j = S::load_cluster(task.at[entry.cluster], task.shift[row.first_shift + entry.shift],
-                                 task.at[row.cluster]);
+BornApart<S> born_apart(const BornTask& task, const ClusterPairs::Row& row, const Places<S>& i,
+                        const ClusterPairs::Entry& entry, typename S::V unit2) {
+  const auto j = S::load_cluster(task.at[entry.cluster], task.shift[row.first_shift + entry.shift]);
   BornApart<S> found;
   for (int p = 0; p < S::kRegisters; ++p) {
-    found.d.x[p] = S::sub(j.x, i.x[p]);
-    found.d.y[p] = S::sub(j.y, i.y[p]);
-    found.d.z[p] = S::sub(j.z, i.z[p]);
-    found.r2[p] = S::madd(found.d.x[p], found.d.x[p],
-                          S::madd(found.d.y[p], found.d.y[p], S::mul(found.d.z[p], found.d.z[p])));
+    found.d.x[p] = S::difference(j.x, i.x[p]);
+    found.d.y[p] = S::difference(j.y, i.y[p]);
+    found.d.z[p] = S::difference(j.z, i.z[p]);
+    const typename S::V units2 = S::madd(
+        found.d.x[p], found.d.x[p], S::madd(found.d.y[p], found.d.y[p], S::mul(found.d.z[p], found.d.z[p])));
+    found.r2[p] = in_length2<S>(units2, unit2);
   }
   return found;
 }

@@ -24,8 +24,9 @@ struct BornTask {
   const ClusterPairs::Row* rows;  ///< and one more
   std::int64_t row_count;
   const ClusterPairs::Entry* entries;
-  const ClusterOfFour<float>* at;
+  const ClusterUnits* at;
   const ClusterShift<float>* shift;
+  double unit;                             ///< what displacements are in, hence forces [length]
   const float *radius, *scaled;            ///< of integrals and the chain
   const float *charge, *born, *half_over;  ///< of energies: Born radii and a half over them
   const float* slope;                      ///< of the chain: dE/dI

@@ -15,12 +15,12 @@ namespace dch::detail {
 
 const ForceKernels& force_kernels_portable() {
   static constexpr ForceKernels kKernels{
-      lj_functions_of<Portable<float>>,       lj_functions_of<Portable<double>>,
-      lj_pair_functions_of<Portable<double>>, mesh_kernels,
-      born_kernels<Portable<float>>,          motion_kernels,
-      all_pairs_kernels<Portable<float>>,     noise_kernels,
-      bond_kernels<Portable<double>>,         angle_kernels<Portable<double>>,
-      wave_kernels<Portable<double>>};
+      lj_functions_of<PortableVector<float>>,       lj_functions_of<PortableVector<double>>,
+      lj_pair_functions_of<PortableVector<double>>, mesh_kernels,
+      born_kernels<PortableVector<float>>,          motion_kernels,
+      all_pairs_kernels<PortableVector<float>>,     noise_kernels,
+      bond_kernels<PortableVector<double>>,         angle_kernels<PortableVector<double>>,
+      wave_kernels<PortableVector<double>>};
   return kKernels;
 }
 

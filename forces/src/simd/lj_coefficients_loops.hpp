@@ -20,6 +20,56 @@ enum Coefficient {
   kCoefficients
 };
 
+/// The cluster J of an entry, beside the cluster I of its row.
+template <class S>
+struct OneBeside {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  std::int32_t cluster() const { return entry->cluster; }
+  std::uint32_t mask() const { return entry->mask; }
+  auto places(const LjTask<Real>& task, const ClusterPairs::Row& row) const {
+    return S::load_cluster(task.at[entry->cluster], task.shift[row.first_shift + entry->shift]);
+  }
+  V repeat(const Real* by_slot) const { return S::repeat(by_slot + 4 * entry->cluster); }
+  auto columns(const std::int32_t* by_slot) const { return S::columns(by_slot + 4 * entry->cluster); }
+  void add(V force, const Coordinates<S>& d, Real* lanes) const {
+    Real* const to = lanes + kNumbersOfLanes * entry->cluster;
+    S::store(to, S::madd(force, d.x[0], S::load(to)));
+    S::store(to + 16, S::madd(force, d.y[0], S::load(to + 16)));
+    S::store(to + 32, S::madd(force, d.z[0], S::load(to + 32)));
+  }
+
+  const ClusterPairs::Entry* entry;
+};
+
+/// Two clusters J, of an entry and of the next one, each with the pairs that the other one has none at.
+template <class S>
+struct TwoBeside {
+  using V = typename S::V;
+  using Real = typename S::Real;
+  static std::uint32_t mask() { return 0xFFFF; }
+  auto places(const LjTask<Real>& task, const ClusterPairs::Row& row) const {
+    return S::load_clusters(task.at[entry[0].cluster], of_second, task.at[entry[1].cluster],
+                            task.shift[row.first_shift + entry->shift]);
+  }
+  V repeat(const Real* by_slot) const {
+    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second, by_slot + 4 * entry[1].cluster);
+  }
+  auto columns(const std::int32_t* by_slot) const {
+    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second, by_slot + 4 * entry[1].cluster);
+  }
+  void add(V force, const Coordinates<S>& d, Real* lanes) const {
+    Real* const first = lanes + kNumbersOfLanes * entry[0].cluster;
+    Real* const second = lanes + kNumbersOfLanes * entry[1].cluster;
+    S::add_either(force, d.x[0], first, of_second, second);
+    S::add_either(force, d.y[0], first + 16, of_second, second + 16);
+    S::add_either(force, d.z[0], first + 32, of_second, second + 32);
+  }
+
+  const ClusterPairs::Entry* entry;
+  std::uint32_t of_second;
+};
+
 /// The coefficients of 16 pairs, register by register; those of one type are the same for all.
 template <class S, LjParameters kParameters>
 struct PairCoefficients;
@@ -36,7 +86,8 @@ struct PairCoefficients<S, LjParameters::one_type> {
     for (int k = 0; k < kCoefficients; ++k) value[k] = S::set1(*from[k]);
   }
   void choose_i(std::int32_t) {}
-  void choose_j(std::int32_t) {}
+  template <class J>
+  void choose_j(const J&) {}
   V operator()(int k, int) const { return value[k]; }
   V common_cutoff2() const { return value[kCutoff2]; }
 
@@ -57,7 +108,10 @@ struct PairCoefficients<S, LjParameters::by_type> {
   void choose_i(std::int32_t cluster) {
     for (int a = 0; a < 4; ++a) row[a] = type[4 * cluster + a] * types;
   }
-  void choose_j(std::int32_t cluster) { of_j = type + 4 * cluster; }
+  template <class J>
+  void choose_j(const J& beside) {
+    of_j = beside.columns(type);
+  }
   V operator()(int k, int which) const { return S::lookup(table[k], types, row, of_j, which); }
   V common_cutoff2() const { return cutoff2; }
 
@@ -67,7 +121,7 @@ struct PairCoefficients<S, LjParameters::by_type> {
   const Real* table[kCoefficients];
   V cutoff2;
   std::int32_t row[4]{};
-  const std::int32_t* of_j = nullptr;
+  typename S::Columns of_j{};
 };
 
 /// Mixed by the rules of Lorentz and Berthelot: mean sigma, geometric mean of epsilon. One cutoff for all.
@@ -86,15 +140,18 @@ struct PairCoefficients<S, LjParameters::by_particle> {
       epsilon_of_i[p] = S::spread(root_epsilon + 4 * cluster, p);
     }
   }
-  void choose_j(std::int32_t cluster) { of_j = 4 * cluster; }
+  template <class J>
+  void choose_j(const J& beside) {
+    sigma_of_j = beside.repeat(half_sigma);
+    epsilon_of_j = beside.repeat(root_epsilon);
+  }
   V operator()(int, int) const { return cutoff2; }
   V common_cutoff2() const { return cutoff2; }
-  V sigma(int p) const { return S::add(sigma_of_i[p], S::repeat(half_sigma + of_j)); }
-  V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], S::repeat(root_epsilon + of_j)); }
+  V sigma(int p) const { return S::add(sigma_of_i[p], sigma_of_j); }
+  V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], epsilon_of_j); }
 
   const Real *half_sigma, *root_epsilon;
-  V cutoff2, sigma_of_i[S::kRegisters], epsilon_of_i[S::kRegisters];
-  std::int32_t of_j = 0;
+  V cutoff2, sigma_of_i[S::kRegisters], epsilon_of_i[S::kRegisters], sigma_of_j, epsilon_of_j;
 };
 
 }  // namespace

@@ -88,8 +88,11 @@ struct LjTask {
   const ClusterPairs::Row* rows;  ///< and one more
   std::int64_t row_count;
   const ClusterPairs::Entry* entries;
-  const ClusterOfFour<Real>* at;
+  const std::int32_t* alone;       ///< ClusterPairs::alone from the first row on; null if none are joined
+  const std::uint16_t* of_second;  ///< the same of all
+  const ClusterPlace<Real>* at;
   const ClusterShift<Real>* shift;
+  double unit;               ///< what displacements are in, hence forces; 1 in double precision [length]
   const std::int32_t* type;  ///< by slot
   std::int32_t types;
   LjCoefficients<Real> coefficients;
@@ -98,7 +101,7 @@ struct LjTask {
   const Real* charge;        ///< by slot, aligned; null without charges
   const Real* dispersion;    ///< coefficients by slot, aligned; null without a lattice sum of dispersion
   LjConstants<Real> constants;
-  ClusterOfFour<Real>* force;  ///< by cluster; added to
+  ClusterOfFour<Real>* force;  ///< by cluster; times unit; added to
   Real* lanes;              ///< kNumbersOfLanes by cluster, aligned, 0 before and after; null unless wanted
   ClusterPairs::Range own;  ///< clusters of the rows
   Span<const ClusterPairs::Range> later;  ///< others that the rows name

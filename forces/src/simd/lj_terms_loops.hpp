@@ -61,8 +61,10 @@ EwaldFactors<S> ewald_factors(typename S::V x) {
 /// LjConstants in all lanes.
 template <class S>
 struct Constants {
-  explicit Constants(const LjConstants<typename S::Real>& c)
-      : splitting(S::set1(c.splitting)),
+  explicit Constants(const LjConstants<typename S::Real>& c, double unit_of_length = 1)
+      : unit(S::set1(static_cast<typename S::Real>(unit_of_length))),
+        unit2(S::mul(unit, unit)),
+        splitting(S::set1(c.splitting)),
         quadratic(S::set1(c.quadratic)),
         offset(S::set1(c.offset)),
         switch_from(S::set1(c.switch_from)),
@@ -70,7 +72,8 @@ struct Constants {
         series_scale(S::set1(c.series_scale)),
         over_cutoff2(S::set1(c.over_cutoff2)),
         series(&c) {}
-  typename S::V splitting, quadratic, offset, switch_from, over_width, series_scale, over_cutoff2;
+  typename S::V unit, unit2, splitting, quadratic, offset, switch_from, over_width, series_scale,
+      over_cutoff2;
   const LjConstants<typename S::Real>* series;
 };
 

@@ -10,6 +10,7 @@
 
 #include <dch/base/error.hpp>
 #include <dch/engines/pair_search.hpp>
+#include <dch/forces/lennard_jones.hpp>
 
 #include "neighbor_dch.h"
 #include "neighbor_dch_only.h"
@@ -88,6 +89,7 @@ void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
   for (const ServedClusters& clusters : clusters_) {
     cluster_filler_->fill(points_, *search_, present_skin(), *clusters.list);
+    if (dch::LennardJones::gains_by_joined_entries(precision_)) clusters.list->pairs.join_entries(executor());
     run_.entries += clusters.list->count();
     run_.clusters_seconds += seconds_since(clock);
   }

@@ -62,11 +62,13 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
   out.types = scene.request.radii.empty() ? scene.request.cutoffs.types() : 1;
   out.list_radius = scene.request.list_radius();
   out.box = scene.box;
+  out.alone.clear();
+  out.farthest = 2 * scene.leaves.largest_extent + out.list_radius;
   out.particle.resize(all * kSlots);
   out.type.resize(all * kSlots);
   out.origin_of.resize(all);
   out.at.resize(all);
-  out.at_float.resize(all);
+  out.at_in_units.resize(all);
   // Positions relative to origins with few digits, and differences of those, hardly ever round.
   const BinaryGrid grid(out.list_radius);
   out.origin = scene.nodes.position;

@@ -264,7 +264,7 @@ void ClusterPairFinder::join(ClusterPairs& out) {
   out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
   out.split_clusters.clear();
   out.shift_vector.resize(out.shift.size());
-  out.shift_vector_float.resize(out.shift.size());
+  out.shift_in_units.resize(out.shift.size());
   out.has_shift_vectors = false;
 }
 

@@ -35,6 +35,7 @@ void ClusterPairMaker::make(const HierarchyView& view, const ListParams& params,
     throw InvalidParameter("cutoff + skin = " + detail::describe(radius) +
                            " is outside 1e-9..1e9, where cluster pairs hold coordinates in single precision; "
                            "use another unit of length, or a neighbor list");
+  const int refreshes = out.refreshes;
   try {
     const double reach = radius + detail::distance_error(hierarchy);
     detail::with_metric(hierarchy.box, [&](const auto& metric) {
@@ -44,6 +45,8 @@ void ClusterPairMaker::make(const HierarchyView& view, const ListParams& params,
                          hierarchy.params.executor, out);
     });
     out.refresh(hierarchy.raw, hierarchy.box);
+    out.refreshes = 0;
+    out.refreshes_before = refreshes;
   } catch (...) {
     out = ClusterPairs();
     throw;

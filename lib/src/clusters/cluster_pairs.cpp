@@ -9,7 +9,6 @@
 
 #include "base/describe.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
-#include "geometry/binary_grid.hpp"
 #include "geometry/lattice.hpp"
 
 namespace dch {
@@ -33,10 +32,26 @@ bool all_within(double distance2, const ClusterOfFour<double>& a, const ClusterO
   return true;
 }
 
-void round_axis(const detail::BinaryGrid& grid, const double* from, float* to, float& center) {
-  const double middle = grid(0.25 * ((from[0] + from[1]) + (from[2] + from[3])));
-  center = static_cast<float>(middle);
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to[slot] = static_cast<float>(from[slot] - middle);
+/// The nearest integer modulo 2^32.
+std::int32_t rounded(double units) {
+  if (!(std::abs(units) < 0x1p51)) units = std::remainder(units, 0x1p32);  // slow, and exact
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llrint(units)));
+}
+
+/// As the kernels do.
+void round_cluster(const ClusterOfFour<double>& at, Vec3 origin, double per_unit, ClusterUnits& to) {
+  const auto last_bits = [](double sum) { return rounded(sum - 0x1.8p52); };
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+    to.x[slot] = last_bits(per_unit * at.x[slot] + origin.x);
+    to.y[slot] = last_bits(per_unit * at.y[slot] + origin.y);
+    to.z[slot] = last_bits(per_unit * at.z[slot] + origin.z);
+  }
+}
+
+double farthest2_of(const ClusterOfFour<double>& at) {
+  double most = 0;
+  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) most = std::max(most, norm2(slot_of(at, slot)));
+  return most;
 }
 
 /// Takes new positions of clusters that the boundary of the cell splits.
@@ -47,8 +62,8 @@ class SplitClusters {
         positions_(positions),
         now_(now),
         images_(now),
-        grid_(pairs.list_radius),
-        safe2_(safe2) {}
+        safe2_(safe2),
+        farthest2_(pairs.farthest * pairs.farthest) {}
 
   /// @param known what is known of it, or null
   /// @throws InvalidPosition, and then has changed nothing
@@ -62,12 +77,13 @@ class SplitClusters {
       at = place(split);
     }
     pairs_.at[c] = at;
-    ClusterOfFour<float>& rounded = pairs_.at_float[c];
-    round_axis(grid_, at.x, rounded.x, rounded.center[0]);
-    round_axis(grid_, at.y, rounded.y, rounded.center[1]);
-    round_axis(grid_, at.z, rounded.z, rounded.center[2]);
+    farthest2_ = std::max(farthest2_, farthest2_of(at));
+    const auto origin = static_cast<std::size_t>(pairs_.origin_of[c]);
+    round_cluster(at, pairs_.origin_in_units[origin], 1 / pairs_.unit, pairs_.at_in_units[c]);
     return split;
   }
+  /// Squared distance of the farthest particle from its origin, or what that was to be.
+  double farthest2() const { return farthest2_; }
 
  private:
   std::int32_t particle(std::int32_t cluster, int slot) const {
@@ -106,8 +122,7 @@ class SplitClusters {
   Span<const Vec3> positions_;
   const Box& now_;
   detail::Lattice images_;
-  detail::BinaryGrid grid_;
-  double safe2_;
+  double safe2_, farthest2_;
 };
 
 }  // namespace
@@ -126,11 +141,14 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now, Executor*
   if (!same_periodicity(now, box))
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
+  if (!has_shift_vectors || !(now == box)) {
+    refresh_shifts(now);
+    choose_unit(now);
+    has_shift_vectors = true;
+    box = now;
+  }
   refresh_clusters(positions, now, executor);
-  if (has_shift_vectors && now == box) return;
-  refresh_shifts(now);
-  has_shift_vectors = true;
-  box = now;
+  ++refreshes;
 }
 
 void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor) {
@@ -138,11 +156,18 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
   const auto refresh = detail::cluster_search_kernels(instruction_set()).refresh;
   std::vector<std::int32_t> far(at.size(), kPadding);
   for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
-    const detail::RefreshTask task{first,           last,
-                                   particle.data(), origin_of.data(),
-                                   origin.data(),   positions.data(),
-                                   safe2,           detail::BinaryGrid(list_radius).addend(),
-                                   at.data(),       at_float.data()};
+    const detail::RefreshTask task{first,
+                                   last,
+                                   particle.data(),
+                                   origin_of.data(),
+                                   origin.data(),
+                                   origin_in_units.data(),
+                                   positions.data(),
+                                   safe2,
+                                   farthest * farthest,
+                                   1 / unit,
+                                   at.data(),
+                                   at_in_units.data()};
     refresh(task, far.data() + first);
   });
   far.erase(std::remove(far.begin(), far.end(), kPadding), far.end());
@@ -156,30 +181,50 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
         taker.take(cluster, known != split_clusters.end() && known->cluster == cluster ? &*known : nullptr));
   }
   split_clusters = std::move(split_now);
+  if (taker.farthest2() > farthest * farthest) make_room_for(taker.farthest2(), now);
 }
 
 void ClusterPairs::refresh_shifts(const Box& now) {
   const detail::Lattice images(now);
-  const detail::BinaryGrid grid(list_radius);
   for (std::size_t s = 0; s < shift.size(); ++s) {
     const Vec3 between =
         origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
     const Vec3 vector = between + images.vector(shift[s].image);
-    ClusterShift<float>& rounded = shift_vector_float[s];
     for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s].whole);
-    for (int axis = 0; axis < 3; ++axis) {
-      rounded.high[axis] = static_cast<float>(grid(vector[axis]));
-      rounded.low[axis] = static_cast<float>(vector[axis] - double{rounded.high[axis]});
-    }
   }
+}
+
+/// The finest in which no displacement of slots of an entry reaches 2^31.
+void ClusterPairs::choose_unit(const Box& now) {
+  double widest = 0;
+  for (const ClusterShift<double>& by : shift_vector)
+    widest = std::max({widest, std::abs(by.whole.x[0]), std::abs(by.whole.y[0]), std::abs(by.whole.z[0])});
+  unit = std::ldexp(1, std::ilogb(widest + 2 * farthest) + 1 - 31);
+  origin_in_units.resize(origin.size());
+  for (std::size_t k = 0; k < origin.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      origin_in_units[k][axis] = 0x1.8p52 + static_cast<double>(rounded(origin[k][axis] / unit));
+  const detail::Lattice images(now);
+  for (std::size_t s = 0; s < shift.size(); ++s) {
+    const Vec3 vector = images.vector(shift[s].image);
+    for (int axis = 0; axis < 3; ++axis) shift_in_units[s].axis[axis] = rounded(vector[axis] / unit);
+  }
+}
+
+/// For particles that have gone far from their origins, to stay near each other all the same.
+void ClusterPairs::make_room_for(double farthest2, const Box& now) {
+  farthest = 2 * std::sqrt(farthest2);
+  choose_unit(now);
+  for (std::size_t c = 0; c < at.size(); ++c)
+    round_cluster(at[c], origin_in_units[static_cast<std::size_t>(origin_of[c])], 1 / unit, at_in_units[c]);
 }
 
 std::size_t ClusterPairs::memory_bytes() const {
   const auto bytes_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return bytes_of(rows) + bytes_of(entries) + bytes_of(particle) + bytes_of(type) + bytes_of(origin_of) +
-         bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_float) + bytes_of(shift_vector) +
-         bytes_of(shift_vector_float) + bytes_of(split_clusters) + bytes_of(tasks) + bytes_of(ranges) +
-         bytes_of(has_earlier_contributions);
+         bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_in_units) + bytes_of(shift_vector) +
+         bytes_of(shift_in_units) + bytes_of(origin_in_units) + bytes_of(split_clusters) + bytes_of(tasks) +
+         bytes_of(ranges) + bytes_of(alone) + bytes_of(of_second) + bytes_of(has_earlier_contributions);
 }
 
 }  // namespace dch

@@ -87,7 +87,8 @@ dch::Span<const dch::Vec3> ClusterPairKeeper::broughtNear(dch::Span<const dch::V
   return nearPositions;
 }
 
-const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box) {
+const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box,
+                                               bool joins) {
   chooseSkin(box);
   const dch::Span<const dch::Vec3> near = broughtNear(positions, box);
   if (!expiry->is_stale(near, box, request, *search)) {
@@ -97,6 +98,7 @@ const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positi
   expiry->forget();
   search->update(positions, box);  // checks them
   search->cluster_pairs(request, pairs);
+  if (joins) pairs.join_entries(&pool);
   ++searchCount;
   labelPairs();
   if (box.any_periodic()) rememberPeriods(positions, box);

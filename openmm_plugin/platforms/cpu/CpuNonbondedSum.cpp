@@ -101,9 +101,10 @@ void CpuNonbondedSum::setDispersion() {
 double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   if (!keeper) return addWithoutCutoff(state, includeEnergy);
   if (!keeper->fits(state.box)) return addAllPairs(state);
-  const dch::ClusterPairs& pairs = keeper->at(state.positions, state.box);
   const auto precision =
       forces->fits_single() && !isDouble ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
+  const dch::ClusterPairs& pairs =
+      keeper->at(state.positions, state.box, dch::LennardJones::gains_by_joined_entries(precision));
   dch::LennardJonesSums sums;
   if (includeEnergy)
     sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);

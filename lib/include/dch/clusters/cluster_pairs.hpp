@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include <dch/base/executor.hpp>
@@ -24,19 +25,28 @@ struct alignas(32) ClusterOfFour<double> {
 template <>
 struct alignas(64) ClusterOfFour<float> {
   float x[4]{}, y[4]{}, z[4]{};
-  float center[4]{};  ///< what coordinates are relative to; the fourth is 0, and all are in forces
+  float filling[4]{};  ///< of a register; 0
 };
 
-/// A vector from one origin to another.
+/// Coordinates in integer multiples of ClusterPairs::unit, modulo 2^32.
+struct alignas(64) ClusterUnits {
+  std::int32_t x[4]{}, y[4]{}, z[4]{};
+};
+/// Where the slots of a cluster are, in a kernel of that precision.
+template <class Real>
+using ClusterPlace = std::conditional_t<std::is_same_v<Real, float>, ClusterUnits, ClusterOfFour<Real>>;
+
+/// What a kernel of that precision adds to places in an entry's cluster J.
 template <class Real>
 struct ClusterShift;
 template <>
 struct ClusterShift<double> {
   ClusterOfFour<double> whole;  ///< the same for all four slots
 };
+/// The vector of an image, in units, modulo 2^32.
 template <>
 struct alignas(16) ClusterShift<float> {
-  float high[4]{}, low[4]{};  ///< the vector is their sum; the fourth numbers are 0
+  std::int32_t axis[4]{};  ///< the fourth is 0
 };
 
 /// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
@@ -49,10 +59,10 @@ struct alignas(16) ClusterShift<float> {
 /// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
 /// cluster I to slot b of cluster J of an entry is (at[J][b] + shift) - at[I][a], with the shift that the
 /// entry names; it leads to the one image of the particle that is meant, and needs no box. In single
-/// precision, particles are relative to the center of their cluster. Centers relative to origins, and the
-/// high parts of shifts, are multiples of the power of two below list_radius / 10000, so that
-///     (at_float[J][b] + (((J.center + high) - I.center) + low)) - at_float[I][a]
-/// rounds in its last steps only, where numbers are as small as the displacement.
+/// precision, coordinates are integer multiples of `unit`, a power of two, from the origin of all coordinates
+/// on and modulo 2^32. So the displacement, which is far below 2^31 units, is
+///     unit x float((at_in_units[J][b] + shift_in_units) - at_in_units[I][a])
+/// where integers are added and subtracted exactly, however far from the origin particles are.
 struct ClusterPairs {
   static constexpr int kSlots = 4;  ///< in a cluster
 
@@ -78,6 +88,15 @@ struct ClusterPairs {
   std::vector<Row> rows;  ///< and one more with the number of entries
   std::vector<Entry> entries;
 
+  // What join_entries() writes: the entries of a row that come after its first `alone` ones stand two by two,
+  // both with all pairs in their masks and with the same image. The pairs that were within the list radius at
+  // the search stand at other bits in one than in the other. So a kernel may take the slots of
+  // of_second[number of the first one / 2] from the second one and all others from the first.
+  std::vector<std::int32_t> alone;       ///< by row; empty if none are joined
+  std::vector<std::uint16_t> of_second;  ///< by half the number of an entry
+  int refreshes = 0;                     ///< since the search
+  int refreshes_before = 0;              ///< between the two last searches into this
+
   /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own task and of
   /// later ones. Tasks depend on the clusters alone, so forces that are summed up in their order do not
   /// depend on the number of threads.
@@ -101,11 +120,14 @@ struct ClusterPairs {
   std::vector<Shift> shift;
 
   // What refresh() writes. Padding stands where the first particle of its cluster does.
-  std::vector<ClusterOfFour<double>> at;                ///< by cluster, relative to its origin [length]
-  std::vector<ClusterOfFour<float>> at_float;           ///< relative to their centers
-  std::vector<ClusterShift<double>> shift_vector;       ///< by shift [length]
-  std::vector<ClusterShift<float>> shift_vector_float;  ///< the same in single precision
-  bool has_shift_vectors = false;                       ///< of `box`; not so after a search
+  std::vector<ClusterOfFour<double>> at;           ///< by cluster, relative to its origin [length]
+  std::vector<ClusterUnits> at_in_units;           ///< by cluster
+  std::vector<ClusterShift<double>> shift_vector;  ///< by shift, from one origin to another [length]
+  std::vector<ClusterShift<float>> shift_in_units;
+  bool has_shift_vectors = false;     ///< of `box`; not so after a search
+  std::vector<Vec3> origin_in_units;  ///< modulo 2^32, and 1.5 x 2^52: a sum's last bits are an integer
+  double unit = 1;                    ///< of places in single precision, a power of two [length]
+  double farthest = 0;                ///< no particle is as far from its origin [length]
 
   /// A cluster whose particles lay in different periodic images at the last refresh().
   struct SplitCluster {
@@ -162,11 +184,21 @@ struct ClusterPairs {
   /// @param executor threads to do it with; null for that of the caller
   void refresh(Span<const Vec3> positions, const Box& now, Executor* executor = nullptr);
 
+  /// Puts the entries of each row in an order in which many stand two by two that fill a register of 16 pairs
+  /// together, for kernels that gain by it (LennardJones::gains_by_joined_entries()). To be called after a
+  /// search and before positions are taken; nobody may take pairs out of masks afterwards. Does nothing if
+  /// positions were taken less than five times between the last two searches, as it would not pay.
+  /// O(entries).
+  /// @throws InvalidParameter if positions have been taken since the search
+  void join_entries(Executor* executor = nullptr);
+
   std::size_t memory_bytes() const;
 
  private:
   void refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor);
   void refresh_shifts(const Box& now);
+  void choose_unit(const Box& now);
+  void make_room_for(double farthest2, const Box& now);
 };
 
 }  // namespace dch

@@ -20,10 +20,27 @@ struct Coordinates {
   typename S::V x[S::kRegisters], y[S::kRegisters], z[S::kRegisters];
 };
 
+/// Coordinates of places as ClusterPlace has them: `Where` are integers in single precision.
+template <class S>
+struct Places {
+  typename S::Where x[S::kRegisters], y[S::kRegisters], z[S::kRegisters];
+};
+
+/// Of displacements, and of their squares, in units, those in the unit of length.
+template <class S>
+typename S::V in_length(typename S::V d, typename S::V unit) {
+  if constexpr (std::is_same_v<typename S::Real, float>) return S::mul(d, unit);
+  return d;
+}
+template <class S>
+typename S::V in_length2(typename S::V d2, typename S::V unit2) {
+  return in_length<S>(d2, unit2);
+}
+
 /// Slot a of the cluster for pairs 4 a to 4 a + 3.
 template <class S>
-Coordinates<S> spread(const ClusterOfFour<typename S::Real>& cluster) {
-  Coordinates<S> all;
+Places<S> spread(const ClusterPlace<typename S::Real>& cluster) {
+  Places<S> all;
   for (int p = 0; p < S::kRegisters; ++p) {
     all.x[p] = S::spread(cluster.x, p);
     all.y[p] = S::spread(cluster.y, p);

@@ -63,11 +63,21 @@ struct RefreshTask {
   const std::int32_t* particle;   ///< by slot; negative for padding, which stands where the first one does
   const std::int32_t* origin_of;  ///< by cluster
   const Vec3* origin;
-  const Vec3* positions;           ///< by particle
-  double safe2;                    ///< squared distance that a particle moves less than in one image
-  double grid;                     ///< BinaryGrid::addend()
-  ClusterOfFour<double>* at;       ///< by cluster, where they were; written
-  ClusterOfFour<float>* at_float;  ///< by cluster; written
+  const Vec3* origin_in_units;  ///< those of ClusterPairs
+  const Vec3* positions;        ///< by particle
+  double safe2;                 ///< squared distance that a particle moves less than in one image
+  double farthest2;             ///< squared distance that a particle is less than from its origin
+  double per_unit;              ///< 1 / ClusterPairs::unit
+  ClusterOfFour<double>* at;    ///< by cluster, where they were; written
+  ClusterUnits* at_in_units;    ///< by cluster; written
+};
+
+/// Entries in the places that a refresh has written.
+struct NearSlotsTask {
+  const ClusterPairs::Entry* entries;
+  const ClusterUnits* at;
+  const ClusterShift<float>* shift;
+  float limit2;  ///< squared distance in units
 };
 
 /// The loops of the search of cluster pairs, compiled for one instruction set. No function allocates. All
@@ -84,10 +94,15 @@ struct ClusterSearchKernels {
   FoundRow (*find_row)(const RowCluster& row, const NearClusters& from, std::int32_t count,
                        std::int16_t limit, ClusterPairs::Entry* to);
 
-  /// Takes positions, but for the clusters of which one particle seems to have moved farther, or nowhere
-  /// finite: those it leaves as they were, and writes their numbers, ascending; there has to be room for all.
-  /// Returns how many.
+  /// Takes positions, but for the clusters of which one particle seems to have moved farther, or to be
+  /// farther from its origin, or nowhere finite: those it leaves as they were, and writes their numbers,
+  /// ascending; there has to be room for all. Returns how many.
   std::int32_t (*refresh)(const RefreshTask& task, std::int32_t* far);
+
+  /// Of each of the first `count` entries of a row, the bits of the pairs that are at most so far apart, in
+  /// its mask or not. Sets may round squares differently.
+  void (*near_slots)(const NearSlotsTask& task, const ClusterPairs::Row& row, std::int32_t count,
+                     std::uint16_t* near);
 };
 
 /// The kernels of a set that is supported.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
+#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
+#include "clusters/simd/vectors_avx2.hpp"
 #include "simd/lanes_avx2.hpp"
 
 namespace dch::detail {
@@ -73,7 +75,7 @@ struct Avx2Fours : Avx2 {
 
 const ClusterSearchKernels& cluster_search_kernels_avx2() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Avx2Fours>, find_row<Avx2Fours>,
-                                                 refresh_clusters<Avx2Fours>};
+                                                 refresh_clusters<Avx2Fours>, near_slots<Avx2Float>};
   return kKernels;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
+#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
+#include "clusters/simd/vectors_avx512.hpp"
 #include "simd/lanes_avx512.hpp"
 
 namespace dch::detail {
@@ -67,7 +69,7 @@ struct Avx512Fours : Avx512 {
 
 const ClusterSearchKernels& cluster_search_kernels_avx512() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Avx512Fours>, find_row<Avx512Fours>,
-                                                 refresh_clusters<Avx512Fours>};
+                                                 refresh_clusters<Avx512Fours>, near_slots<Avx512Float>};
   return kKernels;
 }
 

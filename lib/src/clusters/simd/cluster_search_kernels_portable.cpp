@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
+#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
+#include "clusters/simd/vectors_portable.hpp"
 #include "simd/lanes_portable.hpp"
 
 namespace dch::detail {
@@ -82,7 +84,8 @@ struct PortableFours : Portable {
 
 const ClusterSearchKernels& cluster_search_kernels_portable() {
   static constexpr ClusterSearchKernels kKernels{keep_near<PortableFours>, find_row<PortableFours>,
-                                                 refresh_clusters<PortableFours>};
+                                                 refresh_clusters<PortableFours>,
+                                                 near_slots<PortableVector<float>>};
   return kKernels;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
+#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
+#include "clusters/simd/vectors_sse42.hpp"
 #include "simd/lanes_sse42.hpp"
 
 namespace dch::detail {
@@ -71,7 +73,7 @@ struct Sse42Fours : Sse42 {
 
 const ClusterSearchKernels& cluster_search_kernels_sse42() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Sse42Fours>, find_row<Sse42Fours>,
-                                                 refresh_clusters<Sse42Fours>};
+                                                 refresh_clusters<Sse42Fours>, near_slots<SseFloat>};
   return kKernels;
 }
 

@@ -10,19 +10,18 @@ namespace dch::detail {
 namespace {
 
 using FourDoubles = double __attribute__((vector_size(32)));
-using FourFloats = float __attribute__((vector_size(16)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));
 
 inline void put_four(const FourDoubles& v, double* to) {
   for (int k = 0; k < 4; ++k) to[k] = v[k];
 }
 
-/// To single precision, relative to their mean on the grid.
-inline void round_four(const FourDoubles& v, double grid, float* to, float& center) {
-  const double mean = 0.25 * ((v[0] + v[1]) + (v[2] + v[3]));
-  const double middle = (mean + grid) - grid;
-  center = static_cast<float>(middle);
-  const FourFloats rounded = __builtin_convertvector(v - middle, FourFloats);
-  for (int k = 0; k < 4; ++k) to[k] = rounded[k];
+/// The nearest integers modulo 2^32: the last bits of a sum with a number near 1.5 x 2^52.
+inline void round_four(const FourDoubles& sum, std::int32_t* to) {
+  const EightInts bits = __builtin_bit_cast(EightInts, sum);
+  // As wide as registers are, else compilers take the vector apart.
+  const EightInts last = __builtin_shufflevector(bits, bits, 0, 2, 4, 6, 0, 2, 4, 6);
+  for (int k = 0; k < 4; ++k) to[k] = last[k];
 }
 
 /// See ClusterKernels::refresh. A template, so that each file that includes this has its own.
@@ -42,7 +41,7 @@ std::int32_t refresh_clusters(const RefreshTask& task, std::int32_t* far) {
                       dy = y - FourDoubles{at.y[0], at.y[1], at.y[2], at.y[3]},
                       dz = z - FourDoubles{at.z[0], at.z[1], at.z[2], at.z[3]};
     const FourDoubles moved2 = dx * dx + dy * dy + dz * dz;
-    const auto stays = moved2 < task.safe2;
+    const auto stays = (moved2 < task.safe2) & (x * x + y * y + z * z < task.farthest2);
     if ((stays[0] & stays[1] & stays[2] & stays[3]) == 0) {
       far[found++] = c;
       continue;
@@ -50,10 +49,11 @@ std::int32_t refresh_clusters(const RefreshTask& task, std::int32_t* far) {
     put_four(x, at.x);
     put_four(y, at.y);
     put_four(z, at.z);
-    ClusterOfFour<float>& rounded = task.at_float[c];
-    round_four(x, task.grid, rounded.x, rounded.center[0]);
-    round_four(y, task.grid, rounded.y, rounded.center[1]);
-    round_four(z, task.grid, rounded.z, rounded.center[2]);
+    ClusterUnits& rounded = task.at_in_units[c];
+    const Vec3 from = task.origin_in_units[task.origin_of[c]];
+    round_four(task.per_unit * x + from.x, rounded.x);
+    round_four(task.per_unit * y + from.y, rounded.y);
+    round_four(task.per_unit * z + from.z, rounded.z);
   }
   return found;
 }

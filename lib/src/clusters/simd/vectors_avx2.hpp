@@ -14,8 +14,9 @@ namespace {
 struct Avx2Float {
   using Real = float;
   using V = __m256;
+  using Where = __m256i;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 8, kRegisters = 2;
 
@@ -50,16 +51,21 @@ struct Avx2Float {
   }
   static V twice(__m128 four) { return _mm256_set_m128(four, four); }
   static V repeat(const float* four) { return twice(_mm_load_ps(four)); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
-                              const ClusterOfFour<float>& own) {
-    const __m128 between =
-        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
-    const __m128 by = _mm_add_ps(between, _mm_load_ps(shift.low));
-    return {twice(_mm_add_ps(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00))),
-            twice(_mm_add_ps(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55))),
-            twice(_mm_add_ps(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA)))};
+  static Where spread(const std::int32_t* four, int which) {
+    return _mm256_set_m128i(_mm_set1_epi32(four[2 * which + 1]), _mm_set1_epi32(four[2 * which]));
   }
-  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
+  static V difference(Where a, Where b) { return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)); }
+  static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* four, int axis) {
+      return _mm256_add_epi32(
+          _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(four))),
+          _mm256_set1_epi32(shift.axis[axis]));
+    };
+    return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
+  }
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, Columns column,
                   int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     if (types <= kFewTypes)
@@ -101,8 +107,9 @@ struct Avx2Float {
 struct Avx2Double {
   using Real = double;
   using V = __m256d;
+  using Where = V;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -112,6 +119,7 @@ struct Avx2Double {
   static V add(V a, V b) { return _mm256_add_pd(a, b); }
   static V sub(V a, V b) { return _mm256_sub_pd(a, b); }
   static V mul(V a, V b) { return _mm256_mul_pd(a, b); }
+  static V difference(V a, V b) { return sub(a, b); }
   static V madd(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
   static V msub(V a, V b, V c) { return _mm256_fmsub_pd(a, b, c); }
   static V max(V a, V b) { return _mm256_max_pd(a, b); }
@@ -131,14 +139,15 @@ struct Avx2Double {
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
   static V spread(const double* four, int which) { return _mm256_set1_pd(four[which]); }
   static V repeat(const double* four) { return _mm256_load_pd(four); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
-                              const ClusterOfFour<double>&) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     return {add(_mm256_load_pd(at.x), _mm256_load_pd(shift.whole.x)),
             add(_mm256_load_pd(at.y), _mm256_load_pd(shift.whole.y)),
             add(_mm256_load_pd(at.z), _mm256_load_pd(shift.whole.z))};
   }
-  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
-                  const std::int32_t* column, int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row, Columns column,
+                  int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     if (types <= kFewTypes) {
       // The two halves of number k are the numbers 2 k and 2 k + 1 of 32 bits.

@@ -14,8 +14,9 @@ namespace {
 struct Avx512Float {
   using Real = float;
   using V = __m512;
+  using Where = __m512i;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 16, kRegisters = 1;
 
@@ -53,29 +54,54 @@ struct Avx512Float {
   static V spread(const float* four, int) {
     return _mm512_permutexvar_ps(slots(), _mm512_broadcast_f32x4(_mm_load_ps(four)));
   }
+  static Where repeat(const std::int32_t* four) {
+    return _mm512_broadcast_i32x4(_mm_load_si128(reinterpret_cast<const __m128i*>(four)));
+  }
+  static Where spread(const std::int32_t* four, int) {
+    return _mm512_permutexvar_epi32(slots(), repeat(four));
+  }
+  static V difference(Where a, Where b) { return _mm512_cvtepi32_ps(_mm512_sub_epi32(a, b)); }
   static V repeat(const float* four) { return _mm512_broadcast_f32x4(_mm_load_ps(four)); }
-  static Cluster four_times(V cluster) {
-    return {_mm512_shuffle_f32x4(cluster, cluster, 0x00), _mm512_shuffle_f32x4(cluster, cluster, 0x55),
-            _mm512_shuffle_f32x4(cluster, cluster, 0xAA)};
+  static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* four, int axis) {
+      return _mm512_add_epi32(repeat(four), _mm512_set1_epi32(shift.axis[axis]));
+    };
+    return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
-                              const ClusterOfFour<float>& own) {
-    const __m128 between =
-        _mm_sub_ps(_mm_add_ps(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
-    // Spread over registers by loads, which are free where shuffles are not: kept from the compiler, which
-    // would shuffle what it knows.
-    alignas(16) float by[4];
-    _mm_store_ps(by, _mm_add_ps(between, _mm_load_ps(shift.low)));
-    asm("" : "+m"(by));
-    const Cluster j{_mm512_broadcast_f32x4(_mm_load_ps(at.x)), _mm512_broadcast_f32x4(_mm_load_ps(at.y)),
-                    _mm512_broadcast_f32x4(_mm_load_ps(at.z))};
-    return {add(j.x, set1(by[0])), add(j.y, set1(by[1])), add(j.z, set1(by[2]))};
+  /// Of the second four where bits are set, of the first elsewhere.
+  static V repeat_either(const float* first, std::uint32_t of_second, const float* second) {
+    return _mm512_mask_broadcast_f32x4(repeat(first), static_cast<__mmask16>(of_second), _mm_load_ps(second));
   }
-  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, const std::int32_t* column,
-                  int) {
+  static Where repeat_either(const std::int32_t* first, std::uint32_t of_second, const std::int32_t* second) {
+    return _mm512_mask_broadcast_i32x4(columns(first), static_cast<__mmask16>(of_second),
+                                       _mm_loadu_si128(reinterpret_cast<const __m128i*>(second)));
+  }
+  static Cluster load_clusters(const ClusterUnits& first, std::uint32_t of_second, const ClusterUnits& second,
+                               const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* one, const std::int32_t* other, int axis) {
+      return _mm512_add_epi32(repeat_either(one, of_second, other), _mm512_set1_epi32(shift.axis[axis]));
+    };
+    return {moved(first.x, second.x, 0), moved(first.y, second.y, 1), moved(first.z, second.z, 2)};
+  }
+  /// Adds products to the second numbers where bits are set, to the first elsewhere.
+  static void add_either(V a, V b, float* first, std::uint32_t of_second, float* second) {
+    const auto bits = static_cast<__mmask16>(of_second);
+    add_where(_knot_mask16(bits), a, b, first);
+    add_where(bits, a, b, second);
+  }
+  /// All lanes are written: compilers would write a few alone, which takes longer.
+  static void add_where(__mmask16 bits, V a, V b, float* to) {
+    V sum = _mm512_mask3_fmadd_ps(a, b, _mm512_load_ps(to), bits);
+    asm("" : "+v"(sum));
+    _mm512_store_ps(to, sum);
+  }
+  using Columns = Where;
+  static Columns columns(const std::int32_t* four) {
+    return _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(four)));
+  }
+  static V lookup(const float* table, std::int32_t types, const std::int32_t* row, Columns columns, int) {
     const __m512i rows = _mm512_permutexvar_epi32(
         slots(), _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(row))));
-    const __m512i columns = _mm512_broadcast_i32x4(_mm_loadu_si128(reinterpret_cast<const __m128i*>(column)));
     const __m512i at = _mm512_add_epi32(rows, columns);
     if (types <= kFewTypes) return _mm512_permutexvar_ps(at, _mm512_loadu_ps(table));
     return _mm512_i32gather_ps(at, table, 4);
@@ -111,8 +137,9 @@ struct Avx512Float {
 struct Avx512Double {
   using Real = double;
   using V = __m512d;
+  using Where = V;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 8, kRegisters = 2;
 
@@ -122,6 +149,7 @@ struct Avx512Double {
   static V add(V a, V b) { return _mm512_add_pd(a, b); }
   static V sub(V a, V b) { return _mm512_sub_pd(a, b); }
   static V mul(V a, V b) { return _mm512_mul_pd(a, b); }
+  static V difference(V a, V b) { return sub(a, b); }
   static V madd(V a, V b, V c) { return _mm512_fmadd_pd(a, b, c); }
   static V msub(V a, V b, V c) { return _mm512_fmsub_pd(a, b, c); }
   static V max(V a, V b) { return _mm512_max_pd(a, b); }
@@ -144,12 +172,13 @@ struct Avx512Double {
   static V twice(const double* at, const double* shift) {
     return _mm512_broadcast_f64x4(_mm256_add_pd(_mm256_load_pd(at), _mm256_load_pd(shift)));
   }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
-                              const ClusterOfFour<double>&) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     return {twice(at.x, shift.whole.x), twice(at.y, shift.whole.y), twice(at.z, shift.whole.z)};
   }
-  static V lookup(const double* table, std::int32_t types, const std::int32_t* row,
-                  const std::int32_t* column, int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const double* table, std::int32_t types, const std::int32_t* row, Columns column,
+                  int which) {
     const __m128i columns = _mm_loadu_si128(reinterpret_cast<const __m128i*>(column));
     const __m128i first = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which]));
     const __m128i second = _mm_add_epi32(columns, _mm_set1_epi32(row[2 * which + 1]));

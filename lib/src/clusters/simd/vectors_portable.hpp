@@ -10,13 +10,17 @@ namespace {
 
 /// Four lanes in an array: the slots of cluster J, with slot p of cluster I.
 template <class Real_>
-struct Portable {
+struct PortableVector {
   using Real = Real_;
   struct V {
     Real lane[4];
   };
+  struct Units {
+    std::int32_t lane[4];
+  };
+  using Where = std::conditional_t<std::is_same_v<Real, float>, Units, V>;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -67,19 +71,34 @@ struct Portable {
   }
   static V spread(const Real* four, int which) { return set1(four[which]); }
   static V repeat(const Real* four) { return load(four); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
-                              const ClusterOfFour<float>& own) {
-    float by[3];
-    for (int k = 0; k < 3; ++k) by[k] = ((at.center[k] + shift.high[k]) - own.center[k]) + shift.low[k];
-    return {add(load(at.x), set1(by[0])), add(load(at.y), set1(by[1])), add(load(at.z), set1(by[2]))};
+  static Units spread(const std::int32_t* four, int which) {
+    return {{four[which], four[which], four[which], four[which]}};
   }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
-                              const ClusterOfFour<double>&) {
+  static std::int32_t wrapped(std::uint32_t v) { return static_cast<std::int32_t>(v); }
+  static V difference(const V& a, const V& b) { return sub(a, b); }
+  static V difference(const Units& a, const Units& b) {
+    return each([&](int k) {
+      return static_cast<Real>(
+          wrapped(static_cast<std::uint32_t>(a.lane[k]) - static_cast<std::uint32_t>(b.lane[k])));
+    });
+  }
+  static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* four, int axis) {
+      Units units;
+      for (int k = 0; k < 4; ++k)
+        units.lane[k] =
+            wrapped(static_cast<std::uint32_t>(four[k]) + static_cast<std::uint32_t>(shift.axis[axis]));
+      return units;
+    };
+    return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
+  }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
-  static V lookup(const Real* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const Real* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
     return each([&](int k) { return table[row[which] + column[k]]; });
   }
   static void add_registers(const V* registers, Real* four) {
@@ -87,13 +106,13 @@ struct Portable {
       four[k] +=
           (registers[0].lane[k] + registers[1].lane[k]) + (registers[2].lane[k] + registers[3].lane[k]);
   }
-  static void add_over_i(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {
+  static void add_over_i(const Coordinates<PortableVector>& force, ClusterOfFour<Real>& to) {
     add_registers(force.x, to.x);
     add_registers(force.y, to.y);
     add_registers(force.z, to.z);
   }
   static Real lanes_sum(const V& a) { return (a.lane[0] + a.lane[1]) + (a.lane[2] + a.lane[3]); }
-  static void subtract_over_j(const Coordinates<Portable>& force, ClusterOfFour<Real>& to) {
+  static void subtract_over_j(const Coordinates<PortableVector>& force, ClusterOfFour<Real>& to) {
     for (int p = 0; p < 4; ++p) {
       to.x[p] -= lanes_sum(force.x[p]);
       to.y[p] -= lanes_sum(force.y[p]);

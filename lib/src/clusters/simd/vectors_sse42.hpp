@@ -14,8 +14,9 @@ namespace {
 struct SseFloat {
   using Real = float;
   using V = __m128;
+  using Where = __m128i;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -46,16 +47,18 @@ struct SseFloat {
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
   static V spread(const float* four, int which) { return _mm_set1_ps(four[which]); }
   static V repeat(const float* four) { return _mm_load_ps(four); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
-                              const ClusterOfFour<float>& own) {
-    const V between = sub(add(_mm_load_ps(at.center), _mm_load_ps(shift.high)), _mm_load_ps(own.center));
-    const V by = add(between, _mm_load_ps(shift.low));
-    return {add(_mm_load_ps(at.x), _mm_shuffle_ps(by, by, 0x00)),
-            add(_mm_load_ps(at.y), _mm_shuffle_ps(by, by, 0x55)),
-            add(_mm_load_ps(at.z), _mm_shuffle_ps(by, by, 0xAA))};
+  static Where spread(const std::int32_t* four, int which) { return _mm_set1_epi32(four[which]); }
+  static V difference(Where a, Where b) { return _mm_cvtepi32_ps(_mm_sub_epi32(a, b)); }
+  static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* four, int axis) {
+      return _mm_add_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(four)),
+                           _mm_set1_epi32(shift.axis[axis]));
+    };
+    return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
-  static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const float* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
     const float* const from = table + row[which];
     return _mm_setr_ps(from[column[0]], from[column[1]], from[column[2]], from[column[3]]);
   }
@@ -87,8 +90,9 @@ struct SseDouble {
   struct V {
     __m128d low, high;
   };
+  using Where = V;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -101,6 +105,7 @@ struct SseDouble {
   }
   static V add(V a, V b) { return {_mm_add_pd(a.low, b.low), _mm_add_pd(a.high, b.high)}; }
   static V sub(V a, V b) { return {_mm_sub_pd(a.low, b.low), _mm_sub_pd(a.high, b.high)}; }
+  static V difference(V a, V b) { return sub(a, b); }
   static V mul(V a, V b) { return {_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high)}; }
   static V madd(V a, V b, V c) { return add(mul(a, b), c); }
   static V msub(V a, V b, V c) { return sub(mul(a, b), c); }
@@ -127,13 +132,13 @@ struct SseDouble {
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
   static V spread(const double* four, int which) { return set1(four[which]); }
   static V repeat(const double* four) { return load(four); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
-                              const ClusterOfFour<double>&) {
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
-  static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const double* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
     const double* const from = table + row[which];
     return {_mm_setr_pd(from[column[0]], from[column[1]]), _mm_setr_pd(from[column[2]], from[column[3]])};
   }
