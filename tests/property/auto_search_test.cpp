@@ -74,7 +74,7 @@ std::string engines_seen(const Run& run) {
       const std::string choice = search->choice().substr(0, search->choice().find(':'));
       if (seen.size() < choice.size() || seen.substr(seen.size() - choice.size()) != choice)
         seen += (seen.empty() ? "" : " ") + choice;
-      if (!run.pairs || phase != 0 || update != 5) continue;
+      if (!run.pairs || phase != 0 || update != kUpdates - 5) continue;
       ClusterPairs pairs;
       search->cluster_pairs(within(kAutoRadius), pairs);
       const std::string fault = cluster_pair_fault(pairs, points, box, within(kAutoRadius));
@@ -90,7 +90,7 @@ TEST(AutoSearch, ChangesWithTheSceneAndLosesNoPair) {
   EXPECT_EQ(engines_seen({.keys = true}), "grid dch grid dch");
 }
 
-// Asked for once, in the first phase.
+// Asked for once, near the end of the first phase.
 TEST(AutoSearch, ServesListsFromTheHierarchyWhilePairsAreAskedFor) {
   EXPECT_EQ(engines_seen({.pairs = true}), "grid dch grid dch grid dch");
 }

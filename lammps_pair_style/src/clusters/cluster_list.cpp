@@ -51,7 +51,6 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
 /// far image is no bonded atom, as in LAMMPS's lists.
 void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList& list) {
   excluded_.clear();
-  if (atom->molecular == Atom::ATOMIC) return;
   for (int i = 0; i < points.owned(); ++i) {
     for (int k = 0; k < atom->nspecial[i][2]; ++k) {
       for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j]) {
@@ -113,24 +112,67 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   pairs.entries.resize(static_cast<std::size_t>(to));
 }
 
-void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
-                                       ClusterList& list) {
-  params.order = dch::RowOrder::unsorted;
-  params.superset = true;
-  search.list(params, rows_);
+/// The same of rows: pairs of bonded atoms too, if exclusions have not kept these out. Without a branch for
+/// each pair, where IDs tell.
+void ClusterListFiller::leave_out(const AtomPoints& points, bool asks_bonds, dch::NeighborList& rows) const {
   const bool excludes = rules_.excludes_any(), by_parity = rules_.goes_by_parity();
   const bool takes_turns = !points.in_box() && force->newton_pair;
+  if (!excludes && !takes_turns && !asks_bonds) return;
+  const bool has_shell = !rows.near_end.empty();
   const tagint* const tag = atom->tag;
-  const auto is_taken = [&](int i, int ghost) {
-    return by_parity && tag[i] != tag[ghost] ? PairRules::goes_to_first(tag[i], tag[ghost])
-                                             : rules_.stored_here(i, ghost);
+  const int owned = points.owned();
+  SpecialPairs::Marks marks = asks_bonds ? special_.marks() : SpecialPairs::Marks();
+  std::int64_t to = 0;
+  const auto keep = [&](int i, std::int64_t from, std::int64_t end) {
+    for (; from < end; ++from) {
+      const std::int32_t j = rows.j[static_cast<std::size_t>(from)];
+      const bool is_turn = by_parity && tag[i] != tag[j]
+                               ? !takes_turns | (j < owned) | PairRules::goes_to_first(tag[i], tag[j])
+                               : !takes_turns || j < owned || rules_.stored_here(i, j);
+      const bool stays = is_turn & (marks.of(tag[j]) != SpecialPairs::Marks::kInNoList);
+      rows.j[static_cast<std::size_t>(to)] = j;
+      to += stays && !(excludes && rules_.excluded(i, j)) ? 1 : 0;
+    }
   };
-  const auto accept = [&](int i, int j) {
-    if (takes_turns && j >= points.owned() && !is_taken(i, j)) return false;
-    return !(excludes && rules_.excluded(i, j));
-  };
-  dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
-                      list.pair_list);
+  std::int64_t begin = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::int32_t i = rows.particle[r];
+    const std::int64_t end = rows.first[r + 1];
+    if (asks_bonds && end > begin) special_.take(i, marks);
+    if (has_shell) {
+      keep(i, begin, rows.near_end[r]);
+      begin = std::exchange(rows.near_end[r], to);
+    }
+    keep(i, begin, end);
+    begin = std::exchange(rows.first[r + 1], to);
+  }
+}
+
+void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
+                                       double skin, ClusterList& list) {
+  params.order = dch::RowOrder::unsorted;
+  params.superset = true;
+  params.shell = skin;
+  search.list(params, rows_);
+  const bool asks_bonds = params.exclusions == nullptr && !points.in_box() && atom->molecular != Atom::ATOMIC;
+  leave_out(points, asks_bonds, rows_);
+  dch::make_pair_list(
+      rows_, params.list_radius(), points.positions(), points.box(), params.types,
+      [](std::int32_t, std::int32_t) { return true; }, list.pair_list);
+}
+
+/// What the search is to leave out, for pairs of bonded atoms.
+const dch::Exclusions* ClusterListFiller::bonded_pairs(const AtomPoints& points, bool by_pairs,
+                                                       ClusterList& list) {
+  list.special.clear();
+  if (atom->molecular == Atom::ATOMIC) return nullptr;
+  const bool any_marked = special_.any_marked();
+  if (points.in_box() && !any_marked) return special_.never_seen(points.owned());
+  // Exclusions would have to be made anew at every build, since atoms migrate: pairs are asked one by one.
+  if (by_pairs && !any_marked && special_.are_near_ones()) return nullptr;
+  take_special_pairs(points, list);
+  exclusions_ = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
+  return &exclusions_;
 }
 
 void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list) {
@@ -139,21 +181,14 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
   params.cutoffs = cutoffs(list);
   params.first_ghost = points.in_box() ? -1 : points.owned();
   if (atom->ntypes > 1) params.types = points.types();
-  list.special.clear();
-  dch::Exclusions exclusions;
-  if (points.in_box() && !special_.any_marked()) {
-    params.exclusions = special_.never_seen(points.owned());
-  } else if (take_special_pairs(points, list); !excluded_.empty()) {
-    exclusions = dch::Exclusions::from_pairs(static_cast<std::size_t>(points.size()), excluded_);
-    params.exclusions = &exclusions;
-  }
   list.by_size = !search.has_cluster_pairs();
   // `dch skin auto` changes the radius.
   const bool chooses = std::exchange(list.chosen_for, params.list_radius()) != params.list_radius();
-  if (list.by_size || (list.one_by_one && !chooses)) {
+  const bool by_pairs = list.by_size || (list.one_by_one && !chooses);
+  params.exclusions = bonded_pairs(points, by_pairs, list);
+  if (by_pairs) {
     list.one_by_one = true;
-    params.shell = skin;
-    fill_pair_list(points, search, params, list);
+    fill_pair_list(points, search, params, skin, list);
     return;
   }
   search.cluster_pairs(params, list.pairs);
@@ -168,9 +203,7 @@ void ClusterListFiller::choose_kind(AtomPoints& points, dch::PairSearch& search,
   list.one_by_one = list.pairs_an_atom <= ClusterList::kFewNeighbors;
   if (list.one_by_one) {
     list.pairs = {};
-    dch::ListParams one_by_one = params;
-    one_by_one.shell = skin;
-    fill_pair_list(points, search, one_by_one, list);
+    fill_pair_list(points, search, params, skin, list);
   } else {
     list.pair_list = {};
     rows_ = {};

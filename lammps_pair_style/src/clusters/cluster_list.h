@@ -75,20 +75,24 @@ class ClusterListFiller : protected Pointers {
   dch::TypeCutoffs cutoffs(const ClusterList& list) const;
   void take_special_pairs(const AtomPoints& points, ClusterList& list);
   void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
+  const dch::Exclusions* bonded_pairs(const AtomPoints& points, bool by_pairs, ClusterList& list);
   bool leaves_out_any(const AtomPoints& points) const;
   bool is_left_out(const AtomPoints& points, int i, int j) const;
   std::uint16_t mask_by_pair(const AtomPoints& points, const std::int32_t* own, const std::int32_t* other,
                              std::uint16_t mask) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs);
+  void leave_out(const AtomPoints& points, bool asks_bonds, dch::NeighborList& rows) const;
   void choose_kind(AtomPoints& points, dch::PairSearch& search, double skin, const dch::ListParams& params,
                    ClusterList& list);
   static std::int64_t pairs_within(const dch::ListParams& params, const dch::ClusterPairs& pairs);
-  void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params, ClusterList& list);
+  void fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params, double skin,
+                      ClusterList& list);
 
   SpecialPairs& special_;
   const PairRules& rules_;
   TurnMasks turns_;
   std::vector<dch::IndexPair> excluded_;
+  dch::Exclusions exclusions_;
   dch::NeighborList rows_;
 };
 

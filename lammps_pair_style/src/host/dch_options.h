@@ -22,9 +22,9 @@ enum class ExpiryRule { automatic, exact, half };
 struct Request {
   enum class Action { on, off, stats, explain, verify, precision, threads, skin, order, expiry };
   Action action = Action::on;
-  std::string engine = "dch";  ///< `on`: what fills lists, see dch::make_search
-  bool has_c = false;          ///< `on c`, which has no effect any more
-  int verify_every = 0;        ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
+  std::string engine;    ///< `on`: what fills lists, see dch::make_search; empty if none was named
+  bool has_c = false;    ///< `on c`, which has no effect any more
+  int verify_every = 0;  ///< `verify`: 0 = never, 1 = at every build of the lists, N = at every Nth
   ForcePrecision precision = ForcePrecision::double_precision;  ///< `precision`: of force styles of ours
   bool tunes_skin = false;                                      ///< `skin`: auto, not fixed
   OrderAtoms order_atoms = OrderAtoms::automatic;               ///< `order`

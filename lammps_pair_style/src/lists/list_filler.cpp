@@ -40,7 +40,9 @@ int ListFiller::mark_of(const ServedList& served, int i, int j) const {
              : 0;
 }
 
-int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count) const {
+/// Writes the row of atom i as LAMMPS wants it, maybe over itself. Returns how many neighbors are left.
+int ListFiller::edit_row(const Scene& scene, int i, const std::int32_t* row, int count,
+                         std::int32_t* to) const {
   // In the box the search has left out what the pair style never sees.
   const bool is_special =
       i < atom->nlocal && special_.has_partners(i) && (!scene.points.in_box() || special_.any_marked());
@@ -59,30 +61,32 @@ int ListFiller::edit_row(const Scene& scene, int i, std::int32_t* row, int count
         entry ^= kind << SBBITS;
       }
     }
-    row[n++] = entry;
+    to[n++] = entry;
   }
   return n;
 }
 
-/// Whether all that leaves neighbors out of the row of atom i is that each of two processes has a pair.
-bool ListFiller::takes_turns_only(const Scene& scene, int i) const {
+/// Whether turns of processes and bonds are all that rows have to be edited for.
+bool ListFiller::has_plain_rows(const Scene& scene) const {
   return !scene.points.in_box() && scene.served.newton && !scene.served.ghost && !scene.served.history &&
          !rules_.excludes_any() && rules_.goes_by_parity() && !neighbor->includegroup &&
-         !special_.has_partners(i);
+         special_.are_near_ones();
 }
 
-/// A row without the ghosts whose owner takes the pair, without a branch for each.
-int ListFiller::take_turns(int i, std::int32_t* row, int count) const {
+/// The same where rows are plain, without a branch for each neighbor.
+int ListFiller::edit_plain_row(const SpecialPairs::Marks& marks, int i, const std::int32_t* row, int count,
+                               std::int32_t* to) const {
   const tagint* const tag = atom->tag;
   const tagint own = tag[i];
   const int owned = atom->nlocal;
   int n = 0;
   for (int k = 0; k < count; ++k) {
     const std::int32_t j = row[k];
-    row[n] = j;
+    const int mark = marks.of(tag[j]);
+    to[n] = j ^ mark;
     const bool is_taken =
         own == tag[j] ? rules_.stored_here(i, j) : (j < owned) | PairRules::goes_to_first(own, tag[j]);
-    n += is_taken ? 1 : 0;
+    n += is_taken & (mark != SpecialPairs::Marks::kInNoList) ? 1 : 0;
   }
   return n;
 }
@@ -106,27 +110,54 @@ void ListFiller::refuse_history(int i, int count) const {
                         "; raise it with 'neigh_modify one'");
 }
 
-void ListFiller::fill(const AtomPoints& points, const GhostImages& images, ServedList& served,
-                      NeighList& list) const {
-  const Scene scene{points, images, served};
+bool ListFiller::has_short_rows(const Scene& scene) {
+  constexpr std::int64_t kLine = 16;
+  const int owners = scene.served.ghost ? scene.points.size() : scene.points.owned();
+  return owners > 0 && scene.served.rows.first.back() <= kLine * owners;
+}
+
+/// Makes room for short rows in the order of atoms, and notes where each is.
+void ListFiller::sort_rows(ServedList& served) {
   const dch::NeighborList& rows = served.rows;
+  row_of_.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) row_of_[static_cast<std::size_t>(rows.particle[r])] = r;
+  served.by_atom.resize(static_cast<std::size_t>(rows.first.back()));
+}
+
+void ListFiller::fill(const AtomPoints& points, const GhostImages& images, ServedList& served,
+                      NeighList& list) {
+  const Scene scene{points, images, served};
+  dch::NeighborList& rows = served.rows;
+  const bool is_plain = has_plain_rows(scene), by_atom = has_short_rows(scene);
+  constexpr std::size_t kAhead = 8;
+  served.has_short_rows = by_atom;
+  if (by_atom) sort_rows(served);
+  std::int32_t* next = served.by_atom.data();
+  SpecialPairs::Marks marks = special_.marks();
   served.pairs = 0;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (by_atom && k + kAhead < rows.size())
+      __builtin_prefetch(rows.j.data() + rows.first[row_of_[k + kAhead]]);
+    const std::size_t r = by_atom ? row_of_[k] : k;
     const std::int32_t point = rows.particle[r];
     if (point >= points.owned() && !served.ghost) continue;
     const int i = points.atom_of(point);
-    const dch::Span<const std::int32_t> row = rows.row(r);
-    std::int32_t* const to = served.rows.j.data() + rows.first[r];
-    auto count = static_cast<int>(row.size());
-    if (takes_turns_only(scene, i)) {
-      count = take_turns(i, to, count);
-    } else if (!stays_as_it_is(scene, i, row)) {
-      count = edit_row(scene, i, to, count);
+    std::int32_t* const row = rows.j.data() + rows.first[r];
+    std::int32_t* const to = by_atom ? next : row;
+    auto count = static_cast<int>(rows.first[r + 1] - rows.first[r]);
+    if (is_plain) {
+      special_.take(i, marks);
+      count = edit_plain_row(marks, i, row, count, to);
+    } else if (!stays_as_it_is(scene, i, rows.row(r))) {
+      count = edit_row(scene, i, row, count, to);
+    } else if (by_atom) {
+      std::copy_n(row, count, to);
     }
     if (served.history && count > neighbor->oneatom) refuse_history(i, count);
     list.firstneigh[i] = to;
     list.numneigh[i] = count;
     served.pairs += count;
+    next += count;
   }
   list.inum = points.owned();
   list.gnum = served.ghost ? points.size() - points.owned() : 0;

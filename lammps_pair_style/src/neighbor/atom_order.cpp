@@ -98,6 +98,11 @@ void AtomOrder::begin_run() {
   }
 }
 
+void AtomOrder::note_short_rows() {
+  if (when_ == OrderAtoms::automatic && obstacle_.empty())
+    obstacle_ = "neighbors are few, and rows are put in the order of atoms ('dch order yes')";
+}
+
 bool AtomOrder::is_due() const { return obstacle_.empty() && update->ntimestep >= next_; }
 
 void AtomOrder::apply(const std::vector<std::int32_t>& indices) {

@@ -22,6 +22,9 @@ class AtomOrder : protected Pointers {
   void set_when(dch::lammps::OrderAtoms when) { when_ = when; }
   /// A run begins.
   void begin_run();
+  /// Rows of the lists of this run are short, so they are put in the order of atoms, not atoms in that of
+  /// rows.
+  void note_short_rows();
   /// Why atoms stay as LAMMPS sorts them in this run; empty if they do not.
   const std::string& obstacle() const { return obstacle_; }
   /// Whether atoms are to be put in order before the next lists are built.

@@ -190,11 +190,23 @@ bool NeighborDCH::choose_size_classes() {
   return pairs > most;
 }
 
+/// A process that is alone keeps the hierarchy of the atoms in its box with little work, and their order in
+/// memory suits pair styles. Of several, each would have to take atoms and ghosts in and out of it at every
+/// build, where a grid is made anew.
+std::string NeighborDCH::wanted_engine() const {
+  if (enabled_ && !engine_.empty()) return engine_;
+  return comm->nprocs == 1 ? "dch" : "auto";
+}
+
 void NeighborDCH::prepare_search() {
   const double radius = cutneighmax * kRadiusMargin;
   const bool by_size = choose_size_classes();
   const int threads = pool_ ? pool_->threads() : 1;
-  const std::string engine = enabled_ ? engine_ : kHierarchy;
+  const std::string engine = wanted_engine();
+  engine_reason_ = enabled_ ? "'dch on' takes it for lists" : "cluster pairs are asked for without 'dch on'";
+  if (enabled_ && !clusters_.empty()) engine_reason_ += " and cluster pairs";
+  if (!enabled_ || engine_.empty())
+    engine_reason_ += comm->nprocs == 1 ? " on one process" : " on several processes";
   const bool is_ready = search_ && radius == params_.radius && by_size == params_.size_classes &&
                         threads == threads_ && engine == engine_in_use_;
   if (is_ready) return;

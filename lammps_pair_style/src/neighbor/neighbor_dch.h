@@ -70,7 +70,8 @@ class NeighborDCH : public Neighbor {
   /// LAMMPS with a message if another class has taken that place.
   static NeighborDCH* install(LAMMPS* lammps, const NeighborParts& parts = {});
 
-  /// From the next run on, lists come from the engine of that name; see dch::make_search.
+  /// From the next run on, lists come from the engine of that name; see dch::make_search. Without a name,
+  /// from the one that suits the number of processes.
   void enable(const std::string& engine);
   /// All lists are native from their next build on.
   void disable();
@@ -110,7 +111,6 @@ class NeighborDCH : public Neighbor {
 
  private:
   class OnlyTheseLists;
-  static constexpr const char* kHierarchy = "dch";
 
   /// Cluster pairs of a style, and the list that they are compared with.
   struct ServedClusters {
@@ -135,6 +135,7 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  std::string wanted_engine() const;
   void check_engine_makes_clusters();
   void prepare_skin();
   void choose_skin();
@@ -172,8 +173,9 @@ class NeighborDCH : public Neighbor {
 
   std::unique_ptr<Neighbor> retired_;
   bool enabled_ = false;
-  std::string engine_ = kHierarchy;  ///< for lists; those that are off leave cluster pairs the hierarchy
-  std::string engine_in_use_ = kHierarchy;  ///< that search_ was made as
+  std::string engine_;                 ///< for lists, as it was named; lists that are off leave it no say
+  std::string engine_in_use_ = "dch";  ///< that search_ was made as
+  std::string engine_reason_;          ///< who wanted it
   int verify_every_ = 0;
 
   bool bins_hidden_ = false;

@@ -56,6 +56,7 @@ void NeighborDCH::build_ours() {
     expiry_.remember(points_, wanted_pairs().by_radii);
     run_.entries = 0;
     if (fills_lists()) fill_lists();
+    if (fills_lists() && run_.builds == 0 && served_.front().has_short_rows) order_.note_short_rows();
     fill_clusters();
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());

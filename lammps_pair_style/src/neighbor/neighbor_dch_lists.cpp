@@ -106,7 +106,10 @@ void NeighborDCH::classify_lists() {
     ours.history = ours.by_radius && list.history != 0;
     const auto old =
         std::find_if(served_.begin(), served_.end(), [&](const ServedList& s) { return s.index == m; });
-    if (old != served_.end()) ours.rows = std::move(old->rows);
+    if (old != served_.end()) {
+      ours.rows = std::move(old->rows);
+      ours.by_atom = std::move(old->by_atom);
+    }
     served.push_back(std::move(ours));
     served_plist_.push_back(m);
   }

@@ -36,9 +36,7 @@ dch::lammps::RunReport NeighborDCH::settings_of_run() const {
   report.processes = comm->nprocs;
   report.radius = params_.radius;
   report.engine = engine_in_use_;
-  report.engine_reason =
-      enabled_ ? "'dch on' takes it for lists" : "cluster pairs are asked for without 'dch on'";
-  if (enabled_ && !clusters_.empty()) report.engine_reason += " and cluster pairs";
+  report.engine_reason = engine_reason_;
   report.by_size = params_.size_classes;
   report.size_reason = size_reason_;
   report.threads = threads_;
@@ -54,9 +52,7 @@ dch::lammps::RunReport NeighborDCH::settings_of_run() const {
 dch::lammps::RunReport NeighborDCH::report() const {
   const dch::SearchStats now = search_stats();
   std::size_t bytes = now.memory_bytes;
-  for (const ServedList& served : served_)
-    bytes += (served.rows.j.capacity() + served.rows.particle.capacity()) * sizeof(std::int32_t) +
-             served.rows.first.capacity() * sizeof(std::int64_t);
+  for (const ServedList& served : served_) bytes += served.memory_bytes();
   for (const ServedClusters& clusters : clusters_) bytes += clusters.list->memory_bytes();
 
   const std::string choice = search_ ? search_->choice() : std::string();

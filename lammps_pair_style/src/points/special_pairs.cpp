@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atom.h>
+#include <domain.h>
 #include <neighbor.h>
 
 namespace LAMMPS_NS {
@@ -23,6 +24,24 @@ int SpecialPairs::kind(int i, int j) const {
     return flag == 0 ? -1 : flag == 1 ? 0 : kind;
   }
   return 0;
+}
+
+SpecialPairs::Marks SpecialPairs::marks() const {
+  Marks marks;
+  const int* const flag = neighbor->special_flag;
+  for (int kind = 1; kind < 4 && atom->molecular != Atom::ATOMIC; ++kind)
+    marks.mark_[static_cast<std::size_t>(kind)] = flag[kind] == 0   ? Marks::kInNoList
+                                                  : flag[kind] == 1 ? 0
+                                                                    : kind << SBBITS;
+  return marks;
+}
+
+bool SpecialPairs::are_near_ones() const {
+  const double reach = neighbor->cutneighmax * (1 + 1e-9);
+  const auto is_wide = [&](int periodic, double half) { return !periodic || reach <= half; };
+  return atom->molecular == Atom::ATOMIC ||
+         (is_wide(domain->xperiodic, domain->xprd_half) && is_wide(domain->yperiodic, domain->yprd_half) &&
+          is_wide(domain->zperiodic, domain->zprd_half));
 }
 
 /// Compares the topology with the one that is kept, and keeps it.

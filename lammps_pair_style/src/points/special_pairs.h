@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atom.h>
 #include <lammps_host.h>
 #include <vector>
@@ -15,11 +17,43 @@ class SpecialPairs : protected Pointers {
  public:
   explicit SpecialPairs(LAMMPS* lammps) : Pointers(lammps) {}
 
+  /// What the bonds of an atom say of its neighbors.
+  class Marks {
+   public:
+    static constexpr int kInNoList = -1;
+    /// Bits of a list's entry of an atom with this ID: 0 of an ordinary neighbor.
+    int of(tagint tag) const {
+      int mark = 0;
+      for (std::size_t kind = 1; kind < 4; ++kind) {
+        if (mark_[kind] == 0) continue;
+        for (int k = end_[kind - 1]; k < end_[kind]; ++k) mark |= tag == partner_[k] ? mark_[kind] : 0;
+      }
+      return mark;
+    }
+
+   private:
+    friend class SpecialPairs;
+    const tagint* partner_ = nullptr;
+    std::array<int, 4> end_{};   ///< by kind, from 1: of the 1-2, 1-3 and 1-4 partners
+    std::array<int, 4> mark_{};  ///< by kind, from 1
+  };
+
   /// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it
   /// never sees.
   int kind(int i, int j) const;
   /// Whether owned atom i has such partners at all.
   bool has_partners(int i) const { return atom->molecular != Atom::ATOMIC && atom->nspecial[i][2] > 0; }
+  /// The marks of no atom yet, with the weights that `special_bonds` gives now.
+  Marks marks() const;
+  /// Makes them those of owned atom i, wherever the images of its partners are: right if are_near_ones().
+  /// Good until atoms move in memory.
+  void take(int i, Marks& marks) const {
+    if (atom->molecular == Atom::ATOMIC) return;
+    marks.partner_ = atom->special[i];
+    std::copy_n(atom->nspecial[i], 3, marks.end_.begin() + 1);
+  }
+  /// Whether no neighbor is a far image of a bonded atom, which is no bonded atom in LAMMPS's lists.
+  bool are_near_ones() const;
   /// Whether there are pairs to be marked.
   bool any_marked() const;
 

@@ -11,6 +11,7 @@ namespace detail {
 namespace {
 
 constexpr int kLookEvery = 32;     ///< updates
+constexpr int kServed = 2;         ///< updates without cluster pairs after which nobody wants them any more
 constexpr double kChanged = 1.25;  ///< a scene that changed by this factor is chosen for anew
 
 // Work beside that of the pairs, which is the same for both, in ns for a particle, measured once in the
@@ -52,7 +53,7 @@ void AutoSearch::update_by(Span<const Vec3> positions, const Box& box, Span<cons
       differs(static_cast<double>(positions.size()), static_cast<double>(chosen_by_.particles)) ||
       differs(volume_of(box), chosen_by_.volume);
   looks_ = !has_chosen_ || looks_ || changed || ++updates_since_look_ >= kLookEvery;
-  if (++updates_since_pairs_ <= kLookEvery) serve_pairs();
+  if (++updates_since_pairs_ <= kServed) serve_pairs();
   grid_has_them_ = hierarchy_has_them_ = false;
   try {
     keys_.assign(keys.begin(), keys.end());

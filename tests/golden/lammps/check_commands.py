@@ -107,6 +107,18 @@ class OrderOfAtoms(unittest.TestCase):
         self.assertEqual(stock[0], ours[0])
         self.assertIn("in LAMMPS's order: 'dch order no' was given", ours[3])
 
+    def test_few_neighbors_leave_the_order_of_stock(self):
+        few = "dch expiry half\n" + self.MELT.replace("lj/cut 2.5", "lj/cut 1.2")  # builds at the steps of stock
+        for ranks in (1, 2):
+            stock = self.last_frame(few, ranks)
+            alone = self.last_frame("dch on\ndch verify yes\n" + few, ranks)
+            told = self.last_frame("dch on\ndch order yes\n" + few, ranks)
+            self.assertEqual(stock[0], alone[0])
+            self.assertIn("neighbors are few, and rows are put in the order of atoms ('dch order yes')", alone[3])
+            self.assertLess(largest_relative_difference(stock[1], alone[1]), 1e-9)
+            self.assertNotEqual(stock[0], told[0])
+            self.assertIn(self.ORDERED, told[3])
+
     def test_random_numbers_by_atom(self):
         thermostat = self.MELT + "fix 2 all langevin 1.0 1.0 1.0 4711\n"
         stock = self.last_frame(thermostat)
@@ -337,7 +349,8 @@ class Engines(unittest.TestCase):
             self.check_same(stock, output, 1e-9)
             self.assertEqual(output.count("verified                5 builds"), 4, output)
             engines = re.findall(r"^  engine +(\S+)", output, re.MULTILINE)
-            self.assertEqual(engines, ["grid", "dch", "auto,", "grid", "grid"])  # no new setup, no new engine
+            unnamed = "dch" if ranks == 1 else "auto,"
+            self.assertEqual(engines, ["grid", unnamed, "auto,", "grid", "grid"])  # no new setup, no new engine
 
     def test_auto_changes_in_the_middle_of_a_run(self):
         script = self.WIDENING + "{}run 1\n{stats}run 99 pre no\n{stats}"

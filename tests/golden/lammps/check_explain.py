@@ -40,7 +40,8 @@ class Explain(unittest.TestCase):
             self.assertEqual(found["list 1, pair lj/cut, half, newton on"], "DCH")
             self.assertIn("give 'suffix dch' before it for lj/cut/dch", found["pair lj/cut"])
             self.assertIn("give 'suffix dch' before it for nve/dch", found["fix 1, nve"])
-            self.assertEqual(found["engine"], "dch, as 'dch on' takes it for lists")
+            where = r"^dch.* on one process$" if ranks == 1 else r"^auto.* on several processes; it has taken grid: .* points a cell"
+            self.assertRegex(found["engine"], where)
             self.assertEqual(found["expiry of lists"], "when a pair is missing")
             self.assertIn("0.3 of the script, as no 'dch skin auto' was given", found["skin"])
             self.assertNotIn("DCH_ORDER", output)

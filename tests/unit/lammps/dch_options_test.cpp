@@ -28,7 +28,7 @@ TEST(DchOptions, On) {
   EXPECT_EQ(request.action, Request::Action::on);
   EXPECT_TRUE(parse_request({"on", "c", "1.3"}).has_c);
   EXPECT_FALSE(parse_request({"on"}).has_c);
-  EXPECT_EQ(parse_request({"on"}).engine, "dch");
+  EXPECT_EQ(parse_request({"on"}).engine, "");
   for (const char* engine : {"dch", "grid", "auto"})
     EXPECT_EQ(parse_request({"on", "engine", engine}).engine, engine);
 }
