@@ -37,6 +37,8 @@ def cpu():
 
 def instruction_sets():
     """Those that this processor has."""
+    if platform.machine() == "aarch64":
+        return ["portable", "neon"]
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         flags = set(first_match(r"^flags\s*:\s*(.*)$", file.read()).split())
     return [name for name, needed in INSTRUCTION_SETS.items() if set(needed.split()) <= flags]

@@ -10,11 +10,14 @@ namespace dch {
 
 inline std::ostream& operator<<(std::ostream& out, InstructionSet set) { return out << name(set); }
 
+inline constexpr InstructionSet kInstructionSets[] = {InstructionSet::portable, InstructionSet::sse42,
+                                                      InstructionSet::avx2, InstructionSet::avx512,
+                                                      InstructionSet::neon};
+
 /// What this processor runs, the widest last.
 inline std::vector<InstructionSet> supported_sets() {
   std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2, InstructionSet::avx512})
+  for (const InstructionSet set : kInstructionSets)
     if (is_supported(set)) sets.push_back(set);
   return sets;
 }

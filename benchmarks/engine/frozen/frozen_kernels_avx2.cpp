@@ -17,7 +17,7 @@ struct PackTable {
   }
 };
 constexpr PackTable kPack;
-constexpr detail::PackTable16 kPack16;
+constexpr detail::PackBytes<8, 2> kPack16;
 
 struct Avx2 : detail::X86Blocks {
   using V = __m256i;

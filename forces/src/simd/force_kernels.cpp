@@ -13,6 +13,10 @@ const ForceKernels& force_kernels(InstructionSet set) {
     case InstructionSet::avx512:
       return force_kernels_avx512();
 #endif
+#ifdef DCH_NEON_KERNELS
+    case InstructionSet::neon:
+      return force_kernels_neon();
+#endif
     default:
       return force_kernels_portable();
   }

@@ -11,5 +11,8 @@ const ForceKernels& force_kernels_sse42();
 const ForceKernels& force_kernels_avx2();
 const ForceKernels& force_kernels_avx512();
 #endif
+#ifdef DCH_NEON_KERNELS
+const ForceKernels& force_kernels_neon();
+#endif
 
 }  // namespace dch::detail

@@ -32,7 +32,7 @@ const SphereKernels& sphere_kernels(InstructionSet set) {
   if (set == InstructionSet::avx512) return sphere_kernels_avx512();
   if (set == InstructionSet::avx2) return sphere_kernels_avx2();
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return sphere_kernels_portable();
 }
 

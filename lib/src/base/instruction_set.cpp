@@ -9,7 +9,8 @@ namespace dch {
 namespace {
 
 constexpr InstructionSet kWidestFirst[] = {InstructionSet::avx512, InstructionSet::avx2,
-                                           InstructionSet::sse42, InstructionSet::portable};
+                                           InstructionSet::sse42, InstructionSet::neon,
+                                           InstructionSet::portable};
 
 std::string supported_names() {
   std::string names;
@@ -54,8 +55,12 @@ bool is_supported(InstructionSet set) {
       return is_supported(InstructionSet::avx2) && __builtin_cpu_supports("avx512f") &&
              __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vbmi2");
+    case InstructionSet::neon:
+      return false;
   }
   return false;
+#elif defined(DCH_NEON_KERNELS)
+  return set == InstructionSet::portable || set == InstructionSet::neon;
 #else
   return set == InstructionSet::portable;
 #endif
@@ -83,6 +88,8 @@ std::string name(InstructionSet set) {
       return "avx2";
     case InstructionSet::avx512:
       return "avx512";
+    case InstructionSet::neon:
+      return "neon";
   }
   return "unknown";
 }

@@ -13,7 +13,7 @@ BinPoints bin_points(InstructionSet set) {
   if (set == InstructionSet::avx512) return bin_points_avx512;
   if (set == InstructionSet::avx2) return bin_points_avx2;
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return bin_points_portable;
 }
 

@@ -24,7 +24,7 @@ MeasureBlock measure_block(InstructionSet set) {
   if (set == InstructionSet::avx512) return measure_block_avx512;
   if (set == InstructionSet::avx2) return measure_block_avx2;
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return measure_block_portable;
 }
 

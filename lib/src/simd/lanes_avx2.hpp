@@ -9,7 +9,7 @@
 namespace dch::detail {
 namespace {
 
-constexpr PackTable16 kPack16;
+constexpr PackBytes<8, 2> kPack16;
 
 struct Avx2 : X86Blocks {
   using V = __m256i;

@@ -8,20 +8,8 @@
 namespace dch::detail {
 namespace {
 
-/// By a mask of 4 lanes: the bytes that move the chosen lanes to the front.
-struct PackTable {
-  alignas(16) unsigned char bytes[16][16]{};
-  constexpr PackTable() {
-    for (int mask = 0; mask < 16; ++mask) {
-      int to = 0;
-      for (int lane = 0; lane < 4; ++lane)
-        for (int byte = 0; (mask >> lane & 1) != 0 && byte < 4; ++byte)
-          bytes[mask][to++] = static_cast<unsigned char>(4 * lane + byte);
-    }
-  }
-};
-constexpr PackTable kPack;
-constexpr PackTable16 kPack16;
+constexpr PackBytes<8, 2> kPack16;
+constexpr PackBytes<4, 4> kPack32;
 
 struct Sse42 : X86Blocks {
   using V = __m128i;
@@ -91,7 +79,7 @@ struct Sse42 : X86Blocks {
     std::int32_t written = 0;
     for (int k = 0; k < count; k += 4, mask >>= 4) {
       const std::uint32_t four = mask & 15;
-      const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack.bytes[four]));
+      const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack32.bytes[four]));
       const __m128i from = _mm_loadu_si128(reinterpret_cast<const __m128i*>(ids + k));
       _mm_storeu_si128(reinterpret_cast<__m128i*>(out + written), _mm_shuffle_epi8(from, order));
       written += __builtin_popcount(four);

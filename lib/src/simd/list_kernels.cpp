@@ -13,6 +13,10 @@ const ListKernels& list_kernels(InstructionSet set) {
     case InstructionSet::avx512:
       return list_kernels_avx512();
 #endif
+#ifdef DCH_NEON_KERNELS
+    case InstructionSet::neon:
+      return list_kernels_neon();
+#endif
     default:
       return list_kernels_portable();
   }

@@ -16,7 +16,7 @@ inline constexpr int kBlocksInChunk = kChunk / kBlock;
 // Coordinates are 16-bit integers, in units chosen by the caller, and are subtracted modulo 2^16: right where
 // the true difference is within 32767 units. Squares are halved twice over in between so that they fit:
 //   square(d) = (d * d + 2^14) >> 15,
-// and sums saturate at 32767. All sets do this the same, so all find the same.
+// and sums saturate at 32767. All sets do this the same but for the square of -32768, so all find the same.
 
 /// Coordinates of a block's points; lanes without a point hold anything.
 struct alignas(16) BlockPoints {

@@ -11,5 +11,8 @@ const ListKernels& list_kernels_sse42();
 const ListKernels& list_kernels_avx2();
 const ListKernels& list_kernels_avx512();
 #endif
+#ifdef DCH_NEON_KERNELS
+const ListKernels& list_kernels_neon();
+#endif
 
 }  // namespace dch::detail

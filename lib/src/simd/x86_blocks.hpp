@@ -7,22 +7,10 @@
 #include <immintrin.h>
 
 #include "simd/list_kernels.hpp"
+#include "simd/pack_bytes.hpp"
 
 namespace dch::detail {
 namespace {
-
-/// By a mask of 8 lanes of 16 bits: the bytes that move the chosen lanes to the front.
-struct PackTable16 {
-  alignas(16) unsigned char bytes[256][16]{};
-  constexpr PackTable16() {
-    for (int mask = 0; mask < 256; ++mask) {
-      int to = 0;
-      for (int lane = 0; lane < 8; ++lane)
-        for (int byte = 0; (mask >> lane & 1) != 0 && byte < 2; ++byte)
-          bytes[mask][to++] = static_cast<unsigned char>(2 * lane + byte);
-    }
-  }
-};
 
 struct X86Blocks {
   static __m128i packed16(__m128i lanes, const unsigned char* order) {

@@ -10,7 +10,7 @@ MomentKernel moment_kernel(InstructionSet set) {
   if (set == InstructionSet::avx512) return kMomentsAvx512;
   if (set == InstructionSet::avx2) return kMomentsAvx2;
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return kMomentsPortable;
 }
 

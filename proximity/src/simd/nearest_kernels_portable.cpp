@@ -37,7 +37,7 @@ const NearestKernels& nearest_kernels(InstructionSet set) {
   if (set == InstructionSet::avx512) return kNearestAvx512;
   if (set == InstructionSet::avx2) return kNearestAvx2;
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return kNearestPortable;
 }
 

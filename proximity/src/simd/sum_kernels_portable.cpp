@@ -10,7 +10,7 @@ const SumKernels& sum_kernels(InstructionSet set) {
   if (set == InstructionSet::avx512) return kSumAvx512;
   if (set == InstructionSet::avx2) return kSumAvx2;
 #endif
-  static_cast<void>(set);  // the baseline of compilers for x86-64 is next to SSE4.2 here
+  static_cast<void>(set);  // the baselines of compilers are next to SSE4.2 and NEON here
   return kSumPortable;
 }
 

@@ -8,14 +8,12 @@
 #include <dch/geometry/box.hpp>
 
 #include "geometry/metric.hpp"
+#include "instruction_sets.hpp"
 #include "leaves/rounding.hpp"
 #include "random.hpp"
 
 namespace dch::detail {
 namespace {
-
-constexpr InstructionSet kSets[] = {InstructionSet::portable, InstructionSet::sse42, InstructionSet::avx2,
-                                    InstructionSet::avx512};
 
 struct Measured {
   bool done = false;
@@ -69,7 +67,7 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
     for (std::int32_t& k : index) k = static_cast<std::int32_t>(random.below(positions.size()));
     const Vec3 center = box.wrap(random.in_cube(9));
     const double covered2 = 9;
-    for (const InstructionSet set : kSets) {
+    for (const InstructionSet set : kInstructionSets) {
       if (!is_supported(set)) continue;
       const Measured m = measure(set, metric, positions, index, center, covered2);
       ASSERT_TRUE(m.done);
@@ -100,7 +98,7 @@ TEST(BlockMeasureTest, EveryInstructionSetAgreesWithTheMetric) {
 TEST(BlockMeasureTest, PointsMoreThanACellAwayAreLeftToTheBox) {
   const Box box = Box::orthorhombic({7, 8, 9});
   const OrthorhombicMetric metric(box);
-  for (const InstructionSet set : kSets) {
+  for (const InstructionSet set : kInstructionSets) {
     if (!is_supported(set)) continue;
     EXPECT_TRUE(measure(set, metric, {{-6.9, 15.9, 0}, {1, 1, 1}}, {0, 1}, {1, 1, 1}, 1).done);
     EXPECT_FALSE(measure(set, metric, {{1, 1, 1}, {-7.1, 1, 1}}, {0, 1}, {1, 1, 1}, 1).done);

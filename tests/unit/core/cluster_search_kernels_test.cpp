@@ -174,9 +174,7 @@ TEST_P(ClusterSearchKernelsTest, FindTheClustersWithASlotNearOneOfTheRows) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, ClusterSearchKernelsTest,
-                         ::testing::Values(InstructionSet::portable, InstructionSet::sse42,
-                                           InstructionSet::avx2, InstructionSet::avx512),
+INSTANTIATE_TEST_SUITE_P(Sets, ClusterSearchKernelsTest, ::testing::ValuesIn(kInstructionSets),
                          [](const auto& p) {
                            std::string text = name(p.param);
                            text.erase(std::remove(text.begin(), text.end(), '.'), text.end());

@@ -394,14 +394,11 @@ TEST_P(ListKernelsTest, CollectFindsTheBoxesThatAreNear) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, ListKernelsTest,
-                         ::testing::Values(InstructionSet::portable, InstructionSet::sse42,
-                                           InstructionSet::avx2, InstructionSet::avx512),
-                         [](const auto& p) {
-                           std::string text = name(p.param);
-                           text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
-                           return text;
-                         });
+INSTANTIATE_TEST_SUITE_P(Sets, ListKernelsTest, ::testing::ValuesIn(kInstructionSets), [](const auto& p) {
+  std::string text = name(p.param);
+  text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
+  return text;
+});
 
 TEST(InstructionSetTest, OnlySupportedSetsCanBeChosen) {
   const InstructionSet before = instruction_set();

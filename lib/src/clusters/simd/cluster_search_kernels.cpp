@@ -13,6 +13,10 @@ const ClusterSearchKernels& cluster_search_kernels(InstructionSet set) {
     case InstructionSet::avx512:
       return cluster_search_kernels_avx512();
 #endif
+#ifdef DCH_NEON_KERNELS
+    case InstructionSet::neon:
+      return cluster_search_kernels_neon();
+#endif
     default:
       return cluster_search_kernels_portable();
   }

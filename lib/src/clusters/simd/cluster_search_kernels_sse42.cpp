@@ -9,16 +9,7 @@
 namespace dch::detail {
 namespace {
 
-/// By a mask of 2 lanes of 64 bits: the bytes that move the chosen lanes to the front.
-struct PackTable64 {
-  alignas(16) unsigned char bytes[4][16]{};
-  constexpr PackTable64() {
-    for (int mask = 0; mask < 4; ++mask)
-      for (int byte = 0; byte < 16; ++byte)
-        bytes[mask][byte] = static_cast<unsigned char>(mask == 2 ? (byte + 8) % 16 : byte);
-  }
-};
-constexpr PackTable64 kPack64;
+constexpr PackBytes<2, 8> kPack64;
 
 /// Two clusters in a register.
 struct Sse42Fours : Sse42 {
