@@ -12,6 +12,7 @@ import sys
 import yaml
 
 VERSIONS = {"CITATION.cff": r"^version: (\S+)$", "packaging/changelog": r"^dch \((\S+)-\d+\)",
+            "packaging/spack/package.py": r'^    version\("(\S+)"\)$', "packaging/conda/recipe.yaml": r"^  version: (\d\S+)$",
             "replay/man/dchmd.1": r'^\.TH DCHMD 1 "" "dch (\S+)"', "docs/install.md": r"The version is (\d\S*\d)\."}
 REQUIRED = {"cff-version": str, "message": str, "title": str, "authors": list}
 FIELDS = {**REQUIRED, "type": str, "version": str, "license": str, "keywords": list, "references": list}
