@@ -65,13 +65,28 @@ class Unresolved {
   std::mutex mutex_;
 };
 
+constexpr std::size_t kClustersAhead = 8;  ///< so far ahead that memory has answered when forces are added
+
+/// Asks for the forces of a cluster's particles, which stand anywhere.
+void fetch(const ClusterPairs& pairs, std::size_t cluster, Span<Vec3> forces) {
+  for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+    const std::int32_t i = pairs.particle[cluster * ClusterPairs::kSlots + slot];
+    if (i < 0) continue;
+    const Vec3& force = forces[static_cast<std::size_t>(i)];
+    __builtin_prefetch(&force.x, 1);
+    __builtin_prefetch(&force.z, 1);
+  }
+}
+
 /// Gives particles the forces on their clusters: what their task has found and what earlier ones have. A
 /// particle stands in one slot at most.
 template <class Real>
 void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<ClusterOfFour<Real>>& found,
               std::vector<ClusterOfFour<Real>>& earlier, Unresolved& unresolved, Span<Vec3> forces) {
   const double unit = Kernels<Real>::unit(pairs);
-  for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
+  const auto last = static_cast<std::size_t>(own.last);
+  for (auto c = static_cast<std::size_t>(own.first); c < last; ++c) {
+    if (c + kClustersAhead < last) fetch(pairs, c + kClustersAhead, forces);
     ClusterOfFour<Real> force = found[c];
     found[c] = {};
     if (pairs.has_earlier_contributions[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -52,6 +53,33 @@ double farthest2_of(const ClusterOfFour<double>& at) {
   double most = 0;
   for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) most = std::max(most, norm2(slot_of(at, slot)));
   return most;
+}
+
+/// Of how far a particle moves less in the image that it is in.
+double safe_distance2(const Box& box) {
+  const double safe = 0.25 * box.min_height();
+  return safe * safe;
+}
+
+detail::RefreshTask refresh_task(ClusterPairs& pairs, ClusterPairs::Range clusters,
+                                 Span<const Vec3> positions, double safe2) {
+  return {clusters.first,
+          clusters.last,
+          pairs.particle.data(),
+          pairs.origin_of.data(),
+          pairs.origin.data(),
+          pairs.origin_in_units.data(),
+          positions.data(),
+          safe2,
+          pairs.farthest * pairs.farthest,
+          1 / pairs.unit,
+          pairs.at.data(),
+          pairs.at_in_units.data()};
+}
+
+/// Of clusters in an array with room for all.
+void keep_numbers(std::vector<std::int32_t>& clusters) {
+  clusters.erase(std::remove(clusters.begin(), clusters.end(), kPadding), clusters.end());
 }
 
 /// Takes new positions of clusters that the boundary of the cell splits.
@@ -141,36 +169,46 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now, Executor*
   if (!same_periodicity(now, box))
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
-  if (!has_shift_vectors || !(now == box)) {
-    refresh_shifts(now);
-    choose_unit(now);
-    has_shift_vectors = true;
-    box = now;
-  }
+  take_box(now);
   refresh_clusters(positions, now, executor);
   ++refreshes;
 }
 
+void ClusterPairs::take_box(const Box& now) {
+  if (has_shift_vectors && now == box) return;
+  refresh_shifts(now);
+  choose_unit(now);
+  has_shift_vectors = true;
+  box = now;
+}
+
+bool ClusterPairs::follow(const Places& places, Span<const Vec3> positions, const Box& now, double within,
+                          std::vector<std::int32_t>& away, Executor* executor) {
+  const auto follow = detail::cluster_search_kernels(instruction_set()).follow;
+  std::atomic<bool> all_certain{true};
+  take_box(now);
+  away.assign(at.size(), kPadding);
+  for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
+    const detail::FollowTask task{refresh_task(*this, {first, last}, positions, safe_distance2(now)),
+                                  places.at.data(), places.shift_of.data(), places.shift.data(),
+                                  within * within};
+    if (follow(task, away.data() + first).uncertain > 0) all_certain = false;
+  });
+  keep_numbers(away);
+  if (!all_certain) return false;
+  split_clusters.clear();
+  ++refreshes;
+  return true;
+}
+
 void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor) {
-  const double safe = 0.25 * now.min_height(), safe2 = safe * safe;
+  const double safe2 = safe_distance2(now);
   const auto refresh = detail::cluster_search_kernels(instruction_set()).refresh;
   std::vector<std::int32_t> far(at.size(), kPadding);
   for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
-    const detail::RefreshTask task{first,
-                                   last,
-                                   particle.data(),
-                                   origin_of.data(),
-                                   origin.data(),
-                                   origin_in_units.data(),
-                                   positions.data(),
-                                   safe2,
-                                   farthest * farthest,
-                                   1 / unit,
-                                   at.data(),
-                                   at_in_units.data()};
-    refresh(task, far.data() + first);
+    refresh(refresh_task(*this, {first, last}, positions, safe2), far.data() + first);
   });
-  far.erase(std::remove(far.begin(), far.end(), kPadding), far.end());
+  keep_numbers(far);
   SplitClusters taker(*this, positions, now, safe2);
   std::vector<SplitCluster> split_now;
   split_now.reserve(far.size());

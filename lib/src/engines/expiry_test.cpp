@@ -9,16 +9,29 @@ namespace {
 /// Of few particles all may be asked about.
 constexpr double kLeastMost = 16;
 
-std::size_t most_fast(std::size_t particles) {
+}  // namespace
+
+std::size_t ExpiryTest::most_fast(std::size_t particles) const {
+  if (expiry_ == Expiry::half_skin) return 0;
   return static_cast<std::size_t>(std::max(kLeastMost, kMostFast * static_cast<double>(particles)));
 }
-
-}  // namespace
 
 bool ExpiryTest::is_stale(Span<const Vec3> positions, const Box& box, const ListParams& params,
                           PairSearch& search) const {
   if (expiry_ == Expiry::half_skin) return stale_test_.is_stale(positions, box);
-  switch (stale_test_.judge(positions, box, most_fast(positions.size()), fast_)) {
+  return decide(stale_test_.judge(positions, box, most_fast(positions.size()), fast_), positions, box, params,
+                search);
+}
+
+bool ExpiryTest::is_stale(Span<const Vec3> positions, Span<const std::int32_t> candidates, const Box& box,
+                          const ListParams& params, PairSearch& search) const {
+  return decide(stale_test_.judge(positions, box, candidates, most_fast(positions.size()), fast_), positions,
+                box, params, search);
+}
+
+bool ExpiryTest::decide(StaleTest::Verdict verdict, Span<const Vec3> positions, const Box& box,
+                        const ListParams& params, PairSearch& search) const {
+  switch (verdict) {
     case StaleTest::Verdict::fresh:
       return false;
     case StaleTest::Verdict::some_fast:

@@ -37,14 +37,57 @@ bool any_beyond(Span<const Vec3> now, Span<const Vec3> then, std::size_t first, 
                                std::next(then.begin(), begin), 0, std::plus<>(), is_beyond) != 0;
 }
 
+/// A particle that is farther from where it was expected than there is room for, rounding included; infinity
+/// and NaN count as such.
+struct FastOne {
+  const Box& box;
+  const detail::WrapError& error;
+  double room;
+  /// @return how far it has moved, with what rounding may have taken away; 0 if it is none
+  double operator()(Vec3 now, Vec3 then) const {
+    const double rounding = 2 * error.bound(error.reach(now) + error.reach(then));
+    const double left = room - rounding, moved2 = norm2(box.nearest_image(now - then));
+    if (left >= 0 && moved2 <= left * left) return 0;
+    return std::sqrt(moved2) + rounding;
+  }
+};
+
+/// Takes fast particles as long as there are not too many.
+class FastList {
+ public:
+  FastList(std::size_t most, double more, std::vector<MovedParticle>& to)
+      : most_(most), more_(more), to_(to) {
+    to_.clear();
+  }
+  /// @return whether to go on
+  bool take(std::size_t particle, double moved) {
+    if (!std::isfinite(moved)) return false;
+    are_too_many_ = to_.size() == most_;
+    if (!are_too_many_) to_.push_back({static_cast<std::int32_t>(particle), moved + more_});
+    return !are_too_many_;
+  }
+  /// @param looked_at_all  or take() has ended it
+  StaleTest::Verdict verdict(bool looked_at_all) const {
+    if (are_too_many_) return StaleTest::Verdict::too_many;
+    if (!looked_at_all) return StaleTest::Verdict::stale;
+    return to_.empty() ? StaleTest::Verdict::fresh : StaleTest::Verdict::some_fast;
+  }
+
+ private:
+  std::size_t most_;
+  double more_;
+  std::vector<MovedParticle>& to_;
+  bool are_too_many_ = false;
+};
+
 }  // namespace
 
-bool StaleTest::is_comparable(Span<const Vec3> positions, const Box& box) const {
-  return valid_ && positions.size() == reference_.size() && same_periodicity(box, reference_box_);
+bool StaleTest::is_comparable(std::size_t particles, const Box& box) const {
+  return valid_ && particles == reference_.size() && same_periodicity(box, reference_box_);
 }
 
 bool StaleTest::is_stale(Span<const Vec3> positions, const Box& box) const {
-  if (!is_comparable(positions, box)) return true;
+  if (!is_comparable(positions.size(), box)) return true;
   if (skin_ == 0)
     return box != reference_box_ || !std::equal(positions.begin(), positions.end(), reference_.begin());
   if (box != reference_box_ && is_kept_by_affine_motion(positions, box)) return false;
@@ -73,22 +116,35 @@ bool StaleTest::is_kept_by_affine_motion(Span<const Vec3> positions, const Box& 
 StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box, std::size_t most,
                                     std::vector<MovedParticle>& fast) const {
   fast.clear();
-  if (!is_comparable(positions, box) || skin_ == 0 || box != reference_box_)
+  if (!is_comparable(positions.size(), box) || skin_ == 0 || box != reference_box_)
     return is_stale(positions, box) ? Verdict::stale : Verdict::fresh;
-  Verdict verdict = Verdict::some_fast;
-  const bool all_bounded =
-      for_each_fast(positions, box, AtRest{}, 0.5 * skin_, [&](std::size_t i, double moved) {
-        if (!std::isfinite(moved)) return false;
-        if (fast.size() == most) {
-          verdict = Verdict::too_many;
-        } else {
-          fast.push_back({static_cast<std::int32_t>(i), moved});
-        }
-        return verdict == Verdict::some_fast;
-      });
-  if (verdict == Verdict::too_many) return verdict;
-  if (!all_bounded) return Verdict::stale;
-  return fast.empty() ? Verdict::fresh : verdict;
+  FastList list(most, 2 * reference_error_, fast);
+  return list.verdict(for_each_fast(positions, box, AtRest{}, 0.5 * skin_,
+                                    [&](std::size_t i, double moved) { return list.take(i, moved); }));
+}
+
+// A few times the bounds that are taken of the displacements between wrapped images: those of other images
+// round by no more, and their places by what the remembered ones do.
+double StaleTest::allowance(std::size_t particles, const Box& box) const {
+  if (skin_ == 0 || !is_comparable(particles, box) || box != reference_box_) return -1;
+  constexpr double kRoundings = 16;
+  const detail::WrapError error(box);
+  return room(0.5 * skin_) - 2 * reference_error_ -
+         kRoundings * error.bound(error.reach_between(low_, high_));
+}
+
+StaleTest::Verdict StaleTest::judge(Span<const Vec3> positions, const Box& box,
+                                    Span<const std::int32_t> candidates, std::size_t most,
+                                    std::vector<MovedParticle>& fast) const {
+  const detail::WrapError error(box);
+  const FastOne moved_too_far{box, error, room(0.5 * skin_)};
+  FastList list(most, 2 * reference_error_, fast);
+  for (const std::int32_t candidate : candidates) {
+    const auto i = static_cast<std::size_t>(candidate);
+    const double moved = moved_too_far(positions[i], reference_[i]);
+    if (moved != 0 && !list.take(i, moved)) return list.verdict(false);
+  }
+  return list.verdict(true);
 }
 
 /// Calls fast(i, moved) for the particles that are farther than `most` from where they were expected,
@@ -101,20 +157,17 @@ bool StaleTest::for_each_fast(Span<const Vec3> positions, const Box& box, const 
   // Of each particle there may be off by rounding: its remembered place, from which it is displaced and from
   // which pairs were found; the displacement; and its distance from others now.
   const detail::WrapError error(box);
-  const double room = most - 2 * reference_error_;
+  const FastOne moved_too_far{box, error, room(most)};
   // A particle that is near its wrapped place is hardly farther out than that.
-  const double allowed = room - 4 * error.bound(error.reach_between(low_, high_));
+  const double allowed = room(most) - 4 * error.bound(error.reach_between(low_, high_));
   if (!(allowed >= 0)) return false;
   const std::size_t n = positions.size();
   for (std::size_t first = 0, end = 0; first != n; first = end) {
     end = first + std::min(n - first, kAtATime);
     if (!any_beyond(positions, reference_, first, end, expected, allowed * allowed)) continue;
     for (std::size_t i = first; i != end; ++i) {
-      const Vec3 now = positions[i], then = expected(reference_[i]);
-      const double rounding = 2 * error.bound(error.reach(now) + error.reach(then));
-      const double left = room - rounding, moved2 = norm2(box.nearest_image(now - then));
-      if (left >= 0 && moved2 <= left * left) continue;
-      if (!fast(i, std::sqrt(moved2) + rounding + 2 * reference_error_)) return false;
+      const double moved = moved_too_far(positions[i], expected(reference_[i]));
+      if (moved != 0 && !fast(i, moved)) return false;
     }
   }
   return true;

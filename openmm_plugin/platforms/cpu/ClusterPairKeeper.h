@@ -34,10 +34,15 @@ class ClusterPairKeeper {
  private:
   void chooseSkin(const dch::Box& box);
   void labelPairs();
-  /// Remembers by which periods of the box positions are brought to their clusters, unless few are elsewhere.
-  void rememberPeriods(dch::Span<const dch::Vec3> positions, const dch::Box& box);
-  /// Positions moved by those periods, where there are any. OpenMM lets particles wander through any number
-  /// of boxes, and clusters of which each particle is in an image of its own are slow to refresh.
+  /// After a search. OpenMM lets particles wander through any number of boxes, and clusters of which each
+  /// particle is in an image of its own are slow to refresh: so periods of the box bring positions there.
+  void rememberPlaces(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+  enum class Followed { Kept, Stale, Unknown };
+  /// Takes positions in the box of the search, and tells in the same pass whether pairs are kept.
+  Followed follow(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+  /// Whether no pair can be missing, and then they have these positions.
+  bool isKept(dch::Span<const dch::Vec3> positions, const dch::Box& box);
+  /// Positions moved by the periods of the search, unless few were in other boxes then.
   dch::Span<const dch::Vec3> broughtNear(dch::Span<const dch::Vec3> positions, const dch::Box& box);
 
   double cutoff;
@@ -49,8 +54,12 @@ class ClusterPairKeeper {
   std::optional<dch::ExpiryTest> expiry;
   dch::ClusterPairs pairs;
   std::int64_t searchCount = 0;
-  std::vector<dch::Vec3> periods;  ///< in multiples of the box vectors; empty if few are not 0
-  std::vector<dch::Vec3> shifts;   ///< the same as vectors
+  dch::ClusterPairs::Places places;
+  std::vector<std::int32_t> alone;         ///< particles that are in no cluster
+  std::vector<std::int32_t> awayClusters;  ///< from their places
+  std::vector<std::int32_t> candidates;    ///< particles that may be far from theirs
+  std::vector<dch::Vec3> periods;          ///< in multiples of the box vectors; empty if few are not 0
+  std::vector<dch::Vec3> shifts;           ///< the same as vectors
   dch::Box boxOfShifts;
   std::vector<dch::Vec3> nearPositions;
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include <dch/base/error.hpp>
+#include <dch/engines/expiry_test.hpp>
 #include <dch/lists/stale_test.hpp>
 
 #include "ClusterPairKeeper.h"
@@ -73,11 +75,12 @@ TEST(ClusterPairKeeperTest, ParticlesThatWanderedCostNoMore) {
   }
 }
 
-/// A keeper of pairs within kCutoff, each answer of which is checked.
+/// A keeper of pairs within kCutoff, each answer of which is checked unless it is asked for unchecked.
 class CheckedKeeper {
  public:
   CheckedKeeper() { within.cutoffs = dch::TypeCutoffs(kCutoff); }
 
+  void unchecked_at(const std::vector<Vec3>& positions, const Box& box) { keeper.at(positions, box); }
   void at(const std::vector<Vec3>& positions, const Box& box) {
     EXPECT_EQ(dch::cluster_pair_fault(keeper.at(positions, box), positions, box, within), "")
         << keeper.searches() << " searches, " << box.description();
@@ -113,6 +116,121 @@ TEST(ClusterPairKeeperTest, PairsAreKeptWhileNoneIsMissing) {
     EXPECT_LT(1.2 * static_cast<double>(keeper.searches()), static_cast<double>(searchesByHalf))
         << box.description();
     EXPECT_GT(keeper.searches(), 5);
+  }
+}
+
+/// The rule that a keeper goes by, all of it at each time.
+class PlainRule {
+ public:
+  void at(const std::vector<Vec3>& positions, const Box& box) {
+    if (!expiry.is_stale(positions, box, request, *search)) return;
+    search->update(positions, box);
+    search->cluster_pairs(request, pairs);
+    expiry.remember(positions, box, request);
+    ++searches;
+  }
+  std::int64_t searches = 0;
+
+ private:
+  static dch::ListParams asked() {
+    dch::ListParams request;
+    request.cutoffs = dch::TypeCutoffs(kCutoff);
+    request.skin = 0.1 * kCutoff;
+    return request;
+  }
+  static dch::HierarchyParams params() {
+    dch::HierarchyParams params;
+    params.radius = asked().list_radius();
+    return params;
+  }
+  const dch::ListParams request = asked();
+  std::unique_ptr<dch::PairSearch> search = dch::make_dch_search(params());
+  dch::ExpiryTest expiry{request.skin, dch::Expiry::exact, dch::KeptImages::as_found};
+  dch::ClusterPairs pairs;
+};
+
+/// Positions and boxes: particles that fly, some fast and some far from the box, alone or not, a
+/// box that is scaled with them now and then and put back every other time, jumps to other images.
+class Motion {
+ public:
+  Motion(const Box& ofMotion, int perSide, double periodsAway) : box(ofMotion) {
+    positions = jittered_lattice(perSide, box, random);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      velocity.push_back(random.in_ball(i % 64 == 0 ? 0.02 : 0.004));
+      for (int axis = 0; box.any_periodic() && axis < 3; ++axis)
+        positions[i] = positions[i] + std::round(periodsAway * random.uniform(-1, 1)) * box.vector(axis);
+    }
+  }
+  void next(int step) {
+    for (std::size_t i = 0; i < velocity.size(); ++i) positions[i] = positions[i] + velocity[i];
+    if (!box.any_periodic()) return;
+    if (step % 10 == 9)
+      for (std::size_t i = 0; i < positions.size(); i += 3) positions[i] = box.wrap(positions[i]);
+    if (step % 7 == 3) scale(step % 14 == 3 ? 1.004 : 1.003);
+    if (step % 14 == 4) scale(1 / 1.004);
+  }
+  Box box;
+  std::vector<Vec3> positions;
+
+ private:
+  void scale(double by) {
+    box = Box::triclinic(by * box.vector(0), by * box.vector(1), by * box.vector(2));
+    for (Vec3& p : positions) p = by * p;
+  }
+  dch::scenes::Random random{14};
+  std::vector<Vec3> velocity;
+};
+
+TEST(ClusterPairKeeperTest, PairsAreMadeAnewWhenThePlainRuleSays) {
+  for (const Box& box :
+       {Box::orthorhombic({5, 5.2, 5.4}), Box::triclinic({5, 0, 0}, {1.4, 5, 0}, {-1.3, 1.2, 5}),
+        Box::orthorhombic({5, 5.2, 5.4}, {false, false, false})})
+    for (const int perSide : {5, 11})
+      for (const double periodsAway : {0.0, 0.6, 1e3}) {
+        Motion run(box, perSide, periodsAway);
+        CheckedKeeper keeper;
+        PlainRule rule;
+        for (int step = 0; step < 60; ++step) {
+          if (step % 8 == 7)
+            keeper.at(run.positions, run.box);
+          else
+            keeper.unchecked_at(run.positions, run.box);
+          rule.at(run.positions, run.box);
+          ASSERT_EQ(keeper.searches(), rule.searches)
+              << "step " << step << ", " << perSide << ", " << periodsAway << ", " << box.description();
+          run.next(step);
+        }
+        EXPECT_GT(rule.searches, 1);
+        EXPECT_LT(rule.searches, 40);
+      }
+}
+
+TEST(ClusterPairKeeperTest, NumbersThatAreNoneAreRefusedAndLeaveNothing) {
+  const Box box = Box::orthorhombic({5, 5.2, 5.4});
+  dch::scenes::Random random(15);
+  std::vector<Vec3> positions = jittered_lattice(11, box, random);
+  CheckedKeeper keeper;
+  keeper.at(positions, box);
+  for (const double none : {std::nan(""), HUGE_VAL}) {
+    std::vector<Vec3> wrong = positions;
+    wrong[17].z = none;
+    EXPECT_THROW(keeper.at(wrong, box), dch::InvalidPosition);
+    keeper.at(positions, box);
+  }
+  EXPECT_EQ(keeper.searches(), 3);
+}
+
+// One that meets nobody is in no cluster.
+TEST(ClusterPairKeeperTest, AParticleOnItsOwnIsSeenToCome) {
+  for (const Box& box : {Box(), Box::orthorhombic({8, 8, 8})}) {
+    CheckedKeeper keeper;
+    std::vector<Vec3> positions{{1, 1, 1}, {1.5, 1, 1}, {3.4, 1, 1}};
+    for (int step = 0; step < 30; ++step) {
+      keeper.at(positions, box);
+      positions[2].x -= 0.04;
+    }
+    EXPECT_GT(keeper.searches(), 1);
+    EXPECT_LT(keeper.searches(), 10);
   }
 }
 

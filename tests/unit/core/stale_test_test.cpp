@@ -162,6 +162,57 @@ TEST_F(StaleTestOfACube, BoundsWhatParticlesMoveWithTheirShareOfRounding) {
                                2 * error_.bound(error_.reach(points_[1])));
 }
 
+TEST_F(StaleTestOfARow, JudgesCandidatesAsItJudgesAll) {
+  now_[3].y += 0.3;
+  now_[16].z -= 0.26 + 8 * 5;
+  now_[20].z += 0.24;
+  std::vector<MovedParticle> all;
+  ASSERT_EQ(test_.judge(now_, box_, 40, all), Verdict::some_fast);
+  const auto judge_of = [&](std::vector<std::int32_t> candidates, std::size_t most) {
+    fast_ = {{7, 7}};
+    return test_.judge(now_, box_, candidates, most, fast_);
+  };
+  EXPECT_EQ(judge_of({0, 3, 16, 20, 39}, 2), Verdict::some_fast);
+  ASSERT_EQ(fast_.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(fast_[k].particle, all[k].particle);
+    EXPECT_EQ(fast_[k].moved, all[k].moved);
+  }
+  EXPECT_EQ(judge_of({3, 16}, 1), Verdict::too_many);
+  EXPECT_EQ(judge_of({0, 20}, 0), Verdict::fresh);
+  EXPECT_TRUE(fast_.empty());
+  EXPECT_EQ(judge_of({}, 0), Verdict::fresh);
+  now_[20].x = std::nan("");
+  EXPECT_EQ(judge_of({3, 20}, 2), Verdict::stale);
+}
+
+TEST_F(StaleTestOfARow, AllowsNearlyHalfTheSkinInTheBoxOfThen) {
+  const double allowed = test_.allowance(40, box_);
+  EXPECT_LT(allowed, 0.25);
+  EXPECT_NEAR(allowed, 0.25, 1e-10);
+  for (Vec3& p : now_) p.y += allowed + 8;
+  EXPECT_EQ(judge(), Verdict::fresh);
+  EXPECT_LT(test_.allowance(39, box_), 0);
+  EXPECT_LT(test_.allowance(40, Box::orthorhombic({8.01, 8, 8})), 0);
+  EXPECT_LT(test_.allowance(40, Box::orthorhombic({8, 8, 8}, {true, true, false})), 0);
+  StaleTest without(0);
+  without.remember(before_, box_);
+  EXPECT_LT(without.allowance(40, box_), 0);
+  test_.forget();
+  EXPECT_LT(test_.allowance(40, box_), 0);
+}
+
+// As much is left for rounding as displacements between images far out take.
+TEST_F(StaleTestOfACube, AllowsNoMoreThanIsLeftOfRounding) {
+  StaleTest test(0.5);
+  std::vector<Vec3> far = points_;
+  far[0].x += 8 * 1024 * 1024;
+  test.remember(far, box_);
+  const double of_places = error_.bound(error_.reach(far[0]));
+  ASSERT_GT(of_places, 1e-8);
+  EXPECT_NEAR(test.allowance(2, box_), 0.25 - 4 * of_places - 16 * error_.bound(12), 1e-13);
+}
+
 TEST_F(StaleTestOfARow, SaysWhenThereAreMoreThanAskedFor) {
   for (const int k : {1, 2, 20}) now_[static_cast<std::size_t>(k)].y += 0.3;
   EXPECT_EQ(judge(3), Verdict::some_fast);

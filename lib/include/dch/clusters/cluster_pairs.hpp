@@ -184,6 +184,24 @@ struct ClusterPairs {
   /// @param executor threads to do it with; null for that of the caller
   void refresh(Span<const Vec3> positions, const Box& now, Executor* executor = nullptr);
 
+  /// Where particles were when their pairs were found, and the lattice vectors that bring them there.
+  struct Places {
+    std::vector<ClusterOfFour<double>> at;     ///< `at` of then
+    std::vector<std::int32_t> shift_of;        ///< by cluster, into `shift`; -1 where nothing is shifted
+    std::vector<ClusterOfFour<double>> shift;  ///< to be added to positions [length]
+  };
+  /// refresh() in the box of the search, as it is now again, with the question who has moved far, in one
+  /// pass. Positions of particles that are in another image than `places` says are no place: they come out
+  /// uncertain.
+  /// @param within  from its place, for a particle not to be asked about [length]
+  /// @param away  gets the clusters of which one is farther, ascending
+  /// @return false if the image of a particle is uncertain, as it is a quarter of the smallest height from
+  /// its
+  ///   place, farther from its origin than `farthest` or nowhere finite: then some positions are of an
+  ///   earlier time, and refresh() has to take all
+  bool follow(const Places& places, Span<const Vec3> positions, const Box& now, double within,
+              std::vector<std::int32_t>& away, Executor* executor = nullptr);
+
   /// Puts the entries of each row in an order in which many stand two by two that fill a register of 16 pairs
   /// together, for kernels that gain by it (LennardJones::gains_by_joined_entries()). To be called after a
   /// search and before positions are taken; nobody may take pairs out of masks afterwards. Does nothing if
@@ -196,6 +214,7 @@ struct ClusterPairs {
 
  private:
   void refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor);
+  void take_box(const Box& now);
   void refresh_shifts(const Box& now);
   void choose_unit(const Box& now);
   void make_room_for(double farthest2, const Box& now);

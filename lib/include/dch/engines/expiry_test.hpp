@@ -54,6 +54,14 @@ class ExpiryTest {
   /// @param search that found them, not updated since
   bool is_stale(Span<const Vec3> positions, const Box& box, const ListParams& params,
                 PairSearch& search) const;
+  /// StaleTest::allowance().
+  double allowance(std::size_t particles, const Box& box) const {
+    return stale_test_.allowance(particles, box);
+  }
+  /// is_stale(), if all but the candidates are known to be within allowance(), in the box of then.
+  /// @param candidates  ascending
+  bool is_stale(Span<const Vec3> positions, Span<const std::int32_t> candidates, const Box& box,
+                const ListParams& params, PairSearch& search) const;
   /// Takes positions and the box that pairs have been found for. After a throw none are remembered.
   void remember(Span<const Vec3> positions, const Box& box, const ListParams& params);
   void forget() { stale_test_.forget(); }
@@ -61,8 +69,11 @@ class ExpiryTest {
   const ExpiryStats& stats() const { return stats_; }
 
  private:
+  bool decide(StaleTest::Verdict verdict, Span<const Vec3> positions, const Box& box,
+              const ListParams& params, PairSearch& search) const;
   bool lacks_pair(Span<const Vec3> positions, const Box& box, const ListParams& params,
                   PairSearch& search) const;
+  std::size_t most_fast(std::size_t particles) const;
   bool keeps_images(const Box& box, const ListParams& params) const;
 
   Expiry expiry_;

@@ -67,6 +67,14 @@ class StaleTest {
   Verdict judge(Span<const Vec3> positions, const Box& box, std::size_t most,
                 std::vector<MovedParticle>& fast) const;
 
+  /// How far particles may be from the images of their places in which pairs were found, for judge() to find
+  /// none of them fast, while the box is that of then; negative if it has to look at all [length].
+  double allowance(std::size_t particles, const Box& box) const;
+  /// judge(), if all but the candidates are known to be within allowance().
+  /// @param candidates  ascending
+  Verdict judge(Span<const Vec3> positions, const Box& box, Span<const std::int32_t> candidates,
+                std::size_t most, std::vector<MovedParticle>& fast) const;
+
   /// Takes positions and the box that pairs are being found for. After a throw none are remembered.
   /// @param list_radius largest cutoff + skin of a pair [length]; half the smallest height if it is larger
   void remember(Span<const Vec3> positions, const Box& box,
@@ -74,11 +82,12 @@ class StaleTest {
   void forget() { valid_ = false; }
 
  private:
-  bool is_comparable(Span<const Vec3> positions, const Box& box) const;
+  bool is_comparable(std::size_t particles, const Box& box) const;
   bool is_kept_by_affine_motion(Span<const Vec3> positions, const Box& box) const;
   template <class Expected, class Fast>
   bool for_each_fast(Span<const Vec3> positions, const Box& box, const Expected& expected, double most,
                      const Fast& fast) const;
+  double room(double most) const { return most - 2 * reference_error_; }
   void wrap_reference();
   std::array<Vec3, 3> periods(const Box& box) const;
   double strain(const Box& box) const;

@@ -80,6 +80,19 @@ struct NearSlotsTask {
   float limit2;  ///< squared distance in units
 };
 
+/// The same for clusters that are near their places.
+struct FollowTask {
+  RefreshTask refresh;                 ///< in which safe2 is of the distance from those places
+  const ClusterOfFour<double>* place;  ///< by cluster
+  const std::int32_t* shift_of;        ///< by cluster; -1 for none
+  const ClusterOfFour<double>* shift;  ///< added to positions
+  double within2;                      ///< squared distance from its place with which a particle is near
+};
+struct FollowedClusters {
+  std::int32_t away = 0;       ///< of which a particle is not near
+  std::int32_t uncertain = 0;  ///< of them those that are left as they were
+};
+
 /// The loops of the search of cluster pairs, compiled for one instruction set. No function allocates. All
 /// sets do the same.
 struct ClusterSearchKernels {
@@ -98,6 +111,11 @@ struct ClusterSearchKernels {
   /// farther from its origin, or nowhere finite: those it leaves as they were, and writes their numbers,
   /// ascending; there has to be room for all. Returns how many.
   std::int32_t (*refresh)(const RefreshTask& task, std::int32_t* far);
+
+  /// Takes positions, but for the clusters of which one particle is farther than safe2 from its place, or
+  /// nowhere finite, and writes the numbers of clusters of which one is not near, those included, ascending;
+  /// there has to be room for all.
+  FollowedClusters (*follow)(const FollowTask& task, std::int32_t* away);
 
   /// Of each of the first `count` entries of a row, the bits of the pairs that are at most so far apart, in
   /// its mask or not. Sets may round squares differently.

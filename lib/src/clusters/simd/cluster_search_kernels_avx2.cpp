@@ -75,7 +75,8 @@ struct Avx2Fours : Avx2 {
 
 const ClusterSearchKernels& cluster_search_kernels_avx2() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Avx2Fours>, find_row<Avx2Fours>,
-                                                 refresh_clusters<Avx2Fours>, near_slots<Avx2Float>};
+                                                 refresh_clusters<Avx2Fours>, follow_clusters<Avx2Fours>,
+                                                 near_slots<Avx2Float>};
   return kKernels;
 }
 

@@ -69,7 +69,8 @@ struct Avx512Fours : Avx512 {
 
 const ClusterSearchKernels& cluster_search_kernels_avx512() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Avx512Fours>, find_row<Avx512Fours>,
-                                                 refresh_clusters<Avx512Fours>, near_slots<Avx512Float>};
+                                                 refresh_clusters<Avx512Fours>, follow_clusters<Avx512Fours>,
+                                                 near_slots<Avx512Float>};
   return kKernels;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
 #include "clusters/simd/near_loops.hpp"
+#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
+#include "clusters/simd/vectors_neon.hpp"
 #include "simd/lanes_neon.hpp"
 
 namespace dch::detail {
@@ -72,7 +74,8 @@ struct NeonFours : Neon {
 
 const ClusterSearchKernels& cluster_search_kernels_neon() {
   static constexpr ClusterSearchKernels kKernels{keep_near<NeonFours>, find_row<NeonFours>,
-                                                 refresh_clusters<NeonFours>};
+                                                 refresh_clusters<NeonFours>, follow_clusters<NeonFours>,
+                                                 near_slots<NeonFloat>};
   return kKernels;
 }
 

@@ -83,9 +83,9 @@ struct PortableFours : Portable {
 }  // namespace
 
 const ClusterSearchKernels& cluster_search_kernels_portable() {
-  static constexpr ClusterSearchKernels kKernels{keep_near<PortableFours>, find_row<PortableFours>,
-                                                 refresh_clusters<PortableFours>,
-                                                 near_slots<PortableVector<float>>};
+  static constexpr ClusterSearchKernels kKernels{
+      keep_near<PortableFours>, find_row<PortableFours>, refresh_clusters<PortableFours>,
+      follow_clusters<PortableFours>, near_slots<PortableVector<float>>};
   return kKernels;
 }
 

@@ -64,7 +64,8 @@ struct Sse42Fours : Sse42 {
 
 const ClusterSearchKernels& cluster_search_kernels_sse42() {
   static constexpr ClusterSearchKernels kKernels{keep_near<Sse42Fours>, find_row<Sse42Fours>,
-                                                 refresh_clusters<Sse42Fours>, near_slots<SseFloat>};
+                                                 refresh_clusters<Sse42Fours>, follow_clusters<Sse42Fours>,
+                                                 near_slots<SseFloat>};
   return kKernels;
 }
 

@@ -14,9 +14,10 @@ namespace {
 struct NeonFloat {
   using Real = float;
   using V = float32x4_t;
+  using Where = int32x4_t;
   using Lanes = uint32x4_t;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -47,15 +48,17 @@ struct NeonFloat {
   }
   static V spread(const float* four, int which) { return vdupq_n_f32(four[which]); }
   static V repeat(const float* four) { return load(four); }
-  static Cluster load_cluster(const ClusterOfFour<float>& at, const ClusterShift<float>& shift,
-                              const ClusterOfFour<float>& own) {
-    const V between = sub(add(load(at.center), load(shift.high)), load(own.center));
-    const V by = add(between, load(shift.low));
-    return {add(load(at.x), vdupq_laneq_f32(by, 0)), add(load(at.y), vdupq_laneq_f32(by, 1)),
-            add(load(at.z), vdupq_laneq_f32(by, 2))};
+  static Where spread(const std::int32_t* four, int which) { return vdupq_n_s32(four[which]); }
+  static V difference(Where a, Where b) { return vcvtq_f32_s32(vsubq_s32(a, b)); }
+  static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
+    const auto moved = [&](const std::int32_t* four, int axis) {
+      return vaddq_s32(vld1q_s32(four), vdupq_n_s32(shift.axis[axis]));
+    };
+    return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
-  static V lookup(const float* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const float* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
     const float* const from = table + row[which];
     return V{from[column[0]], from[column[1]], from[column[2]], from[column[3]]};
   }
@@ -89,8 +92,9 @@ struct NeonDouble {
   struct Lanes {
     uint64x2_t low, high;
   };
+  using Where = V;
   struct Cluster {
-    V x, y, z;
+    Where x, y, z;
   };
   static constexpr int kLanes = 4, kRegisters = 4;
 
@@ -133,14 +137,15 @@ struct NeonDouble {
   }
   static V spread(const double* four, int which) { return set1(four[which]); }
   static V repeat(const double* four) { return load(four); }
-  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift,
-                              const ClusterOfFour<double>&) {
+  static V difference(V a, V b) { return sub(a, b); }
+  static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     const ClusterOfFour<double>& by = shift.whole;
     return {add(load(at.x), load(by.x)), add(load(at.y), load(by.y)), add(load(at.z), load(by.z))};
   }
   static V of_four(double a, double b, double c, double d) { return {float64x2_t{a, b}, float64x2_t{c, d}}; }
-  static V lookup(const double* table, std::int32_t, const std::int32_t* row, const std::int32_t* column,
-                  int which) {
+  using Columns = const std::int32_t*;
+  static Columns columns(const std::int32_t* four) { return four; }
+  static V lookup(const double* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
     return gather(table + row[which], column);
   }
   static V over_i(const V* registers) {
