@@ -8,8 +8,13 @@ if(LAMMPS_LIBRARY AND NOT DCH_LAMMPS_VERSION)
   get_filename_component(_lammps_libdir ${LAMMPS_LIBRARY} DIRECTORY)
   set(_lammps_version_file ${_lammps_libdir}/cmake/LAMMPS/LAMMPSConfigVersion.cmake)
   if(EXISTS ${_lammps_version_file})
-    file(STRINGS ${_lammps_version_file} _lammps_version REGEX "^set\\(PACKAGE_VERSION \"[0-9]+\"\\)")
-    string(REGEX MATCH "[0-9]+" _lammps_version "${_lammps_version}")
+    file(STRINGS ${_lammps_version_file} _lammps_version REGEX "^set\\(PACKAGE_VERSION \"[0-9.]+\"\\)")
+    # A date: "20250204", or from 2026 on "2026.7.4.0".
+    if(_lammps_version MATCHES "([0-9]+)\\.([0-9]+)\\.([0-9]+)")
+      math(EXPR _lammps_version "${CMAKE_MATCH_1} * 10000 + ${CMAKE_MATCH_2} * 100 + ${CMAKE_MATCH_3}")
+    else()
+      string(REGEX MATCH "[0-9]+" _lammps_version "${_lammps_version}")
+    endif()
   endif()
 endif()
 set(DCH_LAMMPS_VERSION "${_lammps_version}" CACHE STRING "LAMMPS version as a number, for example 20210929")
@@ -23,14 +28,21 @@ find_package_handle_standard_args(
   REASON_FAILURE_MESSAGE "Install the package liblammps-dev, or name the parts with -DLAMMPS_INCLUDE_DIR=, \
 -DLAMMPS_LIBRARY= and -DDCH_LAMMPS_VERSION=, or leave the LAMMPS adapter out with -DDCH_BUILD_LAMMPS=OFF.")
 
+# The adapter takes the place of a part of LAMMPS, hence is for a version; with these it has been run.
+set(_lammps_known 20210929 20250204 20260704)
+if(LammpsHost_FOUND AND NOT DCH_LAMMPS_VERSION IN_LIST _lammps_known)
+  list(JOIN _lammps_known ", " _lammps_known)
+  message(WARNING "The LAMMPS adapter has been run with the versions ${_lammps_known} of LAMMPS, not with \
+${DCH_LAMMPS_VERSION}. If a part that it relies on has changed, the compiler stops and names it. If it does not, run \
+'ctest -L lammps' before you trust the result, and see docs/lammps/install.md, \"Other versions\".")
+endif()
+
 if(LammpsHost_FOUND AND NOT TARGET Lammps::host)
   set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # the tests use these targets as well
   find_package(MPI REQUIRED COMPONENTS CXX)
   add_library(Lammps::host INTERFACE IMPORTED GLOBAL)
-  target_include_directories(Lammps::host SYSTEM INTERFACE ${LAMMPS_INCLUDE_DIR}/lammps)
-  if(NOT EXISTS ${LAMMPS_INCLUDE_DIR}/lammps/fmt/format.h)
-    target_include_directories(Lammps::host SYSTEM INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../shim)
-  endif()
+  # The folder shim has headers that some packages of LAMMPS lack.
+  target_include_directories(Lammps::host SYSTEM INTERFACE ${LAMMPS_INCLUDE_DIR}/lammps ${CMAKE_CURRENT_LIST_DIR}/../shim)
   target_compile_definitions(Lammps::host INTERFACE LAMMPS_SMALLBIG OMPI_SKIP_MPICXX
                                                     DCH_LAMMPS_VERSION=${DCH_LAMMPS_VERSION})
   target_link_libraries(Lammps::host INTERFACE ${LAMMPS_LIBRARY} MPI::MPI_CXX)

@@ -111,6 +111,7 @@ class NeighborDCH : public Neighbor {
 
  private:
   class OnlyTheseLists;
+  struct ReliedOn;  ///< what of Neighbor has to be as it was; see relied_on.cpp
 
   /// Cluster pairs of a style, and the list that they are compared with.
   struct ServedClusters {

@@ -8,8 +8,10 @@ namespace LAMMPS_NS {
 /// A style that says how it has computed in the last run, and why so, for `dch explain`.
 class Explained {
  public:
-  virtual ~Explained() = default;
   virtual dch::lammps::StyleNote explain() const = 0;
+
+ protected:
+  ~Explained() = default;  // styles are deleted as those of LAMMPS, whose destructors may throw
 };
 
 }  // namespace LAMMPS_NS
