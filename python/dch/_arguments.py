@@ -70,8 +70,8 @@ def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
     flags = np.asarray(True if pbc is None else pbc)
     if flags.shape not in [(), (3,)] or flags.dtype.kind not in "biu":
         raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
-    x, y, z = np.broadcast_to(flags, 3).tolist()
-    return vectors, (bool(x), bool(y), bool(z))
+    x, y, z = (bool(flag) for flag in np.broadcast_to(flags, 3))
+    return vectors, (x, y, z)
 
 
 def typed_cutoffs(cutoff: Any, types: Any) -> tuple[Floats, npt.NDArray[np.int32]]:
@@ -133,7 +133,7 @@ def is_single(dtype: Any) -> bool:
         raise InvalidParameter(f"dtype is {dtype!r}, which is no type of numbers; give float32 or float64") from error
     if kind not in (np.float32, np.float64):
         raise InvalidParameter(f"dtype is {kind}; give float32 or float64")
-    return kind == np.float32
+    return bool(kind == np.float32)
 
 
 def given_arrays(out: Any, letters: str, single: bool, *read: Floats) -> tuple[Any, ...] | None:

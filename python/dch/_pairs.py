@@ -19,7 +19,7 @@ def request(cutoff: Any, kinds: Any, atoms: int, half: bool, factor: float = 1, 
             exclusions: npt.NDArray[np.int32] | None = None) -> _core.Request | None:
     """What to find; None where every cutoff is 0, so that there are no pairs."""
     types = radii = None
-    cutoffs = np.zeros((1, 1))
+    cutoffs: npt.NDArray[np.float64] = np.zeros((1, 1))
     if isinstance(cutoff, dict):
         cutoffs, types = arguments.matrix(cutoff, kinds, atoms)
     elif np.ndim(cutoff) == 0:

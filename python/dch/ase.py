@@ -26,7 +26,8 @@ class PrimitiveNeighborList:
 
     Other than ASE's it is not made anew when coordinates were wrapped into the cell, or when the cell has changed by
     less than the skin allows (offsets are those of the present coordinates); bothways lists an atom as its own
-    neighbor once; and half lists are sorted in any case: no neighbor is before the atom.
+    neighbor once; half lists are sorted in any case: no neighbor is before the atom; and nneighbors counts atoms that
+    are their own neighbors, as ASE has done before 3.24.
 
     Parameters
     ----------
@@ -131,7 +132,8 @@ class NeighborList:
         """See ase.neighborlist.get_connectivity_matrix."""
         from ase.neighborlist import get_connectivity_matrix
 
-        return get_connectivity_matrix(self.nl, sparse)
+        make_matrix: Any = get_connectivity_matrix  # whose types some versions of ASE do not tell
+        return make_matrix(self.nl, sparse)
 
     @property
     def nupdates(self) -> int:

@@ -32,6 +32,9 @@ def pairs_of(nl, atoms, both):
 
 class Ase(unittest.TestCase):
     def test_neighbors_are_those_of_ase(self):
+        alone = AseNeighborList([1], self_interaction=True)
+        alone.update(Atoms("H"))
+        uncounted = 1 - alone.nneighbors  # later versions of ASE do not count an atom as its own neighbor
         for seed in range(3000, 3012):
             scene = Scene(seed)
             both, with_self = seed % 2 == 0, seed % 4 == 1
@@ -44,7 +47,8 @@ class Ase(unittest.TestCase):
                 self.assertFalse(kind.update(atoms))
             self.assertEqual(pairs_of(ours, atoms, both), pairs_of(theirs, atoms, both), scene)
             self.assertEqual((ours.nneighbors, ours.npbcneighbors, ours.nupdates),
-                             (theirs.nneighbors, theirs.npbcneighbors, theirs.nupdates), scene)
+                             (theirs.nneighbors + with_self * uncounted * len(atoms), theirs.npbcneighbors, theirs.nupdates),
+                             scene)
             self.assertEqual((ours.get_connectivity_matrix() != theirs.get_connectivity_matrix()).sum()
                              if both else 0, 0, scene)
 
@@ -66,7 +70,8 @@ class Ase(unittest.TestCase):
         atoms.rattle(0.1, seed=1)
         atoms.calc = calculator
         expected = atoms.get_potential_energy()
-        ours = dch.ase.NeighborList(calculator.nl.nl.cutoffs, skin=0, self_interaction=False)
+        own = calculator.nl.nl
+        ours = dch.ase.NeighborList(own.cutoffs, skin=0, self_interaction=False, bothways=own.bothways)
         atoms.positions[0, 0] += 1e-13  # so that it computes anew
         calculator.nl = ours
         self.assertAlmostEqual(atoms.get_potential_energy(), expected, delta=1e-8)
