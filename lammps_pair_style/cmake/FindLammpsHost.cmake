@@ -29,7 +29,7 @@ find_package_handle_standard_args(
 -DLAMMPS_LIBRARY= and -DDCH_LAMMPS_VERSION=, or leave the LAMMPS adapter out with -DDCH_BUILD_LAMMPS=OFF.")
 
 # The adapter takes the place of a part of LAMMPS, hence is for a version; with these it has been run.
-set(_lammps_known 20210929 20250204 20260704)
+set(_lammps_known 20210929 20250204)
 if(LammpsHost_FOUND AND NOT DCH_LAMMPS_VERSION IN_LIST _lammps_known)
   list(JOIN _lammps_known ", " _lammps_known)
   message(WARNING "The LAMMPS adapter has been run with the versions ${_lammps_known} of LAMMPS, not with \

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-// What LAMMPS's versions from 29 Sep 2021 to 4 Feb 2025 have beyond the oldest of them. The headers at hand
-// tell, not a version number.
+// What LAMMPS's versions from 29 Sep 2021 to 4 Jul 2026 have beyond the oldest of them. The headers at hand
+// tell, not a version number. A class that has only been declared has no members: asking about it does not
+// compile, by its size.
 #include <lmptype.h>
 #include <type_traits>
 #include <utility>
@@ -17,12 +18,12 @@ inline constexpr int kTouching = static_cast<int>(3u << SBBITS);
 #endif
 
 template <class Style, class = void>
-inline constexpr bool kHasTrim = false;
+inline constexpr bool kHasTrim = sizeof(Style) == 0;
 template <class Style>
 inline constexpr bool kHasTrim<Style, std::void_t<decltype(Style::trim_flag)>> = true;
 
 template <class Style, class = void>
-inline constexpr bool kNotesMixing = false;
+inline constexpr bool kNotesMixing = sizeof(Style) == 0;
 template <class Style>
 inline constexpr bool kNotesMixing<Style, std::void_t<decltype(Style::did_mix)>> = true;
 
@@ -35,7 +36,7 @@ bool wants_own_cutoff([[maybe_unused]] const Style& sub_style) {
 }
 
 template <class Comm, class Style, class = void>
-inline constexpr bool kNamesCommByStyle = false;
+inline constexpr bool kNamesCommByStyle = sizeof(Comm) == 0;
 template <class Comm, class Style>
 inline constexpr bool kNamesCommByStyle<
     Comm, Style, std::void_t<decltype(std::declval<Comm&>().forward_comm_fix(std::declval<Style*>(), 0))>> =

@@ -10,6 +10,7 @@
 #include <force.h>
 #include <modify.h>
 #include <neigh_list.h>
+#include <pair.h>
 #include <update.h>
 #include <utility>
 

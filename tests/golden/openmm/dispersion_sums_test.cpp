@@ -73,7 +73,9 @@ TEST_P(DispersionSumTest, ParametersAreThoseOfOpenMM) {
   EXPECT_EQ(parameters_of_ljpme(*drop_in(water->system)), (std::vector<double>{4.5, 28, 30, 32}));
   EXPECT_EQ(splitting_of_pme(*drop_in(water->system)), 4.3);
   water->force->setLJPMEParameters(0, 0, 0, 0);  // OpenMM chooses
-  Host native(water->system, GetParam());
+  // OpenMM 8.1 with its own kernels of reciprocal space for the CPU platform stops where it is asked for
+  // these.
+  Host native(water->system, "Reference");
   native.evaluate(water->positions);  // before, OpenMM 7.7 does not know
   const std::vector<double> expected = parameters_of_ljpme(native);
   const std::vector<double> found = parameters_of_ljpme(*drop_in(water->system));
