@@ -84,7 +84,7 @@ set(python "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next})")
 if(TARGET dch_python)
   dch_describe_package(python3-dch SECTION python CONTROL python/postinst python/prerm
                        DEPENDS "${python}, python3-numpy"
-                       SUGGESTS "python3-ase, python3-mdanalysis, python3-simtk"
+                       SUGGESTS "python3-ase, python3-mdanalysis, python3-openmm | python3-simtk"
                        SUMMARY "neighbor lists for molecular dynamics - Python module"
                        TEXT "The module dch has neighbor lists that are called as those of ASE and matscipy, lists that follow \
 particles that move, nearest neighbors, and crossings of bonds, as numpy arrays.")
@@ -100,7 +100,7 @@ if(TARGET OpenMMDCH)
   get_filename_component(CPACK_DCH_OPENMM_CPU_FOLDER ${OpenMM_CPU_LIBRARY} DIRECTORY)
   dch_same_upstream(openmm ${OpenMM_LIBRARY})
   dch_describe_package(openmm-dch SECTION science CONTROL triggers python/postinst python/prerm
-                       DEPENDS "${openmm}libopenmm-plugins, ${python}, python3-simtk" SUGGESTS libdch-dev
+                       DEPENDS "${openmm}libopenmm-plugins, ${python}, python3-openmm | python3-simtk" SUGGESTS libdch-dev
                        SUMMARY "nonbonded forces of OpenMM on neighbor lists of dch"
                        TEXT "The Python package openmm_dch takes over the nonbonded forces of OpenMM's CPU and Reference \
 platforms, with neighbor lists from a discrete center hierarchy. It also has a repulsion where chains of beads touch.")

@@ -25,12 +25,26 @@ wanted_packages() {
   if [ $# -gt 0 ]; then printf '%s\n' "$@"; fi
 }
 
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
 missing_packages() {
-  local package
-  for package in $(wanted_packages "$@"); do
-    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
-      printf '%s\n' "$package"
-    fi
+  local entry package
+  for entry in $(wanted_packages "$@"); do
+    for package in ${entry//|/ }; do
+      if is_installed "$package"; then continue 2; fi
+    done
+    printf '%s\n' "$entry"
+  done
+}
+
+# available_packages ENTRY ...: of each the first package that this Debian has.
+available_packages() {
+  local entry package
+  for entry; do
+    for package in ${entry//|/ }; do
+      if apt-cache show "$package" >/dev/null 2>&1; then break; fi
+    done
+    printf '%s\n' "$package"
   done
 }
 
@@ -43,35 +57,39 @@ need_packages() {
     return
   fi
   local missing
-  missing=$(missing_packages "$@" | paste -sd ' ')
-  [ -n "$missing" ] || return 0
+  mapfile -t missing < <(missing_packages "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
   if [ "$(id -u)" -ne 0 ]; then
+    mapfile -t missing < <(available_packages "${missing[@]}")
     die "These Debian packages are missing. Install them as root, then run this again:
-  apt-get update && apt-get install --no-install-recommends $missing"
+  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
   fi
-  printf 'Installing the Debian packages that are missing: %s\n' "$missing"
   export DEBIAN_FRONTEND=noninteractive
   apt-get update -qq </dev/null
-  # shellcheck disable=SC2086  # one word a package
-  apt-get install -y -qq --no-install-recommends $missing </dev/null >/dev/null
+  mapfile -t missing < <(available_packages "${missing[@]}")
+  printf 'Installing the Debian packages that are missing: %s\n' "${missing[*]}"
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null >/dev/null
 }
 
-# configure PRESET ...: writes the build systems of the presets side by side, each in build/PRESET.
+# configure PRESET ... [-DOPTION=VALUE ...]: writes the build systems of the presets side by side, each in build/PRESET.
 # Eight sources of a library are compiled as one, in less than half the time. scripts/check-tidy compiles them one by one,
 # and finds one that lacks an include.
 configure() {
-  local preset launcher=() join started=() failed=0
+  local argument preset presets=() options=() join started=() failed=0
+  for argument; do
+    case $argument in -*) options+=("$argument") ;; *) presets+=("$argument") ;; esac
+  done
   if command -v ccache >/dev/null; then
-    launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     export CCACHE_SLOPPINESS=pch_defines,time_macros  # without which it keeps nothing that uses precompiled headers
   fi
   mkdir -p build
-  for preset; do
+  for preset in "${presets[@]}"; do
     case $preset in release | dev | asan-ubsan | tsan) join=ON ;; *) join=OFF ;; esac
-    cmake --preset "$preset" -DDCH_JOIN_SOURCES=$join "${launcher[@]}" >"build/$preset.configure.log" 2>&1 &
+    cmake --preset "$preset" -DDCH_JOIN_SOURCES=$join "${options[@]}" >"build/$preset.configure.log" 2>&1 &
     started+=($!)
   done
-  for preset; do
+  for preset in "${presets[@]}"; do
     wait "${started[0]}" || { failed=1; cat "build/$preset.configure.log" >&2; }
     started=("${started[@]:1}")
   done

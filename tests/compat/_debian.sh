@@ -11,6 +11,22 @@ debian_mirror() {
   printf '%s\n' "$mirror"
 }
 
+# debian_system SUITE FOLDER: a Debian of this release in FOLDER/system, in which nothing is installed but whose apt knows what
+# there is, and FOLDER/archives for what is downloaded there.
+debian_system() {
+  local suite=$1 folder=$2
+  if [ ! -e "$folder/made" ]; then
+    heading "Debian $suite"
+    rm -rf "${folder:?}/system"
+    mkdir -p "$folder/archives/partial"
+    debootstrap --variant=minbase "$suite" "$folder/system" "$(debian_mirror)" >"$folder/debootstrap.log" 2>&1 ||
+      { tail -n 20 "$folder/debootstrap.log" >&2; return 1; }
+    touch "$folder/made"
+  fi
+  cp --dereference /etc/resolv.conf "$folder/system/etc/resolv.conf"
+  chroot "$folder/system" apt-get update -qq </dev/null
+}
+
 # debian_source PACKAGE FOLDER: unpacks what its authors released, as Debian has it for this machine's release, into
 # FOLDER/PACKAGE. The system's list of sources stays as it is: apt-get takes one made here.
 debian_source() {

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: MIT
 """Runs the blocks of code of docs/install.md, section by section, in the root of the sources.
 
-    run_page.py FOLDER [HEADING ...]
+    run_page.py [--builder ROOT] FOLDER [HEADING ...]
 
 A section whose first line is `apt-get install ...` runs in a Debian that lies over FOLDER/system: packages and sources (dch)
-are in its working directory, and all but that first line has no network. At its end the packages are purged, and no file may
-be left of them. Other sections run here. Runs in a namespace of mounts of its own.
+are in its working directory, and all but that first line has no network. The rest of it runs twice, as root and as nobody.
+At its end the packages are purged, and no file may be left of them. Other sections run here, or in the system at ROOT, in
+its /usr/src/dch. Runs in a namespace of mounts of its own.
 """
+import argparse
 import contextlib
 import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
 ROOT = pathlib.Path.cwd()
-PACKAGES = ROOT / "build" / "packages"
+BUILT_IN = "usr/src/dch"  # of another system
 OURS = re.compile(r"dch", re.IGNORECASE)
 ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive",
                **{name: value for name, value in os.environ.items() if name.lower().endswith("_proxy")}}
+HOMES = {"root": "/root", "nobody": "/tmp/nobody"}  # who runs what is installed, and where
 # Folders of the system itself, of apt and dpkg, and of whoever runs something.
 NOT_COMPARED = ("proc", "dev", "sys", "tmp", "root", "run", "var/lib/apt", "var/lib/dpkg", "var/cache", "var/log")
 
@@ -46,8 +48,8 @@ class System:
         subprocess.run(["mount", "--rbind", "/dev", self.root / "dev"], check=True)
         subprocess.run(["mount", "--bind", folder / "archives", self.root / "var/cache/apt/archives"], check=True)
 
-    def run(self, *command, network=False, **options):
-        enter = ["chroot", str(self.root), "env", "-C", "/root", *command]
+    def run(self, *command, home="/root", user="root", network=False, **options):
+        enter = ["chroot", f"--userspec={user}", str(self.root), "env", "-C", home, f"HOME={home}", *command]
         if not network:
             enter = ["unshare", "--net", "sh", "-ec", 'ip link set lo up; exec "$@"', "sh", *enter]
         return subprocess.run(enter, check=True, env=ENVIRONMENT, **options)
@@ -86,7 +88,7 @@ def run_blocks(blocks, run):
     for language, text in blocks:
         name = re.match(r"(?://|#) ([\w.]+)\n", text)
         if name:
-            run(["cp", "/dev/stdin", name[1]], text)
+            run(["dd", "status=none", f"of={name[1]}"], text)
         elif language == "sh":
             run(["sh", "-e"], text)
         else:
@@ -98,14 +100,14 @@ def copy_sources(target):
                            capture_output=True).stdout.split(b"\0")
     there = b"\0".join(name for name in files if name and os.path.exists(name))
     archive = subprocess.run(["tar", "-c", "--null", "-T", "-"], input=there, check=True, capture_output=True).stdout
-    target.mkdir()
+    target.mkdir(parents=True)
     subprocess.run(["tar", "-x", "-C", target], input=archive, check=True)
 
 
-def run_in_debian(folder, blocks):
+def run_in_debian(folder, sources, blocks):
     install, _, rest = blocks[0][1].partition("\n")
     words = install.split()[2:]
-    packages = [next(PACKAGES.glob(word[2:])) for word in words if word.startswith("./")]
+    packages = [next((sources / "build" / "packages").glob(word[2:])) for word in words if word.startswith("./")]
     with tempfile.TemporaryDirectory() as scratch, contextlib.ExitStack() as after:
         after.callback(subprocess.run, ["umount", "--recursive", "--lazy", scratch], check=True)
         system = System(folder, pathlib.Path(scratch))
@@ -114,13 +116,17 @@ def run_in_debian(folder, blocks):
         system.run("apt-get", "-qq", "install", "--no-install-recommends", *others, **quietly)
         if packages:
             system.run("apt-get", "-qq", "satisfy", "--no-install-recommends", needed(packages), **quietly)
-        copy_sources(system.root / "root" / "dch")
+        for user, home in HOMES.items():
+            copy_sources(system.root / home.lstrip("/") / "dch")
+            system.run("chown", "--recursive", user, home)
         before = system.files()
         for package in packages:
             check_names(package)
             subprocess.run(["cp", package, system.root / "root"], check=True)
         system.run("sh", "-ec", install.replace("install", "-qq install --no-install-recommends", 1), **quietly)
-        run_blocks([("sh", rest), *blocks[1:]], lambda command, text: system.run(*command, input=text.encode()))
+        for user, home in HOMES.items():
+            run_blocks([("sh", rest), *blocks[1:]],
+                       lambda command, text: system.run(*command, home=home, user=user, input=text.encode()))
         if packages:
             system.run("dpkg", "--purge", *(field(package, "Package") for package in packages), stdout=subprocess.DEVNULL)
         changed = before ^ system.files()
@@ -128,20 +134,31 @@ def run_in_debian(folder, blocks):
             raise SystemExit(f"purging leaves or takes {sorted(changed)}")
 
 
-def run_here(_, blocks):
-    run_blocks(blocks, lambda command, text: subprocess.run(command, input=text.encode(), check=True))
+def run_here(builder, blocks):
+    enter, environment = ([], None) if not builder else (["chroot", builder, "env", "-C", f"/{BUILT_IN}"], ENVIRONMENT)
+    run_blocks(blocks,
+               lambda command, text: subprocess.run([*enter, *command], input=text.encode(), check=True, env=environment))
 
 
-def main(folder, *headings):
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--builder", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("headings", nargs="*")
+    args = parser.parse_args()
+    sources = args.builder / BUILT_IN if args.builder else ROOT
     for heading, blocks in sections((ROOT / "docs" / "install.md").read_text()):
-        if headings and heading not in headings:
+        if args.headings and heading not in args.headings:
             continue
         print(f"-- {heading}", flush=True)
-        run = run_in_debian if blocks[0][1].startswith("apt-get install ") else run_here
         try:
-            run(pathlib.Path(folder), blocks)
+            if blocks[0][1].startswith("apt-get install "):
+                run_in_debian(args.folder, sources, blocks)
+            else:
+                run_here(args.builder, blocks)
         except subprocess.CalledProcessError as error:
             raise SystemExit(f"{heading}: exit status {error.returncode}") from None
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main()

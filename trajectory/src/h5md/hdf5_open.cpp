@@ -71,6 +71,9 @@ herr_t write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void*) { re
 
 H5FD_class_t make_driver() {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION
+  driver.version = H5FD_CLASS_VERSION;  // from HDF5 1.14 on
+#endif
   driver.name = "dch-descriptor";
   driver.maxaddr = HADDR_MAX;
   driver.fc_degree = H5F_CLOSE_WEAK;
