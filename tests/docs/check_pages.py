@@ -66,10 +66,10 @@ class Server(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-def dump(chromium, address, folder):
+def dump(chromium, address, folder, *options):
     """The page as Chromium has it after its scripts, and what it has logged."""
     command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-logging=stderr",
-               f"--user-data-dir={folder}/profile", "--window-size=1300,1000", "--no-proxy-server", "--dump-dom", address]
+               f"--user-data-dir={folder}/profile", "--window-size=1300,1000", "--no-proxy-server", *options, "--dump-dom", address]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=240, check=False)
     if done.returncode != 0:
         sys.exit(f"check_pages: Chromium ends with status {done.returncode}:\n{done.stderr[-2000:]}")

@@ -14,6 +14,7 @@
 
 #include "analysis/between_frames.hpp"
 #include "analysis/frame_errors.hpp"
+#include "analysis/replay_view.hpp"
 #include "base/exit_code.hpp"
 #include "base/interrupt.hpp"
 #include "base/stopwatch.hpp"
@@ -80,6 +81,7 @@ class Replay {
   std::optional<Verifier> verifier_;
   std::optional<ListFile> list_file_;
   std::optional<BetweenFrames> between_;
+  std::optional<ReplayView> view_;
   ListStatistics statistics_;
 };
 
@@ -99,6 +101,7 @@ ReplayReport Replay::run() {
   replay_frames();
   note_engine();
   if (list_file_) list_file_->commit();
+  view_->commit();
   report_.degree_histogram = statistics_.degree_histogram();
   report_.list_hash = statistics_.hash();
   report_.verify = verifier_->result();
@@ -117,6 +120,7 @@ void Replay::scan() {
   require_two_frames(options_, scan);
   take_atoms(scan.first_frame);
   open_list_file(scan.most_atoms);
+  view_.emplace(options_, scan);
 }
 
 void Replay::take_atoms(const trajectory::Frame& frame) {
@@ -130,6 +134,7 @@ void Replay::start_engine() {
   engine_ = make_engine(options_.engine, options_.cutoff + options_.skin,
                         options_.threads > 1 ? make_threads(options_.threads) : nullptr);
   if (engine_.threads) report_.threads = engine_.threads->threads();
+  view_->start(engine_.threads.get());
   if (!options_.continuous) return;
   const EngineKind kind = options_.engine.kind;
   between_.emplace(options_.cutoff, to_string(kind == EngineKind::allpairs ? EngineKind::cell : kind),
@@ -201,6 +206,7 @@ void Replay::replay_frames() {
     }
     replay_frame(frame, stream.index(), read_ms);
     if (between_) follow(frame, stream.index());
+    view_->append(frame, stream.index(), params_);
     progress_.advance(done + 1);
   }
   progress_.clear();

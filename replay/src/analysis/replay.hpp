@@ -29,14 +29,15 @@ struct ReplayOptions {
   int exclude_depth = 0;    ///< 0: nothing; 1, 2, 3: 1-2, 1-3, 1-4 neighbors
   bool continuous = false;  ///< look at what is between frames, too
   std::string lists;        ///< lists.h5; empty: none
+  std::string view;         ///< page that shows the frames in space; empty: none
 };
 
 /// Reads the selected frames, keeps one structure and one list up through them, and verifies and writes the
-/// lists. lists.h5 is in place when this returns.
+/// lists. lists.h5 and the view are in place when this returns.
 /// @throws UsageError for options that do not fit the file (a cutoff beyond half the smallest box height,
 /// exclusions
-///   without bonds, --continuous with one frame); trajectory::FileError for files that cannot be read or
-///   written.
+///   without bonds, --continuous with one frame, a view that is too large); trajectory::FileError for files
+///   that cannot be read or written.
 ReplayReport run_replay(const ReplayOptions& options, ProgressBar& progress);
 
 }  // namespace dch::cli

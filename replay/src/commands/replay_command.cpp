@@ -22,7 +22,7 @@ struct ReplayWords {
   InputWords input;
   std::string topology, cutoff, skin = "0", engine = "dch", c, policy, threads, frames, verify = "none",
                                 exclude;
-  std::string lists, report, plot;
+  std::string lists, report, plot, view;
   bool half = false, full = false, continuous = false, quiet = false;
 };
 
@@ -107,6 +107,10 @@ void declare_options(Command& command, ReplayWords& words) {
       ->type_name("REPORT.json");
   add_file_option(command, "--plot", words.plot, "Write what was found to this page, with plots")
       ->type_name("REPORT.html");
+  add_file_option(
+      command, "--view", words.view,
+      "Write a page that shows the frames in space: atoms, contacts, and the levels of the hierarchy")
+      ->type_name("VIEW.html");
   command.add_flag("--quiet", words.quiet, "No progress bar and no table");
 }
 
@@ -160,8 +164,10 @@ ReplayOptions replay_options(const ReplayWords& words) {
   }
   options.continuous = words.continuous;
   options.lists = words.lists;
-  require_distinct_files({words.input.named("FILE"), {"--topology", words.topology}},
-                         {{"--out", words.lists}, {"--report", words.report}, {"--plot", words.plot}});
+  options.view = words.view;
+  require_distinct_files(
+      {words.input.named("FILE"), {"--topology", words.topology}},
+      {{"--out", words.lists}, {"--report", words.report}, {"--plot", words.plot}, {"--view", words.view}});
   options.input = TrajectoryInput(words.input);
   return options;
 }
@@ -181,7 +187,10 @@ int run(const ReplayWords& words) {
   ProgressBar progress(words.quiet);
   const ReplayReport report = run_replay(options, progress);
   outputs.write(report);
-  if (!words.quiet) outputs.print(report, "lists", words.lists);
+  if (!words.quiet) {
+    outputs.print(report, "lists", words.lists);
+    if (!words.view.empty()) print_output("  {:<16}{}\n", "view", words.view);
+  }
   print_mismatches(report);
   return report.verify.mismatches > 0 ? kMismatch : kOk;
 }
