@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Draws the pictures of docs/theory.md from a hierarchy that this script makes by the definition.
 
-usage: draw_theory.py FOLDER; writes theory-levels.svg and theory-edges.svg
+usage: draw_theory.py FOLDER; writes theory-levels.svg, theory-edges.svg and theory-droplet.svg, which moves
 """
 import math
 import pathlib
@@ -12,6 +12,7 @@ import sys
 RADIUS = 10.0  # R_0: a center covers the points this near
 CUTOFF = 18.0  # rho_0: the neighbors of a point are this near
 SIDE = 200.0
+PERIOD, MOMENTS = 12, 36  # of the drop that moves: seconds, and how many are drawn
 COLORS = ("#444444", "#1f5fbf", "#d98c00", "#2e8b57")
 
 
@@ -100,6 +101,42 @@ def draw_edges(points, levels):
     return drawing(panels)
 
 
+def droplet(share):
+    """A drop that swings between long and flat while its points turn, and a few that leave it and return. share: of a period."""
+    numbers, turn, points = random.Random(11), 2 * math.pi * share, []
+    stretch = 1 + 0.45 * math.sin(turn)
+    while len(points) < 90:
+        radius, angle, phase = 48 * math.sqrt(numbers.random()), numbers.uniform(0, 2 * math.pi), numbers.uniform(0, 2 * math.pi)
+        if len(points) % 9 == 0:
+            radius += 38 * math.sin(turn / 2 + phase) ** 4
+        angle += 0.5 * math.sin(turn + radius / 40)
+        points.append((SIDE / 2 + radius * stretch * math.cos(angle), SIDE / 2 + radius / stretch * math.sin(angle)))
+    return points
+
+
+def animated(name, values, look=""):
+    return f"<{name} dur='{PERIOD}s' repeatCount='indefinite' values='{';'.join(values)}' {look}/>"
+
+
+def draw_droplet():
+    """Points with the balls of the first two levels of centers: a ball is seen while its point is a center."""
+    moments = [droplet(k / MOMENTS) for k in range(MOMENTS)]
+    levels = [levels_of(points) for points in moments]
+    balls, dots = [], []
+    for point in range(len(moments[0])):
+        places = [f"{points[point][0]:.1f} {points[point][1]:.1f}" for points in moments]
+        motion = animated("animateTransform", [*places, places[0]], "attributeName='transform' type='translate'")
+        for level in (2, 1):
+            is_center = [len(found) > level and point in found[level][0] for found in levels]
+            if not any(is_center):
+                continue
+            seen = animated("animate", ["1" if there else "0" for there in is_center], "attributeName='opacity' calcMode='discrete'")
+            ball = circle((0, 0), RADIUS * 2**(level - 1), f"fill='{COLORS[level]}' fill-opacity='0.1' stroke='{COLORS[level]}'")
+            balls.append(f"<g opacity='{int(is_center[0])}'>{seen}<g transform='translate({places[0]})'>{motion}{ball}</g></g>")
+        dots.append(f"<g transform='translate({places[0]})'>{motion}{circle((0, 0), 2, f'fill={COLORS[0]!r}')}</g>")
+    return drawing([("a drop that moves, and its centers", balls + dots)])
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -108,6 +145,7 @@ def main():
     levels = levels_of(points)
     (folder / "theory-levels.svg").write_text(draw_levels(points, levels), encoding="utf-8")
     (folder / "theory-edges.svg").write_text(draw_edges(points, levels), encoding="utf-8")
+    (folder / "theory-droplet.svg").write_text(draw_droplet(), encoding="utf-8")
 
 
 if __name__ == "__main__":
