@@ -21,7 +21,7 @@ from failing_calls import Bench  # noqa: E402
 from subcommands import SUBCOMMANDS, write_inputs  # noqa: E402
 
 CHANGING = {"create", "write", "pwrite", "ftruncate", "fchmod", "fchown", "fsync", "close", "rename"}
-UNFINISHED = re.compile(r"\.out\.\w+\.\d+\.0\.partial")
+UNFINISHED = re.compile(r"\.out\.(view\.)?\w+\.\d+\.0\.partial")
 PROCESS = re.compile(r"\d{2,}")  # its number, in such a name
 LEAST_KILLS = 100
 
