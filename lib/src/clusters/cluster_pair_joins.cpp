@@ -15,14 +15,14 @@
 namespace dch {
 namespace {
 
-constexpr int kBits = ClusterPairs::kSlots * ClusterPairs::kSlots;
-constexpr std::uint16_t kAll = 0xFFFF;
+constexpr int kPairsOfEntry = ClusterPairs::kSlots * ClusterPairs::kSlots;
+constexpr std::uint16_t kAllPairs = 0xFFFF;
 /// Times that positions are taken between two searches from which on joining entries is worth its time.
 constexpr int kStepsToJoin = 5;
 /// Entries that one is compared with, at most: so the work of a row is linear in it.
-constexpr std::int32_t kTries = 32;
+constexpr std::int32_t kJoinTries = 32;
 /// Squared distances in single precision and coordinates in units are less off than that.
-constexpr double kSlack = 1e-5;
+constexpr double kJoinSlack = 1e-5;
 
 /// Joins the entries of one row after another.
 class EntryJoiner {
@@ -45,8 +45,8 @@ class EntryJoiner {
     }
     alone_.clear();
     joined_.clear();
-    const auto whole = std::stable_partition(found_.begin(), found_.end(),
-                                             [](const Found& found) { return found.entry.mask != kAll; });
+    const auto whole = std::stable_partition(
+        found_.begin(), found_.end(), [](const Found& found) { return found.entry.mask != kAllPairs; });
     for (auto found = found_.begin(); found != whole; ++found) alone_.push_back(found->entry);
     for (auto first = whole; first != found_.end();) {
       const std::array<std::int32_t, 3> image = first->image;
@@ -82,10 +82,10 @@ class EntryJoiner {
 
   /// Those with most pairs first, each with the fullest one that has pairs where it has none.
   void join_of_image(const Found* found, std::int32_t count) {
-    std::array<std::int32_t, kBits + 2> next{};  // by pairs that an entry lacks
+    std::array<std::int32_t, kPairsOfEntry + 2> next{};  // by pairs that an entry lacks
     for (std::int32_t n = 0; n < count; ++n) ++next[static_cast<std::size_t>(lacks(found[n]) + 1)];
     for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
-    const std::array<std::int32_t, kBits + 2> begin = next;
+    const std::array<std::int32_t, kPairsOfEntry + 2> begin = next;
     order_.resize(static_cast<std::size_t>(count));
     for (std::int32_t n = 0; n < count; ++n)
       order_[static_cast<std::size_t>(next[static_cast<std::size_t>(lacks(found[n]))]++)] = n;
@@ -93,8 +93,9 @@ class EntryJoiner {
       const std::int32_t first = order_[static_cast<std::size_t>(a)];
       if (first < 0) continue;
       // What has more pairs than the first one lacks does not fit.
-      const std::int32_t from = std::max(a + 1, begin[static_cast<std::size_t>(kBits - lacks(found[first]))]);
-      const std::int32_t to = std::min(count, from + kTries);
+      const std::int32_t from =
+          std::max(a + 1, begin[static_cast<std::size_t>(kPairsOfEntry - lacks(found[first]))]);
+      const std::int32_t to = std::min(count, from + kJoinTries);
       std::int32_t b = from;
       while (b < to && !fits(found, first, order_[static_cast<std::size_t>(b)])) ++b;
       if (b < to) {
@@ -105,7 +106,7 @@ class EntryJoiner {
       }
     }
   }
-  static std::int32_t lacks(const Found& found) { return kBits - __builtin_popcount(found.near); }
+  static std::int32_t lacks(const Found& found) { return kPairsOfEntry - __builtin_popcount(found.near); }
   static bool fits(const Found* found, std::int32_t first, std::int32_t second) {
     return second >= 0 && (found[first].near & found[second].near) == 0;
   }
@@ -132,7 +133,7 @@ void ClusterPairs::join_entries(Executor* executor) {
   of_second.resize(entries.size() / 2 + 1);
   const double limit = list_radius / unit;
   const detail::NearSlotsTask task{entries.data(), at_in_units.data(), shift_in_units.data(),
-                                   static_cast<float>(limit * limit * (1 + kSlack))};
+                                   static_cast<float>(limit * limit * (1 + kJoinSlack))};
   for_ranges(executor, static_cast<std::int32_t>(alone.size()), [&](std::int32_t first, std::int32_t last) {
     EntryJoiner joiner(*this, task);
     for (std::int32_t r = first; r < last; ++r)

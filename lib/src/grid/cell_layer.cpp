@@ -22,7 +22,7 @@ constexpr CellCurve kCurves[CellLayout::kHalvings + 1] = {CellCurve(0), CellCurv
 static_assert(CellLayout::kHalvings == CellCurve::kBits);
 
 /// Points that are looked at together, while they are in the nearest cache.
-constexpr std::size_t kPiece = 256;
+constexpr std::size_t kLayerPiece = 256;
 
 }  // namespace
 
@@ -71,10 +71,10 @@ bool CellLayer::start(std::size_t n, const Box& box, const CellLayout& layout, c
 
 void CellLayer::take(const CellBins& bins, Span<const Vec3> positions, std::size_t first) {
   const std::array<int, 3> axes{bins.axis(0), bins.axis(1), bins.axis(2)};
-  std::array<CellCoordinates, kPiece> pieces;
-  std::array<RoundedPoint, kPiece> unused;
-  for (std::size_t begin = 0; begin < positions.size(); begin += kPiece) {
-    const std::size_t count = std::min(kPiece, positions.size() - begin), at = first + begin;
+  std::array<CellCoordinates, kLayerPiece> pieces;
+  std::array<RoundedPoint, kLayerPiece> unused;
+  for (std::size_t begin = 0; begin < positions.size(); begin += kLayerPiece) {
+    const std::size_t count = std::min(kLayerPiece, positions.size() - begin), at = first + begin;
     bins.find({positions.data() + begin, count}, pieces.data(),
               rounded_.empty() ? unused.data() : rounded_.data() + at);
     if (block_known_) {
