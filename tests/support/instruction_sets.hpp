@@ -10,9 +10,13 @@ namespace dch {
 
 inline std::ostream& operator<<(std::ostream& out, InstructionSet set) { return out << name(set); }
 
+/// Those that there are for processors of this kind.
+#ifdef __aarch64__
+inline constexpr InstructionSet kInstructionSets[] = {InstructionSet::portable, InstructionSet::neon};
+#else
 inline constexpr InstructionSet kInstructionSets[] = {InstructionSet::portable, InstructionSet::sse42,
-                                                      InstructionSet::avx2, InstructionSet::avx512,
-                                                      InstructionSet::neon};
+                                                      InstructionSet::avx2, InstructionSet::avx512};
+#endif
 
 /// What this processor runs, the widest last.
 inline std::vector<InstructionSet> supported_sets() {
