@@ -18,7 +18,7 @@
 namespace {
 
 constexpr double kDensity = 0.8442, kCutoff = 2.5, kSkin = 0.3, kTimeStep = 0.005;
-constexpr int kStepsToMelt = 207, kStepsBetweenLists = 10;
+constexpr int kStepsToMelt = 200, kStepsBetweenLists = 10, kStepsToJoin = 30;
 
 dch::ListParams request() {
   dch::ListParams params;
@@ -48,15 +48,15 @@ class Melt {
     search_->update(positions, box);
     search();
     for (int step = 0; step < kStepsToMelt; ++step) this->step();
+    for (int step = 0; step < kStepsToJoin; ++step) pairs.refresh(positions, box);  // as if it lived long
     search();
   }
 
   void search() {
     search_->update(positions, box);
     search_->cluster_pairs(request(), pairs);
-    pairs.join_entries();  // pays if ten steps came between
-    useful = count_useful();
-    steps_since_search_ = 0;
+    pairs.join_entries();  // if lists live long
+    useful = count_useful(), steps_since_search_ = 0;
   }
   /// Leapfrog.
   void step() {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kJoinedCutoff = 1.0, kJoinedSkin = 0.3;
 constexpr int kTypes = 5;
-constexpr int kRefreshesToJoin = 5;
+constexpr int kRefreshesToJoin = 30;
 
 /// Particles on a lattice that is shaken, 2.4 to a unit of volume; some leave the cell.
 class JoinedEntries : public ::testing::TestWithParam<scenes::NamedBox> {

@@ -17,10 +17,11 @@ namespace {
 
 constexpr int kPairsOfEntry = ClusterPairs::kSlots * ClusterPairs::kSlots;
 constexpr std::uint16_t kAllPairs = 0xFFFF;
-/// Times that positions are taken between two searches from which on joining entries is worth its time.
-constexpr int kStepsToJoin = 5;
+/// Times that positions are taken between two searches from which on joining entries is worth its time, which
+/// is that of some 23 times what a step gains: see docs/engine.md.
+constexpr int kStepsToJoin = 30;
 /// Entries that one is compared with, at most: so the work of a row is linear in it.
-constexpr std::int32_t kJoinTries = 32;
+constexpr std::size_t kJoinTries = 32;
 /// Squared distances in single precision and coordinates in units are less off than that.
 constexpr double kJoinSlack = 1e-5;
 
@@ -36,24 +37,28 @@ class EntryJoiner {
   std::int32_t join(std::size_t r, ClusterPairs::Entry* entries, std::uint16_t* of_second) {
     const ClusterPairs::Row& row = pairs_.rows[r];
     const auto count = static_cast<std::int32_t>(pairs_.rows[r + 1].first - row.first);
-    found_.resize(static_cast<std::size_t>(count));
     near_.resize(static_cast<std::size_t>(count));
     near_slots_(task_, row, count, near_.data());
-    for (std::int32_t n = 0; n < count; ++n) {
-      const ClusterPairs::Entry& entry = entries[row.first + n];
-      found_[static_cast<std::size_t>(n)] = {entry, near_[static_cast<std::size_t>(n)], image_of(row, entry)};
-    }
+    from_ = entries + row.first;
     alone_.clear();
     joined_.clear();
-    const auto whole = std::stable_partition(
-        found_.begin(), found_.end(), [](const Found& found) { return found.entry.mask != kAllPairs; });
-    for (auto found = found_.begin(); found != whole; ++found) alone_.push_back(found->entry);
-    for (auto first = whole; first != found_.end();) {
-      const std::array<std::int32_t, 3> image = first->image;
-      const auto last = std::stable_partition(first, found_.end(),
-                                              [&](const Found& found) { return found.image == image; });
-      join_of_image(&*first, static_cast<std::int32_t>(last - first));
-      first = last;
+    rest_.clear();
+    for (std::int32_t n = 0; n < count; ++n)
+      if (from_[n].mask == kAllPairs)
+        rest_.push_back(n);
+      else
+        alone_.push_back(from_[n]);
+    while (!rest_.empty()) {
+      const Image image = image_of(row, from_[rest_.front()]);
+      same_.clear();
+      std::size_t others = 0;
+      for (const std::int32_t n : rest_)
+        if (image_of(row, from_[n]) == image)
+          same_.push_back(n);
+        else
+          rest_[others++] = n;
+      rest_.resize(others);
+      join_of_image();
     }
     ClusterPairs::Entry* to = std::copy(alone_.begin(), alone_.end(), entries + row.first);
     for (const auto& [first, second, mask] : joined_) {
@@ -65,60 +70,63 @@ class EntryJoiner {
   }
 
  private:
-  struct Found {
-    ClusterPairs::Entry entry;
-    std::uint16_t near;  ///< bits of the pairs within the list radius
-    std::array<std::int32_t, 3> image;
-  };
+  using Image = std::array<std::int32_t, 3>;
   struct Joined {
     ClusterPairs::Entry first, second;
     std::uint16_t of_second;
   };
 
-  std::array<std::int32_t, 3> image_of(const ClusterPairs::Row& row, const ClusterPairs::Entry& entry) const {
+  Image image_of(const ClusterPairs::Row& row, const ClusterPairs::Entry& entry) const {
     const auto& by = pairs_.shift_in_units[static_cast<std::size_t>(row.first_shift) + entry.shift];
     return {by.axis[0], by.axis[1], by.axis[2]};
   }
 
-  /// Those with most pairs first, each with the fullest one that has pairs where it has none.
-  void join_of_image(const Found* found, std::int32_t count) {
+  /// Of same_: those with most pairs first, each with the fullest one that has pairs where it has none.
+  void join_of_image() {
+    const auto count = static_cast<std::int32_t>(same_.size());
     std::array<std::int32_t, kPairsOfEntry + 2> next{};  // by pairs that an entry lacks
-    for (std::int32_t n = 0; n < count; ++n) ++next[static_cast<std::size_t>(lacks(found[n]) + 1)];
+    for (const std::int32_t n : same_) ++next[lacks(near_[static_cast<std::size_t>(n)]) + 1];
     for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
     const std::array<std::int32_t, kPairsOfEntry + 2> begin = next;
-    order_.resize(static_cast<std::size_t>(count));
-    for (std::int32_t n = 0; n < count; ++n)
-      order_[static_cast<std::size_t>(next[static_cast<std::size_t>(lacks(found[n]))]++)] = n;
+    sorted_.resize(same_.size());
+    mask_.resize(same_.size());
+    for (const std::int32_t n : same_) {
+      const std::uint16_t near = near_[static_cast<std::size_t>(n)];
+      const auto place = static_cast<std::size_t>(next[lacks(near)]++);
+      sorted_[place] = n;
+      mask_[place] = near;
+    }
+    is_taken_.assign(same_.size(), 0);
     for (std::int32_t a = 0; a < count; ++a) {
-      const std::int32_t first = order_[static_cast<std::size_t>(a)];
-      if (first < 0) continue;
+      const auto at = static_cast<std::size_t>(a);
+      if (is_taken_[at] != 0) continue;
+      const std::uint16_t near = mask_[at];
       // What has more pairs than the first one lacks does not fit.
-      const std::int32_t from =
-          std::max(a + 1, begin[static_cast<std::size_t>(kPairsOfEntry - lacks(found[first]))]);
-      const std::int32_t to = std::min(count, from + kJoinTries);
-      std::int32_t b = from;
-      while (b < to && !fits(found, first, order_[static_cast<std::size_t>(b)])) ++b;
+      const auto lack = static_cast<std::size_t>(kPairsOfEntry) - lacks(near);
+      auto b = static_cast<std::size_t>(std::max(a + 1, begin[lack]));
+      const std::size_t to = std::min(same_.size(), b + kJoinTries);
+      while (b < to && ((near & mask_[b]) | is_taken_[b]) != 0) ++b;
       if (b < to) {
-        const std::int32_t second = std::exchange(order_[static_cast<std::size_t>(b)], -1);
-        joined_.push_back({found[first].entry, found[second].entry, found[second].near});
+        is_taken_[b] = 1;
+        joined_.push_back({from_[sorted_[at]], from_[sorted_[b]], mask_[b]});
       } else {
-        alone_.push_back(found[first].entry);
+        alone_.push_back(from_[sorted_[at]]);
       }
     }
   }
-  static std::int32_t lacks(const Found& found) { return kPairsOfEntry - __builtin_popcount(found.near); }
-  static bool fits(const Found* found, std::int32_t first, std::int32_t second) {
-    return second >= 0 && (found[first].near & found[second].near) == 0;
+  static std::size_t lacks(std::uint16_t near) {
+    return static_cast<std::size_t>(kPairsOfEntry - __builtin_popcount(near));
   }
 
   const ClusterPairs& pairs_;
   const detail::NearSlotsTask& task_;
   void (*near_slots_)(const detail::NearSlotsTask&, const ClusterPairs::Row&, std::int32_t, std::uint16_t*);
-  std::vector<Found> found_;
-  std::vector<std::uint16_t> near_;
+  const ClusterPairs::Entry* from_ = nullptr;
+  std::vector<std::uint16_t> near_, mask_;
+  std::vector<std::int32_t> rest_, same_, sorted_;
+  std::vector<std::uint8_t> is_taken_;
   std::vector<ClusterPairs::Entry> alone_;
   std::vector<Joined> joined_;
-  std::vector<std::int32_t> order_;
 };
 
 }  // namespace

@@ -205,7 +205,7 @@ struct ClusterPairs {
   /// Puts the entries of each row in an order in which many stand two by two that fill a register of 16 pairs
   /// together, for kernels that gain by it (LennardJones::gains_by_joined_entries()). To be called after a
   /// search and before positions are taken; nobody may take pairs out of masks afterwards. Does nothing if
-  /// positions were taken less than five times between the last two searches, as it would not pay.
+  /// positions were taken less than 30 times between the last two searches, as it would not pay.
   /// O(entries).
   /// @throws InvalidParameter if positions have been taken since the search
   void join_entries(Executor* executor = nullptr);
