@@ -137,17 +137,19 @@ void ClusterPairs::join_entries(Executor* executor) {
                            std::to_string(refreshes) +
                            " times; call it after a search, before positions are taken");
   if (refreshes_before < kStepsToJoin || !alone.empty() || rows.empty()) return;
-  alone.resize(rows.size() - 1);
+  std::vector<std::int32_t> by_row(rows.size() -
+                                   1);  // taken when all are done: memory may be lacking meanwhile
   of_second.resize(entries.size() / 2 + 1);
   const double limit = list_radius / unit;
   const detail::NearSlotsTask task{entries.data(), at_in_units.data(), shift_in_units.data(),
                                    static_cast<float>(limit * limit * (1 + kJoinSlack))};
-  for_ranges(executor, static_cast<std::int32_t>(alone.size()), [&](std::int32_t first, std::int32_t last) {
+  for_ranges(executor, static_cast<std::int32_t>(by_row.size()), [&](std::int32_t first, std::int32_t last) {
     EntryJoiner joiner(*this, task);
     for (std::int32_t r = first; r < last; ++r)
-      alone[static_cast<std::size_t>(r)] =
+      by_row[static_cast<std::size_t>(r)] =
           joiner.join(static_cast<std::size_t>(r), entries.data(), of_second.data());
   });
+  alone = std::move(by_row);
 }
 
 }  // namespace dch

@@ -196,9 +196,8 @@ struct ClusterPairs {
   /// @param within  from its place, for a particle not to be asked about [length]
   /// @param away  gets the clusters of which one is farther, ascending
   /// @return false if the image of a particle is uncertain, as it is a quarter of the smallest height from
-  /// its
-  ///   place, farther from its origin than `farthest` or nowhere finite: then some positions are of an
-  ///   earlier time, and refresh() has to take all
+  ///   its place, or if it is farther from its origin than `farthest` or nowhere finite: then some positions
+  ///   are of an earlier time, and refresh() has to take all
   bool follow(const Places& places, Span<const Vec3> positions, const Box& now, double within,
               std::vector<std::int32_t>& away, Executor* executor = nullptr);
 
@@ -207,7 +206,7 @@ struct ClusterPairs {
   /// search and before positions are taken; nobody may take pairs out of masks afterwards. Does nothing if
   /// positions were taken less than 30 times between the last two searches, as it would not pay.
   /// O(entries).
-  /// @throws InvalidParameter if positions have been taken since the search
+  /// @throws InvalidParameter if positions have been taken since the search. After any throw none are joined.
   void join_entries(Executor* executor = nullptr);
 
   std::size_t memory_bytes() const;
