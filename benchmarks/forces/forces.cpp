@@ -9,93 +9,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <random>
 
 #include <dch/base/instruction_set.hpp>
 #include <dch/engines/pair_search.hpp>
 #include <dch/forces/lennard_jones.hpp>
 
+#include "melt.hpp"
+
 namespace {
 
-constexpr double kDensity = 0.8442, kCutoff = 2.5, kSkin = 0.3, kTimeStep = 0.005;
-constexpr int kStepsToMelt = 200, kStepsBetweenLists = 10, kStepsToJoin = 30;
-
-dch::ListParams request() {
-  dch::ListParams params;
-  params.cutoffs = dch::TypeCutoffs(kCutoff);
-  params.skin = kSkin;
-  return params;
-}
-
-/// Face-centered cubic at first, with velocities of temperature 1.44; then whatever Newton's laws make of it.
-class Melt {
- public:
-  explicit Melt(int cells) : search_(dch::make_dch_search(hierarchy_params())), potential_({1, 1, kCutoff}) {
-    const double spacing = std::cbrt(4 / kDensity), side = spacing * cells;
-    box = dch::Box::orthorhombic({side, side, side});
-    const dch::Vec3 basis[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
-    for (int x = 0; x < cells; ++x)
-      for (int y = 0; y < cells; ++y)
-        for (int z = 0; z < cells; ++z)
-          for (const dch::Vec3 b : basis)
-            positions.push_back(spacing * (dch::Vec3{double(x), double(y), double(z)} + b));
-    std::mt19937_64 engine(1);
-    const auto uniform = [&] { return 2 * static_cast<double>(engine() >> 11) * 0x1p-53 - 1; };
-    const double largest = std::sqrt(3 * 1.44);
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      velocity_.push_back(largest * dch::Vec3{uniform(), uniform(), uniform()});
-    force_.resize(positions.size());
-    search_->update(positions, box);
-    search();
-    for (int step = 0; step < kStepsToMelt; ++step) this->step();
-    for (int step = 0; step < kStepsToJoin; ++step) pairs.refresh(positions, box);  // as if it lived long
-    search();
-  }
-
-  void search() {
-    search_->update(positions, box);
-    search_->cluster_pairs(request(), pairs);
-    pairs.join_entries();  // if lists live long
-    useful = count_useful(), steps_since_search_ = 0;
-  }
-  /// Leapfrog.
-  void step() {
-    if (steps_since_search_++ == kStepsBetweenLists) search();
-    pairs.refresh(positions, box);
-    std::fill(force_.begin(), force_.end(), dch::Vec3{});
-    potential_.add_forces(pairs, dch::ForcePrecision::double_precision, force_);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      velocity_[i] = velocity_[i] + kTimeStep * force_[i];
-      positions[i] = positions[i] + kTimeStep * velocity_[i];
-    }
-  }
-  double atoms() const { return static_cast<double>(positions.size()); }
-
-  std::vector<dch::Vec3> positions;
-  dch::Box box;
-  dch::ClusterPairs pairs;
-  std::int64_t useful = 0;  ///< pairs within the cutoff
-
- private:
-  static dch::HierarchyParams hierarchy_params() {
-    dch::HierarchyParams params;
-    params.radius = kCutoff + kSkin;
-    return params;
-  }
-  std::int64_t count_useful() {
-    dch::ListParams within = request();
-    within.skin = 0;
-    within.order = dch::RowOrder::unsorted;
-    dch::NeighborList list;
-    search_->list(within, list);
-    return list.pairs();
-  }
-
-  std::unique_ptr<dch::PairSearch> search_;
-  dch::LennardJones potential_;
-  std::vector<dch::Vec3> velocity_, force_;
-  int steps_since_search_ = 0;
-};
+using melt::kCutoff, melt::kSkin, melt::Melt, melt::request;
 
 Melt& melt_of(std::int64_t cells) {
   static std::map<std::int64_t, Melt> melts;
@@ -178,10 +101,19 @@ bool use_set(benchmark::State& state) {
   return true;
 }
 
+/// Slots that kernels look at: of an entry all 16 or those of a half, of two that are joined 16 together.
+double slots_of(const dch::ClusterPairs& pairs) {
+  using Order = dch::ClusterPairs::EntryOrder;
+  double slots = 16 * static_cast<double>(pairs.entries.size());
+  for (std::size_t r = 0; r < pairs.parts.size(); ++r)
+    slots -= 8 * static_cast<double>(pairs.rows[r + 1].first - pairs.rows[r].first - pairs.parts[r].first);
+  return pairs.entry_order == Order::as_found ? 16 * static_cast<double>(pairs.entries.size()) : slots;
+}
+
 void count_slots(benchmark::State& state, const Melt& melt) {
   const auto useful = static_cast<double>(melt.useful);
   state.counters["useful/atom"] = useful / melt.atoms();
-  state.counters["slots/useful"] = 16 * static_cast<double>(melt.pairs.entries.size()) / useful;
+  state.counters["slots/useful"] = slots_of(melt.pairs) / useful;
 }
 
 void report_per(benchmark::State& state, const char* name, double count) {
@@ -189,7 +121,8 @@ void report_per(benchmark::State& state, const char* name, double count) {
       1e-9 * count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// The search alone, at positions of the time.
+/// The search alone, at positions of the time, or with the order that forces are computed in.
+template <bool orders, dch::ForcePrecision precision>
 void cluster_pairs(benchmark::State& state) {
   if (!use_set(state)) return;
   Melt& melt = melt_of(state.range(0));
@@ -200,6 +133,9 @@ void cluster_pairs(benchmark::State& state) {
   dch::ClusterPairs pairs;
   for (auto _ : state) {
     search->cluster_pairs(request(), pairs);
+    const auto order = dch::LennardJones::wanted_order(precision);
+    pairs.refreshes = 0, pairs.refreshes_before = dch::ClusterPairs::steps_to_order(order);
+    if (orders) pairs.order_entries(order);
     benchmark::DoNotOptimize(pairs.entries.data());
   }
   report_per(state, "time/atom", melt.atoms());
@@ -238,6 +174,7 @@ template <dch::ForcePrecision precision, bool sums>
 void forces(benchmark::State& state) {
   if (!use_set(state)) return;
   Melt& melt = melt_of(state.range(0));
+  melt.search_for(precision);
   state.counters["error"] = checked_error(melt, precision);
   dch::LennardJones potential({1, 1, kCutoff});
   std::vector<dch::Vec3> force(melt.positions.size());
@@ -258,6 +195,7 @@ template <dch::ForcePrecision precision, int types>
 void forces_of_types(benchmark::State& state) {
   if (!use_set(state)) return;
   Melt& melt = melt_of(state.range(0));
+  melt.search_for(precision);
   dch::LennardJones potential(types, std::vector<dch::LennardJonesPair>(types * types, {1, 1, kCutoff}));
   std::vector<dch::Vec3> force(melt.positions.size());
   for (auto _ : state) {
@@ -269,8 +207,16 @@ void forces_of_types(benchmark::State& state) {
 
 const std::vector<std::int64_t> kSets{0, 1, 2, 3};
 
-BENCHMARK(cluster_pairs)->ArgsProduct({{20}, kSets})->Unit(benchmark::kMillisecond);
-BENCHMARK(cluster_pairs)->Args({40, 3})->Unit(benchmark::kMillisecond);
+#define DCH_CLUSTER_PAIRS(name, orders, precision)                 \
+  BENCHMARK(cluster_pairs<orders, dch::ForcePrecision::precision>) \
+      ->Name(name)                                                 \
+      ->ArgsProduct({{20}, kSets})                                 \
+      ->Args({40, 3})                                              \
+      ->Unit(benchmark::kMillisecond)
+DCH_CLUSTER_PAIRS("cluster_pairs", false, mixed);
+DCH_CLUSTER_PAIRS("cluster_pairs_for_mixed", true, mixed);
+DCH_CLUSTER_PAIRS("cluster_pairs_for_full", true, full);
+#undef DCH_CLUSTER_PAIRS
 BENCHMARK(neighbor_list)->Args({20, 3})->Unit(benchmark::kMillisecond);
 BENCHMARK(refresh)->Args({20, 3})->Unit(benchmark::kMillisecond);
 #define DCH_FORCES(precision)                                   \

@@ -152,8 +152,8 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
       const detail::LjTask<Real> kernel_task{pairs.rows.data() + first_row,
                                              static_cast<std::int64_t>(last_row - first_row),
                                              pairs.entries.data(),
-                                             pairs.alone.empty() ? nullptr : pairs.alone.data() + first_row,
-                                             pairs.of_second.data(),
+                                             pairs.entry_order,
+                                             pairs.parts.empty() ? nullptr : pairs.parts.data() + first_row,
                                              Of::at(pairs).data(),
                                              Of::shift(pairs).data(),
                                              Of::unit(pairs),
@@ -198,9 +198,14 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
   }
 }
 
-bool LennardJones::gains_by_joined_entries(ForcePrecision precision) {
-  return precision == ForcePrecision::mixed &&
-         Kernels<float>::functions(detail::force_kernels(instruction_set())).wants_lanes;
+ClusterPairs::EntryOrder LennardJones::wanted_order(ForcePrecision precision) {
+  using Order = ClusterPairs::EntryOrder;
+  const detail::ForceKernels& kernels = detail::force_kernels(instruction_set());
+  const auto of = [](const auto& functions) {
+    if (functions.wants_lanes) return Order::joined;
+    return functions.leaves_out_halves ? Order::by_halves : Order::as_found;
+  };
+  return precision == ForcePrecision::mixed ? of(kernels.mixed) : of(kernels.full);
 }
 
 void LennardJones::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,

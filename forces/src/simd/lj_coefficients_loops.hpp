@@ -20,15 +20,18 @@ enum Coefficient {
   kCoefficients
 };
 
-/// The cluster J of an entry, beside the cluster I of its row.
-template <class S>
+/// The cluster J of an entry, beside the cluster I of its row. Unless kShifts, the shift was taken from I.
+template <class S, bool kShifts = true>
 struct OneBeside {
   using V = typename S::V;
   using Real = typename S::Real;
   std::int32_t cluster() const { return entry->cluster; }
   std::uint32_t mask() const { return entry->mask; }
   auto places(const LjTask<Real>& task, const ClusterPairs::Row& row) const {
-    return S::load_cluster(task.at[entry->cluster], task.shift[row.first_shift + entry->shift]);
+    if constexpr (kShifts)
+      return S::load_cluster(task.at[entry->cluster], task.shift[row.first_shift + entry->shift]);
+    else
+      return S::load_cluster(task.at[entry->cluster]);
   }
   V repeat(const Real* by_slot) const { return S::repeat(by_slot + 4 * entry->cluster); }
   auto columns(const std::int32_t* by_slot) const { return S::columns(by_slot + 4 * entry->cluster); }
@@ -42,32 +45,32 @@ struct OneBeside {
   const ClusterPairs::Entry* entry;
 };
 
-/// Two clusters J, of an entry and of the next one, each with the pairs that the other one has none at.
+/// Two clusters J, of an entry and of the next one, each with the pairs that the other one has none at. The
+/// shift was taken from cluster I.
 template <class S>
 struct TwoBeside {
   using V = typename S::V;
   using Real = typename S::Real;
-  static std::uint32_t mask() { return 0xFFFF; }
-  auto places(const LjTask<Real>& task, const ClusterPairs::Row& row) const {
-    return S::load_clusters(task.at[entry[0].cluster], of_second, task.at[entry[1].cluster],
-                            task.shift[row.first_shift + entry->shift]);
+  std::uint32_t of_second() const { return entry[1].mask; }
+  std::uint32_t mask() const { return static_cast<std::uint32_t>(entry[0].mask | entry[1].mask); }
+  auto places(const LjTask<Real>& task, const ClusterPairs::Row&) const {
+    return S::load_clusters(task.at[entry[0].cluster], of_second(), task.at[entry[1].cluster]);
   }
   V repeat(const Real* by_slot) const {
-    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second, by_slot + 4 * entry[1].cluster);
+    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second(), by_slot + 4 * entry[1].cluster);
   }
   auto columns(const std::int32_t* by_slot) const {
-    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second, by_slot + 4 * entry[1].cluster);
+    return S::repeat_either(by_slot + 4 * entry[0].cluster, of_second(), by_slot + 4 * entry[1].cluster);
   }
   void add(V force, const Coordinates<S>& d, Real* lanes) const {
     Real* const first = lanes + kNumbersOfLanes * entry[0].cluster;
     Real* const second = lanes + kNumbersOfLanes * entry[1].cluster;
-    S::add_either(force, d.x[0], first, of_second, second);
-    S::add_either(force, d.y[0], first + 16, of_second, second + 16);
-    S::add_either(force, d.z[0], first + 32, of_second, second + 32);
+    S::add_either(force, d.x[0], first, of_second(), second);
+    S::add_either(force, d.y[0], first + 16, of_second(), second + 16);
+    S::add_either(force, d.z[0], first + 32, of_second(), second + 32);
   }
 
   const ClusterPairs::Entry* entry;
-  std::uint32_t of_second;
 };
 
 /// The coefficients of 16 pairs, register by register; those of one type are the same for all.

@@ -88,8 +88,8 @@ struct LjTask {
   const ClusterPairs::Row* rows;  ///< and one more
   std::int64_t row_count;
   const ClusterPairs::Entry* entries;
-  const std::int32_t* alone;       ///< ClusterPairs::alone from the first row on; null if none are joined
-  const std::uint16_t* of_second;  ///< the same of all
+  ClusterPairs::EntryOrder order;
+  const ClusterPairs::RowParts* parts;  ///< by row, unless as_found
   const ClusterPlace<Real>* at;
   const ClusterShift<Real>* shift;
   double unit;               ///< what displacements are in, hence forces; 1 in double precision [length]
@@ -141,7 +141,8 @@ struct LjFunctions {
     Function of_parameters[3][2];  ///< without sums and with them
   };
   OfKind of_kind[kForceKinds];
-  bool wants_lanes = false;  ///< whether they use LjTask::lanes
+  bool wants_lanes = false;        ///< whether they use LjTask::lanes, and gain by entries that are joined
+  bool leaves_out_halves = false;  ///< whether they gain by entries by halves
 
   Function choose(ForceKind kind, LjParameters parameters, bool sums) const {
     return of_kind[static_cast<int>(kind)].of_parameters[static_cast<int>(parameters)][sums ? 1 : 0];

@@ -90,7 +90,7 @@ void NeighborDCH::fill_clusters() {
   double clock = MPI_Wtime();
   for (const ServedClusters& clusters : clusters_) {
     cluster_filler_->fill(points_, *search_, present_skin(), *clusters.list);
-    if (dch::LennardJones::gains_by_joined_entries(precision_)) clusters.list->pairs.join_entries(executor());
+    clusters.list->pairs.order_entries(dch::LennardJones::wanted_order(precision_), executor());
     run_.entries += clusters.list->count();
     run_.clusters_seconds += seconds_since(clock);
   }

@@ -62,7 +62,8 @@ void ClusterPairFinder::cut_into_clusters(const Scene<Metric>& scene, Executor* 
   out.types = scene.request.radii.empty() ? scene.request.cutoffs.types() : 1;
   out.list_radius = scene.request.list_radius();
   out.box = scene.box;
-  out.alone.clear();
+  out.entry_order = ClusterPairs::EntryOrder::as_found;
+  out.parts.clear();
   out.farthest = 2 * scene.leaves.largest_extent + out.list_radius;
   out.particle.resize(all * kSlots);
   out.type.resize(all * kSlots);

@@ -155,9 +155,16 @@ class SplitClusters {
 
 }  // namespace
 
+/// Bits are counted by arithmetic on numbers of 16 bits, of which compilers put several into a register.
 std::int64_t ClusterPairs::slot_pairs() const {
   std::int64_t pairs = 0;
-  for (const Entry& entry : entries) pairs += __builtin_popcount(entry.mask);
+  for (const Entry& entry : entries) {
+    std::uint32_t bits = entry.mask;
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0F0F;
+    pairs += (bits + (bits >> 8)) & 0x1F;
+  }
   return pairs;
 }
 
@@ -262,7 +269,7 @@ std::size_t ClusterPairs::memory_bytes() const {
   return bytes_of(rows) + bytes_of(entries) + bytes_of(particle) + bytes_of(type) + bytes_of(origin_of) +
          bytes_of(origin) + bytes_of(shift) + bytes_of(at) + bytes_of(at_in_units) + bytes_of(shift_vector) +
          bytes_of(shift_in_units) + bytes_of(origin_in_units) + bytes_of(split_clusters) + bytes_of(tasks) +
-         bytes_of(ranges) + bytes_of(alone) + bytes_of(of_second) + bytes_of(has_earlier_contributions);
+         bytes_of(ranges) + bytes_of(parts) + bytes_of(has_earlier_contributions);
 }
 
 }  // namespace dch

@@ -157,13 +157,13 @@ bool ClusterPairKeeper::isKept(dch::Span<const dch::Vec3> positions, const dch::
 }
 
 const dch::ClusterPairs& ClusterPairKeeper::at(dch::Span<const dch::Vec3> positions, const dch::Box& box,
-                                               bool joins) {
+                                               dch::ClusterPairs::EntryOrder order) {
   chooseSkin(box);
   if (isKept(positions, box)) return pairs;
   expiry->forget();
   search->update(positions, box);  // checks them
   search->cluster_pairs(request, pairs);
-  if (joins) pairs.join_entries(&pool);
+  pairs.order_entries(order, &pool);
   ++searchCount;
   labelPairs();
   rememberPlaces(positions, box);

@@ -26,8 +26,9 @@ class ClusterPairKeeper {
   /// Whether pairs can be kept in this box. If not, all pairs of particles have to be looked at.
   bool fits(const dch::Box& box) const;
   /// The pairs at these positions, searched for anew if some might be missing. For a box that fits.
-  /// @param joins  whether their entries are to be joined
-  const dch::ClusterPairs& at(dch::Span<const dch::Vec3> positions, const dch::Box& box, bool joins = false);
+  /// @param order  of their entries, for kernels that are faster with one
+  const dch::ClusterPairs& at(dch::Span<const dch::Vec3> positions, const dch::Box& box,
+                              dch::ClusterPairs::EntryOrder order = dch::ClusterPairs::EntryOrder::as_found);
   /// How often pairs have been searched for.
   std::int64_t searches() const { return searchCount; }
 

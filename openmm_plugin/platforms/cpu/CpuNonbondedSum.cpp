@@ -104,7 +104,7 @@ double CpuNonbondedSum::addPairs(const HostState& state, bool includeEnergy) {
   const auto precision =
       forces->fits_single() && !isDouble ? dch::ForcePrecision::mixed : dch::ForcePrecision::double_precision;
   const dch::ClusterPairs& pairs =
-      keeper->at(state.positions, state.box, dch::LennardJones::gains_by_joined_entries(precision));
+      keeper->at(state.positions, state.box, dch::LennardJones::wanted_order(precision));
   dch::LennardJonesSums sums;
   if (includeEnergy)
     sums = forces->add_forces_and_sum(pairs, precision, state.forces, charges);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
+#include <tuple>
 #include <vector>
 
 #include "base/aligned_vector.hpp"
@@ -74,14 +75,17 @@ int gap2_of_boxes(const ClusterBox& a, const ClusterBox& b) {
   return sum;
 }
 
-int least_sum_of_slots(const NearCluster& a, const NearCluster& b) {
-  int least = 3 * 32768;
+/// Bits 4 a + b of slots a and b that are near each other.
+std::uint32_t bits_of_near_slots(const NearCluster& a, const NearCluster& b, std::int16_t limit) {
+  std::uint32_t bits = 0;
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      least = std::min(least, rounded_square(to_16_bits(b.x[j] - a.x[i])) +
-                                  rounded_square(to_16_bits(b.y[j] - a.y[i])) +
-                                  rounded_square(to_16_bits(b.z[j] - a.z[i])));
-  return least;
+    for (int j = 0; j < 4; ++j) {
+      const int sum = rounded_square(to_16_bits(b.x[j] - a.x[i])) +
+                      rounded_square(to_16_bits(b.y[j] - a.y[i])) +
+                      rounded_square(to_16_bits(b.z[j] - a.z[i]));
+      bits |= static_cast<std::uint32_t>(sum < limit) << (4 * i + j);
+    }
+  return bits;
 }
 
 bool same_entry(const ClusterPairs::Entry& a, const ClusterPairs::Entry& b) {
@@ -149,7 +153,7 @@ TEST_P(ClusterSearchKernelsTest, KeepWhatIsNearABoxInAnotherFrame) {
   });
 }
 
-TEST_P(ClusterSearchKernelsTest, FindTheClustersWithASlotNearOneOfTheRows) {
+TEST_P(ClusterSearchKernelsTest, FindThePairsOfSlotsThatAreNear) {
   for_random_clusters([&](const RandomClusters& clusters, std::size_t count, scenes::Random& random) {
     const RandomClusters own(1, 16000, 2000, random);
     const std::int16_t limit = random_limit(random);
@@ -159,18 +163,90 @@ TEST_P(ClusterSearchKernelsTest, FindTheClustersWithASlotNearOneOfTheRows) {
     std::int32_t expected = 0, compared = 0;
     for (std::size_t k = 0; k < count; ++k) {
       compared += gap2_of_boxes(clusters.box(k), own.box(0)) < limit;
-      if (least_sum_of_slots(own.cluster[0], clusters.cluster[k]) >= limit) continue;
+      const ClusterPairs::Entry& entry = clusters.cluster[k].entry;
       std::uint32_t mask = 0;
       for (int a = 0; a < 4; ++a)
         if ((own.cluster[0].entry.mask >> a & 1) != 0) mask |= 15u << (4 * a);
-      const ClusterPairs::Entry& entry = clusters.cluster[k].entry;
+      mask &= entry.mask & bits_of_near_slots(own.cluster[0], clusters.cluster[k], limit);
+      if (mask == 0) continue;
       ASSERT_LT(expected, found.entries);
       ASSERT_TRUE(same_entry(entries[static_cast<std::size_t>(expected)],
-                             {entry.cluster, static_cast<std::uint16_t>(entry.mask & mask), entry.shift}));
+                             {entry.cluster, static_cast<std::uint16_t>(mask), entry.shift}));
       ++expected;
     }
     ASSERT_EQ(found.entries, expected) << count;
     ASSERT_EQ(found.compared, compared) << count;
+  });
+}
+
+/// Calls f(entries, count, random) for entries of masks of few bits, of more, and of any.
+template <class F>
+void for_random_entries(const F& f) {
+  scenes::Random random(7);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto count = static_cast<std::int32_t>(1 + random.below(kJoinedAtOnce));
+    const std::size_t most = std::array<std::size_t, 3>{3, 8, 16}[static_cast<std::size_t>(trial % 3)];
+    std::vector<ClusterPairs::Entry> entries(static_cast<std::size_t>(count));
+    for (ClusterPairs::Entry& entry : entries) {
+      entry = {static_cast<std::int32_t>(random.below(1000)), 0,
+               static_cast<std::uint16_t>(random.below(65536))};
+      while (entry.mask == 0)
+        for (std::size_t bits = random.below(most + 1); bits > 0; --bits)
+          entry.mask = static_cast<std::uint16_t>(entry.mask | 1u << random.below(16));
+    }
+    f(entries, count);
+  }
+}
+
+TEST_P(ClusterSearchKernelsTest, JoinEntriesWithoutABitInCommon) {
+  using Entries = std::vector<ClusterPairs::Entry>;
+  const auto joined_by = [](const ClusterSearchKernels& set, const Entries& entries, bool in_place) {
+    Entries alone = in_place ? entries : Entries(entries.size()), joined(entries.size() + 2);
+    const JoinedEntries found =
+        set.join(in_place ? alone.data() : entries.data(), static_cast<std::int32_t>(entries.size()),
+                 {alone.data(), joined.data()});
+    alone.resize(static_cast<std::size_t>(found.alone));
+    joined.resize(static_cast<std::size_t>(found.joined));
+    return std::array<Entries, 2>{alone, joined};
+  };
+  const auto by_names = [](const ClusterPairs::Entry& a, const ClusterPairs::Entry& b) {
+    return std::tie(a.cluster, a.mask, a.shift) < std::tie(b.cluster, b.mask, b.shift);
+  };
+  for_random_entries([&](const Entries& entries, std::int32_t) {
+    const auto found = joined_by(kernels(), entries, false);
+    for (const auto& other : {joined_by(kernels(), entries, true),
+                              joined_by(cluster_search_kernels(InstructionSet::portable), entries, false)})
+      for (std::size_t part = 0; part < 2; ++part)
+        ASSERT_TRUE(std::equal(found[part].begin(), found[part].end(), other[part].begin(), other[part].end(),
+                               same_entry));
+    const auto& [alone, joined] = found;
+    for (std::size_t n = 0; n < alone.size(); ++n)
+      for (std::size_t other = 0; other < n; ++other)
+        ASSERT_NE(alone[n].mask & alone[other].mask, 0) << "two that fit stand alone";
+    ASSERT_EQ(joined.size() % 2, 0u);
+    for (std::size_t n = 0; n < joined.size(); n += 2) ASSERT_EQ(joined[n].mask & joined[n + 1].mask, 0);
+    Entries all = alone, expected = entries;
+    all.insert(all.end(), joined.begin(), joined.end());
+    std::sort(all.begin(), all.end(), by_names);
+    std::sort(expected.begin(), expected.end(), by_names);
+    ASSERT_TRUE(std::equal(all.begin(), all.end(), expected.begin(), expected.end(), same_entry));
+  });
+}
+
+TEST_P(ClusterSearchKernelsTest, SplitEntriesByHalves) {
+  for_random_entries([&](const std::vector<ClusterPairs::Entry>& entries, std::int32_t count) {
+    std::array<std::vector<ClusterPairs::Entry>, 3> expected, to;
+    for (const ClusterPairs::Entry& entry : entries)
+      expected[(entry.mask & 0xFF) == 0 ? 2 : (entry.mask >> 8 == 0 ? 1 : 0)].push_back(entry);
+    for (auto& part : to) part.resize(entries.size() + kEntriesAtOnce);
+    const EntryHalves found =
+        kernels().split(entries.data(), count, {to[0].data(), to[1].data(), to[2].data()});
+    const std::array<std::int32_t, 3> counts{found.both, found.lower, found.upper};
+    for (std::size_t part = 0; part < 3; ++part) {
+      ASSERT_EQ(static_cast<std::size_t>(counts[part]), expected[part].size());
+      for (std::size_t n = 0; n < expected[part].size(); ++n)
+        ASSERT_TRUE(same_entry(to[part][n], expected[part][n]));
+    }
   });
 }
 

@@ -129,9 +129,9 @@ class LennardJones {
   /// Whether single precision can hold the coefficients and its series are long enough: else only
   /// ForcePrecision::double_precision is to be had.
   bool fits_single() const { return fits_single_; }
-  /// Whether ClusterPairs::join_entries() makes add_forces() faster: in mixed precision, where a register
-  /// holds 16 pairs.
-  static bool gains_by_joined_entries(ForcePrecision precision);
+  /// The order of entries (ClusterPairs::order_entries()) that makes add_forces() faster with the present
+  /// instruction set.
+  static ClusterPairs::EntryOrder wanted_order(ForcePrecision precision);
   /// Of charges too.
   double largest_cutoff() const { return largest_cutoff_; }
 

@@ -52,8 +52,9 @@ struct alignas(16) ClusterShift<float> {
 /// Pairs of clusters of four particles: what a SIMD force kernel reads in place of a neighbor list.
 ///
 /// Every pair of particles that the ListParams ask for stands in one entry, once (twice if two of its images
-/// are exactly half a period away, both at the list radius). Entries hold other pairs too, farther apart than
-/// the list radius: a force kernel tests its cutoff. Particles with no other one near may stand in no slot.
+/// are exactly half a period away, both at the list radius). Masks hold a few pairs more, a little farther
+/// apart than the list radius: a force kernel tests its cutoff. Particles with no other one near may stand in
+/// no slot.
 /// Hierarchy::cluster_pairs() makes them.
 ///
 /// Particles are held relative to an origin near them (a node of level 1). The displacement from slot a of
@@ -73,7 +74,7 @@ struct ClusterPairs {
     std::uint16_t shift;  ///< counted from the row's first one
   };
   /// Entries entries[first] .. entries[(next row's first) - 1] of cluster I, one at least. A cluster has one
-  /// row or none; more only where one row cannot name all its shifts.
+  /// row or none; more where one row cannot name all its shifts, and where entries are joined.
   struct Row {
     std::int64_t first;
     std::int32_t cluster;
@@ -88,14 +89,26 @@ struct ClusterPairs {
   std::vector<Row> rows;  ///< and one more with the number of entries
   std::vector<Entry> entries;
 
-  // What join_entries() writes: the entries of a row that come after its first `alone` ones stand two by two,
-  // both with all pairs in their masks and with the same image. The pairs that were within the list radius at
-  // the search stand at other bits in one than in the other. So a kernel may take the slots of
-  // of_second[number of the first one / 2] from the second one and all others from the first.
-  std::vector<std::int32_t> alone;       ///< by row; empty if none are joined
-  std::vector<std::uint16_t> of_second;  ///< by half the number of an entry
-  int refreshes = 0;                     ///< since the search
-  int refreshes_before = 0;              ///< between the two last searches into this
+  /// How the entries of a row stand.
+  enum class EntryOrder {
+    as_found,
+    /// First those with pairs of slots 0 or 1 of I and of slots 2 or 3, then those with pairs of slots 0 and
+    /// 1 alone, then those with pairs of slots 2 and 3 alone.
+    by_halves,
+    /// First those that stand alone, then two by two those that have no bit of their masks in common: a
+    /// register of 16 pairs holds both. All entries of a row are of one image.
+    joined
+  };
+  /// Of the entries of a row, in another order than as_found.
+  struct RowParts {
+    std::int32_t first;  ///< with pairs of both halves, or alone
+    std::int32_t lower;  ///< the same and those of slots 0 and 1; not of entries that are joined
+  };
+  EntryOrder entry_order = EntryOrder::as_found;
+  std::vector<RowParts> parts;  ///< by row, in another order than as_found
+
+  int refreshes = 0;         ///< since the search
+  int refreshes_before = 0;  ///< between the two last searches into this
 
   /// Clusters whose rows a force kernel computes on one thread. Rows name clusters of their own task and of
   /// later ones. Tasks depend on the clusters alone, so forces that are summed up in their order do not
@@ -201,13 +214,15 @@ struct ClusterPairs {
   bool follow(const Places& places, Span<const Vec3> positions, const Box& now, double within,
               std::vector<std::int32_t>& away, Executor* executor = nullptr);
 
-  /// Puts the entries of each row in an order in which many stand two by two that fill a register of 16 pairs
-  /// together, for kernels that gain by it (LennardJones::gains_by_joined_entries()). To be called after a
-  /// search and before positions are taken; nobody may take pairs out of masks afterwards. Does nothing if
-  /// positions were taken less than 30 times between the last two searches, as it would not pay.
-  /// O(entries).
-  /// @throws InvalidParameter if positions have been taken since the search. After any throw none are joined.
-  void join_entries(Executor* executor = nullptr);
+  /// Puts the entries of each row in the order that a kernel is faster with
+  /// (LennardJones::wanted_order()); all kernels take any. To be called after a search and before positions
+  /// are taken. Masks may lose pairs later, rows must not lose entries then. Does nothing if positions were
+  /// taken less than steps_to_order() times between the last two searches, as it would not pay. O(entries).
+  /// @throws InvalidParameter if positions have been taken since the search. After any throw the order is
+  ///   said to be as_found.
+  void order_entries(EntryOrder wanted, Executor* executor = nullptr);
+  /// How often positions have to be taken between two searches for an order to pay.
+  static constexpr int steps_to_order(EntryOrder order) { return order == EntryOrder::joined ? 10 : 3; }
 
   std::size_t memory_bytes() const;
 

@@ -72,14 +72,6 @@ struct RefreshTask {
   ClusterUnits* at_in_units;    ///< by cluster; written
 };
 
-/// Entries in the places that a refresh has written.
-struct NearSlotsTask {
-  const ClusterPairs::Entry* entries;
-  const ClusterUnits* at;
-  const ClusterShift<float>* shift;
-  float limit2;  ///< squared distance in units
-};
-
 /// The same for clusters that are near their places.
 struct FollowTask {
   RefreshTask refresh;                 ///< in which safe2 is of the distance from those places
@@ -93,6 +85,25 @@ struct FollowedClusters {
   std::int32_t uncertain = 0;  ///< of them those that are left as they were
 };
 
+inline constexpr int kJoinedAtOnce = 32;
+struct JoinedEntries {
+  std::int32_t alone = 0, joined = 0;
+};
+/// Where they go; up to 2 beyond are overwritten.
+struct JoinedEntriesTo {
+  ClusterPairs::Entry *alone, *joined;
+};
+
+/// How many entries have bits in both halves of their masks, in the lower one alone and in the upper one
+/// alone.
+struct EntryHalves {
+  std::int32_t both = 0, lower = 0, upper = 0;
+};
+/// Where they go; up to kEntriesAtOnce beyond are overwritten.
+struct EntryHalvesTo {
+  ClusterPairs::Entry *both, *lower, *upper;
+};
+
 /// The loops of the search of cluster pairs, compiled for one instruction set. No function allocates. All
 /// sets do the same.
 struct ClusterSearchKernels {
@@ -102,8 +113,8 @@ struct ClusterSearchKernels {
   std::int32_t (*keep_near)(const NearClusters& from, std::int32_t count, const ClusterBox& box,
                             std::int16_t limit, const ClusterMove& move, const NearClustersTo& to);
 
-  /// Writes the entries of a row: those of `count` clusters with a slot near one of the row's cluster, that
-  /// is with a sum of square(difference) < limit.
+  /// Writes the entries of a row, with the pairs of slots that are near, that is with a sum of
+  /// square(difference) < limit: those of `count` clusters that have any.
   FoundRow (*find_row)(const RowCluster& row, const NearClusters& from, std::int32_t count,
                        std::int16_t limit, ClusterPairs::Entry* to);
 
@@ -117,10 +128,13 @@ struct ClusterSearchKernels {
   /// there has to be room for all.
   FollowedClusters (*follow)(const FollowTask& task, std::int32_t* away);
 
-  /// Of each of the first `count` entries of a row, the bits of the pairs that are at most so far apart, in
-  /// its mask or not. Sets may round squares differently.
-  void (*near_slots)(const NearSlotsTask& task, const ClusterPairs::Row& row, std::int32_t count,
-                     std::uint16_t* near);
+  /// Copies up to kJoinedAtOnce entries: two by two those with no bit of their masks in common, and those
+  /// that stay alone. Fuller ones are asked first, and get the fullest one that fits. What is alone may go to
+  /// where the entries are.
+  JoinedEntries (*join)(const ClusterPairs::Entry* entries, std::int32_t count, const JoinedEntriesTo& to);
+
+  /// Copies entries, in order, by the halves of their masks that have bits.
+  EntryHalves (*split)(const ClusterPairs::Entry* entries, std::int32_t count, const EntryHalvesTo& to);
 };
 
 /// The kernels of a set that is supported.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
+#include "clusters/simd/join_loops.hpp"
 #include "clusters/simd/near_loops.hpp"
-#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
 #include "clusters/simd/vectors_avx2.hpp"
 #include "simd/lanes_avx2.hpp"
@@ -50,14 +50,28 @@ struct Avx2Fours : Avx2 {
             _mm256_permute2x128_si256(xz_of_ab, xz_of_cd, 0x31),
             _mm256_permute2x128_si256(ye_of_ab, ye_of_cd, 0x31)};
   }
-  static std::uint32_t fours_below(V a, V b) {
-    const V none = _mm256_cmpeq_epi64(_mm256_subs_epu16(b, a), _mm256_setzero_si256());
+  static V bits_where_below(V sum, V limit, int slot) {
+    const V beyond = _mm256_cmpeq_epi16(_mm256_subs_epu16(limit, sum), _mm256_setzero_si256());
+    return _mm256_andnot_si256(beyond, _mm256_set1_epi64x(bits_of_slot(slot)));
+  }
+  static V either(V a, V b) { return _mm256_or_si256(a, b); }
+  static V pairs(std::uint16_t mask) {
+    return _mm256_set1_epi64x(~kMasks | static_cast<long long>(std::uint64_t{mask} << 32));
+  }
+  static V keep_pairs(V entries, V near, V pairs) {
+    const V of_two = either(near, _mm256_srli_epi64(near, 32)),
+            all = either(of_two, _mm256_srli_epi64(of_two, 16));
+    const V others = _mm256_set1_epi64x(~kMasks);
+    return _mm256_and_si256(_mm256_and_si256(entries, pairs), either(_mm256_slli_epi64(all, 32), others));
+  }
+  static V load_entries(const ClusterPairs::Entry* from) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  }
+  static std::uint32_t with_bits(V entries, long long bits) {
+    const V none =
+        _mm256_cmpeq_epi64(_mm256_and_si256(entries, _mm256_set1_epi64x(bits)), _mm256_setzero_si256());
     return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(none))) ^ 15u;
   }
-  static V pairs(std::uint16_t mask) {
-    return _mm256_set1_epi64x(static_cast<long long>(0xFFFF0000FFFFFFFFULL | std::uint64_t{mask} << 32));
-  }
-  static V keep_pairs(V entries, V pairs) { return _mm256_and_si256(entries, pairs); }
   static std::int32_t append(std::uint32_t lanes, V entries, ClusterPairs::Entry* to) {
     const V order = _mm256_load_si256(reinterpret_cast<const __m256i*>(kPack64.halves[lanes]));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(entries, order));
@@ -74,9 +88,9 @@ struct Avx2Fours : Avx2 {
 }  // namespace
 
 const ClusterSearchKernels& cluster_search_kernels_avx2() {
-  static constexpr ClusterSearchKernels kKernels{keep_near<Avx2Fours>, find_row<Avx2Fours>,
-                                                 refresh_clusters<Avx2Fours>, follow_clusters<Avx2Fours>,
-                                                 near_slots<Avx2Float>};
+  static constexpr ClusterSearchKernels kKernels{
+      keep_near<Avx2Fours>,       find_row<Avx2Fours>, refresh_clusters<Avx2Fours>,
+      follow_clusters<Avx2Fours>, join<PlainMasks>,    split<Avx2Fours>};
   return kKernels;
 }
 

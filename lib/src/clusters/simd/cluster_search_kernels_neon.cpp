@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
+#include "clusters/simd/join_loops.hpp"
 #include "clusters/simd/near_loops.hpp"
-#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
 #include "clusters/simd/vectors_neon.hpp"
 #include "simd/lanes_neon.hpp"
@@ -46,14 +46,31 @@ struct NeonFours : Neon {
     };
     return {lower(0), upper(0), lower(1), upper(1)};
   }
-  static std::uint32_t fours_below(V a, V b) {
-    const uint64x2_t below = vreinterpretq_u64_u16(vcltq_u16(no_sign(a), no_sign(b))), bit = {1, 2};
-    return static_cast<std::uint32_t>(vaddvq_u64(vandq_u64(vtstq_u64(below, below), bit)));
+  static V bits_where_below(V sum, V limit, int slot) {
+    const uint16x8_t bits = vreinterpretq_u16_s64(vdupq_n_s64(bits_of_slot(slot)));
+    return with_sign(vandq_u16(vcltq_u16(no_sign(sum), no_sign(limit)), bits));
   }
+  static V either(V a, V b) { return vorrq_s16(a, b); }
   static V pairs(std::uint16_t mask) {
-    return vreinterpretq_s16_u64(vdupq_n_u64(0xFFFF0000FFFFFFFFULL | std::uint64_t{mask} << 32));
+    return vreinterpretq_s16_u64(
+        vdupq_n_u64(static_cast<std::uint64_t>(~kMasks) | std::uint64_t{mask} << 32));
   }
-  static V keep_pairs(V entries, V pairs) { return vandq_s16(entries, pairs); }
+  static V keep_pairs(V entries, V near, V pairs) {
+    const uint64x2_t bits = vreinterpretq_u64_s16(near), of_two = vorrq_u64(bits, vshrq_n_u64(bits, 32));
+    const uint64x2_t all = vorrq_u64(of_two, vshrq_n_u64(of_two, 16));
+    const uint64x2_t kept = vorrq_u64(vshlq_n_u64(all, 32), vdupq_n_u64(static_cast<std::uint64_t>(~kMasks)));
+    return vandq_s16(vandq_s16(entries, pairs), vreinterpretq_s16_u64(kept));
+  }
+  static V load_entries(const ClusterPairs::Entry* from) {
+    V entries;
+    __builtin_memcpy(&entries, from, sizeof entries);
+    return entries;
+  }
+  static std::uint32_t with_bits(V entries, long long bits) {
+    const uint64x2_t wanted = vdupq_n_u64(static_cast<std::uint64_t>(bits)), bit = {1, 2};
+    const uint64x2_t any = vtstq_u64(vreinterpretq_u64_s16(entries), wanted);
+    return static_cast<std::uint32_t>(vaddvq_u64(vandq_u64(any, bit)));
+  }
   static std::int32_t append(std::uint32_t lanes, V entries, ClusterPairs::Entry* to) {
     const V front = packed16(entries, kPack64.bytes[lanes]);
     __builtin_memcpy(to, &front, sizeof front);
@@ -73,9 +90,9 @@ struct NeonFours : Neon {
 }  // namespace
 
 const ClusterSearchKernels& cluster_search_kernels_neon() {
-  static constexpr ClusterSearchKernels kKernels{keep_near<NeonFours>, find_row<NeonFours>,
-                                                 refresh_clusters<NeonFours>, follow_clusters<NeonFours>,
-                                                 near_slots<NeonFloat>};
+  static constexpr ClusterSearchKernels kKernels{
+      keep_near<NeonFours>,       find_row<NeonFours>, refresh_clusters<NeonFours>,
+      follow_clusters<NeonFours>, join<PlainMasks>,    split<NeonFours>};
   return kKernels;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
+#include "clusters/simd/join_loops.hpp"
 #include "clusters/simd/near_loops.hpp"
-#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
 #include "clusters/simd/vectors_portable.hpp"
 #include "simd/lanes_portable.hpp"
@@ -38,8 +38,14 @@ struct PortableFours : Portable {
         return static_cast<std::int16_t>(static_cast<std::uint16_t>(sum > 0xFFFF ? 0xFFFF : sum));
       });
     }
-    static V least(V a, V b) {
-      return each([&](int k) { return Portable::least(a.slot[k], b.slot[k]); });
+    static V bits_where_below(V sum, V limit, int slot) {
+      return each([&](int k) {
+        const std::uint32_t is_below = bits_below(sum.slot[k], limit.slot[k]);
+        return static_cast<std::int16_t>(static_cast<std::uint16_t>(is_below << (4 * slot + k)));
+      });
+    }
+    static V either(V a, V b) {
+      return each([&](int k) { return static_cast<std::int16_t>(a.slot[k] | b.slot[k]); });
     }
   };
   struct Fours {
@@ -50,15 +56,15 @@ struct PortableFours : Portable {
     const NearCluster& cluster = from[*number];
     return {Four::load(cluster.x), Four::load(cluster.y), Four::load(cluster.z), cluster.entry};
   }
-  static std::uint32_t fours_below(Four::V a, Four::V b) {
-    std::uint32_t below = 0;
-    for (int k = 0; k < 4; ++k) below |= bits_below(a.slot[k], b.slot[k]);
-    return below;
-  }
   static std::uint16_t pairs(std::uint16_t mask) { return mask; }
-  static ClusterPairs::Entry keep_pairs(ClusterPairs::Entry entry, std::uint16_t pairs) {
-    entry.mask &= pairs;
+  static ClusterPairs::Entry keep_pairs(ClusterPairs::Entry entry, Four::V near, std::uint16_t pairs) {
+    const int all = near.slot[0] | near.slot[1] | near.slot[2] | near.slot[3];
+    entry.mask = static_cast<std::uint16_t>(entry.mask & pairs & all);
     return entry;
+  }
+  static ClusterPairs::Entry load_entries(const ClusterPairs::Entry* from) { return *from; }
+  static std::uint32_t with_bits(ClusterPairs::Entry entry, long long bits) {
+    return (entry.mask & static_cast<std::uint64_t>(bits) >> 32) != 0 ? 1 : 0;
   }
   static std::int32_t append(std::uint32_t is_near, ClusterPairs::Entry entry, ClusterPairs::Entry* to) {
     *to = entry;
@@ -84,8 +90,8 @@ struct PortableFours : Portable {
 
 const ClusterSearchKernels& cluster_search_kernels_portable() {
   static constexpr ClusterSearchKernels kKernels{
-      keep_near<PortableFours>, find_row<PortableFours>, refresh_clusters<PortableFours>,
-      follow_clusters<PortableFours>, near_slots<PortableVector<float>>};
+      keep_near<PortableFours>,       find_row<PortableFours>, refresh_clusters<PortableFours>,
+      follow_clusters<PortableFours>, join<PlainMasks>,        split<PortableFours>};
   return kKernels;
 }
 

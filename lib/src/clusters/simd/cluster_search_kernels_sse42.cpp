@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "clusters/simd/cluster_search_kernels_sets.hpp"
+#include "clusters/simd/join_loops.hpp"
 #include "clusters/simd/near_loops.hpp"
-#include "clusters/simd/near_slots_loops.hpp"
 #include "clusters/simd/refresh_loops.hpp"
 #include "clusters/simd/vectors_sse42.hpp"
 #include "simd/lanes_sse42.hpp"
@@ -36,14 +36,26 @@ struct Sse42Fours : Sse42 {
     return {_mm_unpacklo_epi64(xy, other_xy), _mm_unpackhi_epi64(xy, other_xy),
             _mm_unpacklo_epi64(ze, other_ze), _mm_unpackhi_epi64(ze, other_ze)};
   }
-  static std::uint32_t fours_below(V a, V b) {
-    const V none = _mm_cmpeq_epi64(_mm_subs_epu16(b, a), _mm_setzero_si128());
+  static V bits_where_below(V sum, V limit, int slot) {
+    const V beyond = _mm_cmpeq_epi16(_mm_subs_epu16(limit, sum), _mm_setzero_si128());
+    return _mm_andnot_si128(beyond, _mm_set1_epi64x(bits_of_slot(slot)));
+  }
+  static V either(V a, V b) { return _mm_or_si128(a, b); }
+  static V pairs(std::uint16_t mask) {
+    return _mm_set1_epi64x(~kMasks | static_cast<long long>(std::uint64_t{mask} << 32));
+  }
+  static V keep_pairs(V entries, V near, V pairs) {
+    const V of_two = either(near, _mm_srli_epi64(near, 32)), all = either(of_two, _mm_srli_epi64(of_two, 16));
+    const V others = _mm_set1_epi64x(~kMasks);
+    return _mm_and_si128(_mm_and_si128(entries, pairs), either(_mm_slli_epi64(all, 32), others));
+  }
+  static V load_entries(const ClusterPairs::Entry* from) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  }
+  static std::uint32_t with_bits(V entries, long long bits) {
+    const V none = _mm_cmpeq_epi64(_mm_and_si128(entries, _mm_set1_epi64x(bits)), _mm_setzero_si128());
     return static_cast<std::uint32_t>(_mm_movemask_pd(_mm_castsi128_pd(none))) ^ 3u;
   }
-  static V pairs(std::uint16_t mask) {
-    return _mm_set1_epi64x(static_cast<long long>(0xFFFF0000FFFFFFFFULL | std::uint64_t{mask} << 32));
-  }
-  static V keep_pairs(V entries, V pairs) { return _mm_and_si128(entries, pairs); }
   static std::int32_t append(std::uint32_t lanes, V entries, ClusterPairs::Entry* to) {
     const V order = _mm_load_si128(reinterpret_cast<const __m128i*>(kPack64.bytes[lanes]));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(entries, order));
@@ -63,9 +75,9 @@ struct Sse42Fours : Sse42 {
 }  // namespace
 
 const ClusterSearchKernels& cluster_search_kernels_sse42() {
-  static constexpr ClusterSearchKernels kKernels{keep_near<Sse42Fours>, find_row<Sse42Fours>,
-                                                 refresh_clusters<Sse42Fours>, follow_clusters<Sse42Fours>,
-                                                 near_slots<SseFloat>};
+  static constexpr ClusterSearchKernels kKernels{
+      keep_near<Sse42Fours>,       find_row<Sse42Fours>, refresh_clusters<Sse42Fours>,
+      follow_clusters<Sse42Fours>, join<PlainMasks>,     split<Sse42Fours>};
   return kKernels;
 }
 

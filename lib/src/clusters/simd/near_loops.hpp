@@ -19,6 +19,12 @@ inline std::uint16_t pairs_of_row(std::uint32_t mask) {
   return static_cast<std::uint16_t>(15 * first);
 }
 
+/// Of an entry, its mask.
+inline constexpr long long kMasks = 0x0000FFFF00000000LL;
+
+/// Bits 4 a + b for slot a of a row's cluster, in lane b of the four that stand side by side.
+inline long long bits_of_slot(int a) { return static_cast<long long>(0x0008000400020001ULL << (4 * a)); }
+
 template <class S>
 struct BoxTest {
   using V = typename S::V;
@@ -84,16 +90,18 @@ struct SlotsOfRow {
       z[slot] = Four::set1(cluster.z[slot]);
     }
   }
-  /// Of each slot of other clusters the least sum of squares with any slot of this one.
-  typename Four::V least_sum(const typename S::Fours& j) const {
-    typename Four::V least{};
+  /// Of each slot of other clusters bits 4 a + b of the pairs with slots a of this one whose sum of squares
+  /// is less than a limit, in the lane of slot b.
+  typename Four::V pairs_below(const typename S::Fours& j, typename Four::V limit) const {
+    typename Four::V near{};
     for (int slot = 0; slot < 4; ++slot) {
-      const auto t = Four::add_unsigned(
+      const auto sum = Four::add_unsigned(
           Four::add_unsigned(Four::square(Four::subs(j.x, x[slot])), Four::square(Four::subs(j.y, y[slot]))),
           Four::square(Four::subs(j.z, z[slot])));
-      least = slot == 0 ? t : Four::least(least, t);
+      const auto of_slot = Four::bits_where_below(sum, limit, slot);
+      near = slot == 0 ? of_slot : Four::either(near, of_slot);
     }
-    return least;
+    return near;
   }
   typename Four::V x[4], y[4], z[4];
 };
@@ -118,10 +126,10 @@ FoundRow find_row(const RowCluster& row, const NearClusters& from, std::int32_t 
     for (int more = 0; more < S::kFours; ++more) number[found + more] = 0;
     for (std::int32_t n = 0; n < found; n += S::kFours) {
       const auto j = S::fours(from.cluster + first, number + n);
-      std::uint32_t near = S::fours_below(slots.least_sum(j), most);
+      const auto entries = S::keep_pairs(j.entry, slots.pairs_below(j, most), pairs);
       const std::int32_t left = found - n < S::kFours ? found - n : S::kFours;  // no branch: hard to foretell
-      near &= (1u << left) - 1;
-      all.entries += S::append(near, S::keep_pairs(j.entry, pairs), to + all.entries);
+      const std::uint32_t near = S::with_bits(entries, kMasks) & ((1u << left) - 1);
+      all.entries += S::append(near, entries, to + all.entries);
     }
     all.compared += found;
   }

@@ -76,12 +76,15 @@ struct Avx512Float {
     return _mm512_mask_broadcast_i32x4(columns(first), static_cast<__mmask16>(of_second),
                                        _mm_loadu_si128(reinterpret_cast<const __m128i*>(second)));
   }
-  static Cluster load_clusters(const ClusterUnits& first, std::uint32_t of_second, const ClusterUnits& second,
-                               const ClusterShift<float>& shift) {
-    const auto moved = [&](const std::int32_t* one, const std::int32_t* other, int axis) {
-      return _mm512_add_epi32(repeat_either(one, of_second, other), _mm512_set1_epi32(shift.axis[axis]));
-    };
-    return {moved(first.x, second.x, 0), moved(first.y, second.y, 1), moved(first.z, second.z, 2)};
+  /// Of rows whose shift was taken from cluster I.
+  static Cluster load_cluster(const ClusterUnits& at) { return {repeat(at.x), repeat(at.y), repeat(at.z)}; }
+  static Cluster load_clusters(const ClusterUnits& first, std::uint32_t of_second,
+                               const ClusterUnits& second) {
+    return {repeat_either(first.x, of_second, second.x), repeat_either(first.y, of_second, second.y),
+            repeat_either(first.z, of_second, second.z)};
+  }
+  static Where less_shift(Where a, const ClusterShift<float>& shift, int axis) {
+    return _mm512_sub_epi32(a, _mm512_set1_epi32(shift.axis[axis]));
   }
   /// Adds products to the second numbers where bits are set, to the first elsewhere.
   static void add_either(V a, V b, float* first, std::uint32_t of_second, float* second) {
