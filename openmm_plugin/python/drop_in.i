@@ -30,6 +30,7 @@ enum class DropInPrecision { Mixed, Double };
 void enableDropIn(DropInPrecision precision);
 void disableDropIn();
 bool isDropInEnabled();
+bool enableReciprocal();
 int countOfForcesBeforeDropIn();
 std::vector<OpenMMDCH::NonbondedStatus> nonbondedStatus(const OpenMM::Context& context);
 }  // namespace OpenMMDCH

@@ -30,6 +30,15 @@ void enableDropIn(DropInPrecision precision = DropInPrecision::Mixed);
 void disableDropIn();
 bool isDropInEnabled();
 
+/// Has PME's and LJPME's sums in reciprocal space computed on meshes of ours by OpenMM's own kernels of the
+/// platform CPU, which keep the pairs, in Contexts that compute forces for the first time from now on.
+/// enableDropIn() does so too, for forces that are left to OpenMM; disableDropIn() ends it. Not while another
+/// thread makes a Context.
+///
+/// @return false, and nothing changes, if another plugin has such kernels already, as OpenMM's own for PME
+/// @throws OpenMMException as enableDropIn()
+bool enableReciprocal();
+
 /// Who computes a nonbonded force or one of implicit solvent: "DCH", "OpenMM", or "" for a part that the
 /// force has not.
 struct NonbondedStatus {

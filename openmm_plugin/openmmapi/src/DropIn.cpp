@@ -32,9 +32,7 @@ std::string reasonWithoutKernel(const std::string& platform) {
   return "the drop-in was not enabled when the Context was made";
 }
 
-}  // namespace
-
-void enableDropIn(DropInPrecision precision) {
+void requirePlatforms() {
   DropInRegistry& registry = DropInRegistry::get();
   for (const std::string name : {"Reference", "CPU"})
     if (hasPlatformOfOpenMM(name) && !registry.hasPlatform(name))
@@ -46,13 +44,34 @@ void enableDropIn(DropInPrecision precision) {
     throw OpenMM::OpenMMException(
         "openmm_dch: OpenMM has no platform CPU here; see whether the environment variable OPENMM_PLUGIN_DIR "
         "names a folder without OpenMM's own plugins");
+}
+
+bool isOnMesh(const OpenMM::NonbondedForce& force) {
+  const auto method = force.getNonbondedMethod();
+  return method == OpenMM::NonbondedForce::PME || method == OpenMM::NonbondedForce::LJPME;
+}
+
+}  // namespace
+
+void enableDropIn(DropInPrecision precision) {
+  requirePlatforms();
+  DropInRegistry& registry = DropInRegistry::get();
   registry.setDouble(precision == DropInPrecision::Double);
   registry.setEnabled(true);
+  registry.registerReciprocal();
+}
+
+bool enableReciprocal() {
+  requirePlatforms();
+  if (!DropInRegistry::get().registerReciprocal()) return false;
+  DropInRegistry::get().setReciprocalEnabled(true);
+  return true;
 }
 
 void disableDropIn() {
   DropInRegistry::get().setDouble(false);
   DropInRegistry::get().setEnabled(false);
+  DropInRegistry::get().setReciprocalEnabled(false);
 }
 
 bool isDropInEnabled() { return DropInRegistry::get().isEnabled(); }
@@ -76,6 +95,8 @@ std::vector<NonbondedStatus> nonbondedStatus(const OpenMM::Context& context) {
     } else if (!dynamic_cast<const DCHNonbondedForce*>(&force)) {
       continue;
     }
+    if (own && isOnMesh(*own) && status.reciprocal == "OpenMM" && DropInRegistry::get().hasMesh(context))
+      status.reciprocal = "DCH";
     status.force = k;
     all.push_back(status);
   }

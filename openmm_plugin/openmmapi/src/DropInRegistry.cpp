@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <openmm/Platform.h>
 
 namespace OpenMMDCH {
 namespace {
@@ -64,6 +65,47 @@ void DropInRegistry::countNative() {
 int DropInRegistry::nativeCount() {
   const Lock lock(mutex);
   return natives;
+}
+
+void DropInRegistry::setReciprocal(void (*registration)()) {
+  const Lock lock(mutex);
+  reciprocal = registration;
+}
+
+bool DropInRegistry::registerReciprocal() {
+  const Lock lock(mutex);
+  if (isReciprocalRegistered) return true;
+  const OpenMM::Platform& platform = OpenMM::Platform::getPlatformByName("CPU");
+  for (const std::string name : {"CalcPmeReciprocalForce", "CalcDispersionPmeReciprocalForce"})
+    if (platform.supportsKernels({name})) return false;
+  reciprocal();
+  isReciprocalRegistered = true;
+  return true;
+}
+
+void DropInRegistry::setReciprocalEnabled(bool value) {
+  const Lock lock(mutex);
+  isReciprocalWanted = value;
+}
+
+bool DropInRegistry::isReciprocalEnabled() {
+  const Lock lock(mutex);
+  return enabled || isReciprocalWanted;
+}
+
+void DropInRegistry::addMesh(const OpenMM::Context& context) {
+  const Lock lock(mutex);
+  contextsWithMesh.insert(&context);
+}
+
+void DropInRegistry::removeMesh(const OpenMM::Context& context) {
+  const Lock lock(mutex);
+  contextsWithMesh.erase(contextsWithMesh.find(&context));
+}
+
+bool DropInRegistry::hasMesh(const OpenMM::Context& context) {
+  const Lock lock(mutex);
+  return contextsWithMesh.count(&context) > 0;
 }
 
 void DropInRegistry::remember(const OpenMM::Context& context, const OpenMM::Force& force,

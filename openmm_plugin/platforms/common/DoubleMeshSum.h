@@ -12,11 +12,11 @@ namespace OpenMMDCH {
 class DoubleMeshSum : public MeshSum {
  public:
   using MeshSum::MeshSum;
+  double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
   std::string computedBy() const override { return "OpenMM"; }
 
  protected:
   void start(int particles) override;
-  double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
 
  private:
   std::shared_ptr<void> function;  ///< what OpenMM's function keeps

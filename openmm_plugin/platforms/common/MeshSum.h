@@ -2,6 +2,8 @@
 #ifndef OPENMM_DCH_MESH_SUM_H_
 #define OPENMM_DCH_MESH_SUM_H_
 
+#include <array>
+
 #include "ReciprocalSum.h"
 
 namespace OpenMMDCH {
@@ -13,6 +15,8 @@ class MeshSum : public ReciprocalSum {
 
   /// Grid and splitting are those that OpenMM chooses; a platform may have a finer grid.
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force) override;
+  /// With a grid and a splitting that somebody else has chosen.
+  void initialize(const std::array<int, 3>& chosenGrid, double chosenSplitting, int particles);
   const int* gridSize() const override { return grid; }
 
  protected:

@@ -34,14 +34,14 @@ class ReciprocalSum {
   /// Adds forces to those of the Context [kJ/mol/nm] and returns the energy [kJ/mol], that of each particle
   /// with itself taken away, and that of a background where OpenMM counts it.
   double add(OpenMM::ContextImpl& context, const std::vector<DCHParameterSet::Particle>& particles);
+  /// Adds forces likewise.
+  /// @param charges  or coefficients of dispersion
+  /// @return the energy, that of each charge with itself included
+  virtual double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) = 0;
   /// As NonbondedStatus has it.
   virtual std::string computedBy() const = 0;
 
  protected:
-  /// @param charges  or coefficients of dispersion
-  /// @return the energy, that of each charge with itself included
-  virtual double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) = 0;
-
   bool isOfDispersion() const { return what == dch::LatticeSum::dispersion; }
 
   dch::LatticeSum what;

@@ -20,9 +20,17 @@
 #include "EwaldSum.h"
 #include "NecklaceContactKernel.h"
 #include "PoolExecutor.h"
+#include "ReciprocalKernel.h"
 #include "internal/DropInRegistry.h"
 
 namespace {
+
+bool isDouble() { return OpenMMDCH::DropInRegistry::get().isDouble(); }
+
+std::unique_ptr<OpenMMDCH::MeshSum> meshFor(dch::LatticeSum what, bool isOurs, OpenMM::ThreadPool& threads) {
+  if (!isOurs || isDouble()) return std::make_unique<OpenMMDCH::DoubleMeshSum>(what);
+  return std::make_unique<OpenMMDCH::CpuMeshSum>(what, threads);
+}
 
 class CpuDCHKernelFactory : public OpenMM::KernelFactory {
  public:
@@ -47,18 +55,12 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
   }
 
  private:
-  static bool isDouble() { return OpenMMDCH::DropInRegistry::get().isDouble(); }
-  static std::unique_ptr<OpenMMDCH::ReciprocalSum> meshFor(dch::LatticeSum what,
-                                                           OpenMM::ThreadPool& threads) {
-    if (isDouble()) return std::make_unique<OpenMMDCH::DoubleMeshSum>(what);
-    return std::make_unique<OpenMMDCH::CpuMeshSum>(what, threads);
-  }
   static OpenMMDCH::SumsOfPlatform sumsFor(OpenMM::ThreadPool& threads) {
     OpenMMDCH::SumsOfPlatform sums;
     sums.pairs = std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads, isDouble());
     sums.waves = std::make_unique<OpenMMDCH::EwaldSum>(std::make_unique<OpenMMDCH::PoolExecutor>(threads));
-    sums.mesh = meshFor(dch::LatticeSum::coulomb, threads);
-    sums.dispersionMesh = meshFor(dch::LatticeSum::dispersion, threads);
+    sums.mesh = meshFor(dch::LatticeSum::coulomb, true, threads);
+    sums.dispersionMesh = meshFor(dch::LatticeSum::dispersion, true, threads);
     return sums;
   }
   static std::unique_ptr<OpenMMDCH::BornSum> bornSumFor(OpenMM::ThreadPool& threads) {
@@ -68,6 +70,39 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
 
   OpenMM::CpuKernelFactory native;
 };
+
+/// For OpenMM's own NonbondedForce. Without ours being asked for OpenMM's function computes what that force
+/// would have computed with it.
+class CpuReciprocalKernelFactory : public OpenMM::KernelFactory {
+ public:
+  OpenMM::KernelImpl* createKernelImpl(std::string name, const OpenMM::Platform& platform,
+                                       OpenMM::ContextImpl& context) const override {
+    using OpenMM::CalcDispersionPmeReciprocalForceKernel;
+    using OpenMM::CalcPmeReciprocalForceKernel;
+    if (name == CalcPmeReciprocalForceKernel::Name())
+      return new OpenMMDCH::ReciprocalKernel<CalcPmeReciprocalForceKernel>(
+          name, platform, context, meshFor(dch::LatticeSum::coulomb, context));
+    using OfDispersion =
+        OpenMMDCH::ReciprocalKernel<CalcDispersionPmeReciprocalForceKernel, CalcPmeReciprocalForceKernel>;
+    CalcDispersionPmeReciprocalForceKernel* const kernel =
+        new OfDispersion(name, platform, context, meshFor(dch::LatticeSum::dispersion, context));
+    return kernel;
+  }
+
+ private:
+  static std::unique_ptr<OpenMMDCH::MeshSum> meshFor(dch::LatticeSum what, OpenMM::ContextImpl& context) {
+    const bool isOurs = OpenMMDCH::DropInRegistry::get().isReciprocalEnabled();
+    return ::meshFor(what, isOurs, OpenMM::CpuPlatform::getPlatformData(context).threads);
+  }
+};
+
+void registerReciprocal() {
+  OpenMM::Platform& platform = OpenMM::Platform::getPlatformByName("CPU");
+  auto* const factory = new CpuReciprocalKernelFactory();
+  platform.registerKernelFactory(OpenMM::CalcPmeReciprocalForceKernel::Name(), factory);
+  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): a Platform deletes its factories
+  platform.registerKernelFactory(OpenMM::CalcDispersionPmeReciprocalForceKernel::Name(), factory);
+}
 
 }  // namespace
 
@@ -85,5 +120,7 @@ extern "C" OPENMM_EXPORT void registerKernelFactories() {
       platform.registerKernelFactory(name, factory);
     // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): a Platform deletes its factories
     OpenMMDCH::DropInRegistry::get().addPlatform(platform.getName());
+    OpenMMDCH::DropInRegistry::get().setReciprocal(registerReciprocal);
+    if (OpenMMDCH::DropInRegistry::get().isEnabled()) OpenMMDCH::DropInRegistry::get().registerReciprocal();
   }
 }

@@ -15,11 +15,11 @@ namespace OpenMMDCH {
 class CpuMeshSum : public MeshSum {
  public:
   CpuMeshSum(dch::LatticeSum ofWhat, OpenMM::ThreadPool& threads) : MeshSum(ofWhat), executor(threads) {}
+  double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
   std::string computedBy() const override { return "DCH"; }
 
  protected:
   void start(int particles) override;
-  double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
 
  private:
   PoolExecutor executor;

@@ -11,12 +11,13 @@ Importing it loads the kernels for OpenMM's platforms Reference and CPU.
 
 import openmm as _openmm
 
-from ._drop_in import disable, enable, status
+from ._drop_in import disable, enable, enable_reciprocal, status
 from ._location import PLUGINS as _PLUGINS
 from ._location import VERSION as __version__
 from .force import DCHNonbondedForce, NecklaceContactForce
 
-__all__ = ["DCHNonbondedForce", "NecklaceContactForce", "__version__", "disable", "enable", "replaceNonbonded", "status"]
+__all__ = ["DCHNonbondedForce", "NecklaceContactForce", "__version__", "disable", "enable", "enable_reciprocal",
+           "replaceNonbonded", "status"]
 
 
 def _load_plugins():

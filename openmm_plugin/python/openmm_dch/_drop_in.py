@@ -33,8 +33,24 @@ def enable(precision="mixed"):
 
 
 def disable():
-    """Contexts that are made from now on have OpenMM's own forces; those that there are stay as they are."""
+    """Contexts that are made from now on have OpenMM's own forces; those that there are stay as they are.
+
+    It ends enable_reciprocal() as well.
+    """
     _force.disableDropIn()
+
+
+def enable_reciprocal():
+    """Has the sums of PME and LJPME in reciprocal space computed on DCH's meshes by OpenMM's own NonbondedForce on the
+    platform CPU, which keeps the pairs, in Contexts that compute forces for the first time from now on.
+
+    enable() does so too, for forces that are left to OpenMM; disable() ends it. Call neither of these while another
+    thread makes a Context.
+
+    Returns True; False, and nothing changes, if another plugin has such kernels, as OpenMM's own for PME. Raises
+    OpenMMException as enable() does.
+    """
+    return _force.enableReciprocal()
 
 
 def status(context):

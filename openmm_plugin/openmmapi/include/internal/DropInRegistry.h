@@ -33,6 +33,20 @@ class DropInRegistry {
   /// How often that happened before it was first enabled; 0 from then on.
   int nativeCount();
 
+  /// What has OpenMM's own kernels on the platform CPU find ours for reciprocal space.
+  void setReciprocal(void (*registration)());
+  /// Calls it, the first time. There has to be one.
+  /// @return false if the platform has such kernels of others
+  bool registerReciprocal();
+  /// Of kernels for reciprocal space that are made from now on; those of the drop-in, while it is enabled,
+  /// too.
+  void setReciprocalEnabled(bool value);
+  bool isReciprocalEnabled();
+  /// A mesh of ours is made for OpenMM's kernel in a Context, and is destroyed.
+  void addMesh(const OpenMM::Context& context);
+  void removeMesh(const OpenMM::Context& context);
+  bool hasMesh(const OpenMM::Context& context);
+
   /// Remembers who computes a force of a Context, until it is forgotten.
   void remember(const OpenMM::Context& context, const OpenMM::Force& force, const NonbondedStatus& status);
   void forget(const OpenMM::Context& context, const OpenMM::Force& force);
@@ -47,7 +61,10 @@ class DropInRegistry {
   std::mutex mutex;
   bool enabled, wasEnabled, isAllDouble = false;
   int natives = 0;
+  void (*reciprocal)() = nullptr;
+  bool isReciprocalRegistered = false, isReciprocalWanted = false;
   std::set<std::string> platforms, said;
+  std::multiset<const OpenMM::Context*> contextsWithMesh;
   std::map<std::pair<const OpenMM::Context*, const OpenMM::Force*>, NonbondedStatus> statusOf;
 };
 
