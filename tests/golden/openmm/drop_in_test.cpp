@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// OpenMM's own NonbondedForce by the drop-in: against all pairs in double, and against OpenMM.
+// OpenMM's own NonbondedForce by the drop-in: against all pairs in double, and against OpenMM. With
+// DCH_DROP_IN_SCENES=190 in the environment there are 1,000 random Systems and more.
+#include <cstdlib>
+
 #include "drop_in_case.hpp"
 
 namespace OpenMMDCH {
@@ -8,11 +11,17 @@ namespace {
 
 DCH_ON_EACH_PLATFORM(DropInTest);
 
+/// Of each method.
+std::uint64_t count_of_scenes() {
+  const char* const asked = std::getenv("DCH_DROP_IN_SCENES");
+  return asked ? std::strtoull(asked, nullptr, 10) : 40;
+}
+
 TEST_P(DropInTest, RandomSystemsEqualAllPairs) {
   for (const auto method :
        {NonbondedForce::NoCutoff, NonbondedForce::CutoffNonPeriodic, NonbondedForce::CutoffPeriodic,
         NonbondedForce::Ewald, NonbondedForce::PME, NonbondedForce::LJPME})
-    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (std::uint64_t seed = 1; seed <= count_of_scenes(); ++seed) {
       const std::unique_ptr<RandomSystem> made = random_system(method, seed);
       if (method == NonbondedForce::Ewald && is_skewed(*made)) continue;
       const std::unique_ptr<Host> host = drop_in(made->system);
