@@ -148,7 +148,7 @@ BornPairTerms<S> born_pair_terms(typename S::V r2, typename S::V charges, typena
                                  typename S::V quarter_over_radii, const BornConstants& constants) {
   using V = typename S::V;
   const V depth = S::mul(r2, quarter_over_radii);
-  const V gauss = exp_of_negative<S>(S::sub(S::zero(), depth));
+  const V gauss = exponential<S>(S::sub(S::zero(), depth));
   const V f2 = S::madd(radii, gauss, r2), over_f2 = S::inverse(f2), over_f = S::over_root(f2, over_f2);
   const V rest = S::sub(over_f, S::set1(constants.shift));
   BornPairTerms<S> terms{S::zero(), S::zero(), S::zero()};
@@ -156,7 +156,7 @@ BornPairTerms<S> born_pair_terms(typename S::V r2, typename S::V charges, typena
   if constexpr (kSalt) {
     const V f = S::mul(f2, over_f), kappa = S::set1(constants.kappa);
     const V salt =
-        S::mul(exp_of_negative<S>(S::mul(S::sub(S::zero(), kappa), f)), S::set1(constants.over_solvent));
+        S::mul(exponential<S>(S::mul(S::sub(S::zero(), kappa), f)), S::set1(constants.over_solvent));
     const V screened = S::sub(S::set1(constants.over_solute), salt);
     const V inner = S::msub(S::mul(kappa, salt), rest, S::mul(screened, over_f2));
     strength = S::mul(S::mul(charges, inner), over_f);

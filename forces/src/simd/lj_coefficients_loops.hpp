@@ -127,7 +127,8 @@ struct PairCoefficients<S, LjParameters::by_type> {
   typename S::Columns of_j{};
 };
 
-/// Mixed by the rules of Lorentz and Berthelot: mean sigma, geometric mean of epsilon. One cutoff for all.
+/// Mixed by the rules of Lorentz and Berthelot: mean sigma, geometric mean of epsilon. The same cutoffs for
+/// all.
 template <class S>
 struct PairCoefficients<S, LjParameters::by_particle> {
   static constexpr bool kMixes = true;
@@ -136,7 +137,8 @@ struct PairCoefficients<S, LjParameters::by_particle> {
   explicit PairCoefficients(const LjTask<Real>& task)
       : half_sigma(task.half_sigma),
         root_epsilon(task.root_epsilon),
-        cutoff2(S::set1(*task.coefficients.cutoff2)) {}
+        cutoff2(S::set1(*task.coefficients.cutoff2)),
+        coulomb_cutoff2(S::set1(*task.coefficients.coulomb_cutoff2)) {}
   void choose_i(std::int32_t cluster) {
     for (int p = 0; p < S::kRegisters; ++p) {
       sigma_of_i[p] = S::spread(half_sigma + 4 * cluster, p);
@@ -148,13 +150,14 @@ struct PairCoefficients<S, LjParameters::by_particle> {
     sigma_of_j = beside.repeat(half_sigma);
     epsilon_of_j = beside.repeat(root_epsilon);
   }
-  V operator()(int, int) const { return cutoff2; }
-  V common_cutoff2() const { return cutoff2; }
+  V operator()(int k, int) const { return k == kCoulombCutoff2 ? coulomb_cutoff2 : cutoff2; }
+  V common_cutoff2() const { return S::max(cutoff2, coulomb_cutoff2); }
   V sigma(int p) const { return S::add(sigma_of_i[p], sigma_of_j); }
   V four_epsilon(int p) const { return S::mul(epsilon_of_i[p], epsilon_of_j); }
 
   const Real *half_sigma, *root_epsilon;
-  V cutoff2, sigma_of_i[S::kRegisters], epsilon_of_i[S::kRegisters], sigma_of_j, epsilon_of_j;
+  V cutoff2, coulomb_cutoff2, sigma_of_i[S::kRegisters], epsilon_of_i[S::kRegisters], sigma_of_j,
+      epsilon_of_j;
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ constexpr int end_of_registers(Half half) {
   return half == Half::lower ? S::kRegisters / 2 : S::kRegisters;
 }
 
-template <class S, LjParameters kParameters, ForceKind kKind, Half kHalf, class J>
+template <class S, LjParameters kParameters, class Kind, Half kHalf, class J>
 Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row, const Places<S>& i,
                        const J& beside, PairCoefficients<S, kParameters>& coefficient,
                        const Constants<S>& constants) {
@@ -43,17 +43,19 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
   Separations<S> found;
   for (int p = first_register<S>(kHalf); p < end_of_registers<S>(kHalf); ++p) {
     const V dx = S::difference(j.x, i.x[p]), dy = S::difference(j.y, i.y[p]), dz = S::difference(j.z, i.z[p]);
-    const V r2 = in_length2<S>(S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz))), constants.unit2);
+    V r2 = in_length2<S>(S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz))), constants.unit2);
+    if constexpr (Kind::kActsAtZero) r2 = S::max(r2, S::set1(kNearZero<typename S::Real>));
     found.d.x[p] = dx;
     found.d.y[p] = dy;
     found.d.z[p] = dz;
     found.r2[p] = r2;
     V reach2;
-    if constexpr (has_one_cutoff(kKind))
+    if constexpr (Kind::kHasOneCutoff || PairCoefficients<S, kParameters>::kMixes)
       reach2 = coefficient.common_cutoff2();
     else
       reach2 = coefficient(kCutoff2, p);
-    if constexpr (has_two_cutoffs(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
+    if constexpr (Kind::kHasTwoCutoffs && !PairCoefficients<S, kParameters>::kMixes)
+      reach2 = S::max(reach2, coefficient(kCoulombCutoff2, p));
     found.s[p] = S::keep(S::less(r2, reach2, beside.mask(), p), S::inverse(r2));
   }
   return found;
@@ -83,7 +85,7 @@ void add_to_lanes(typename S::V force, const Coordinates<S>& d, Coordinates<S>& 
 }
 
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind, Half kHalf, class J>
+template <class S, LjParameters kParameters, bool kSums, class Kind, Half kHalf, class J>
 void apply(const LjTask<typename S::Real>& task, const J& beside, const Separations<S>& separation,
            PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
            const Constants<S>& constants, RowSums<S>& sum) {
@@ -95,11 +97,11 @@ void apply(const LjTask<typename S::Real>& task, const J& beside, const Separati
   for (int p = first_register<S>(kHalf); p < end_of_registers<S>(kHalf); ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
     Products<S> products{S::zero(), S::zero()};
-    if constexpr (has_charges(kKind)) products.charge = S::mul(charges.of_i[p], beside.repeat(task.charge));
-    if constexpr (has_dispersion(kKind))
+    if constexpr (Kind::kHasCharges) products.charge = S::mul(charges.of_i[p], beside.repeat(task.charge));
+    if constexpr (Kind::kHasDispersion)
       products.dispersion = S::mul(charges.dispersion_of_i[p], beside.repeat(task.dispersion));
     const PairTerms<S> terms =
-        pair_terms<S, kSums, kKind>(coefficient, p, separation.r2[p], s, products, constants);
+        Kind::template terms<S, kSums>(coefficient, p, separation.r2[p], s, products, constants);
     // The force on J, which the displacement points to.
     force.x[p] = S::mul(terms.force, dx);
     force.y[p] = S::mul(terms.force, dy);
@@ -113,7 +115,7 @@ void apply(const LjTask<typename S::Real>& task, const J& beside, const Separati
     }
     if constexpr (kSums) {
       sum.energy = S::add(sum.energy, terms.energy);
-      if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+      if constexpr (Kind::kHasCharges) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
       const V x = in_length<S>(dx, constants.unit), y = in_length<S>(dy, constants.unit),
               z = in_length<S>(dz, constants.unit);
       sum.virial[0] = S::madd(x, force.x[p], sum.virial[0]);

@@ -45,7 +45,7 @@ constexpr bool kMeasuresAhead = S::kRegisters <= 2;
 /// The pairs of a row with entries [entry, end). Separations are measured one entry ahead, if they take few
 /// registers: the chain of dependent operations through one entry is longer than what a processor can look
 /// ahead over.
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind, Half kHalf, class J>
+template <class S, LjParameters kParameters, bool kSums, class Kind, Half kHalf, class J>
 void add_entries(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row, const Places<S>& i,
                  const ClusterPairs::Entry* entry, const ClusterPairs::Entry* end,
                  PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
@@ -53,10 +53,10 @@ void add_entries(const LjTask<typename S::Real>& task, const ClusterPairs::Row& 
   if (entry == end) return;
   const ClusterPairs::Entry* const last = end - 1;
   const auto measured = [&](const ClusterPairs::Entry* of) {
-    return measure<S, kParameters, kKind, kHalf>(task, row, i, J{of}, coefficient, constants);
+    return measure<S, kParameters, Kind, kHalf>(task, row, i, J{of}, coefficient, constants);
   };
   const auto apply_to = [&](const ClusterPairs::Entry* to, const Separations<S>& separation) {
-    apply<S, kParameters, kSums, kKind, kHalf>(task, J{to}, separation, coefficient, charges, constants, sum);
+    apply<S, kParameters, kSums, Kind, kHalf>(task, J{to}, separation, coefficient, charges, constants, sum);
   };
   Separations<S> separation = measured(entry);
   for (; entry != last; ++entry) {
@@ -73,7 +73,7 @@ void add_entries(const LjTask<typename S::Real>& task, const ClusterPairs::Row& 
 }
 
 /// Those that are joined two by two.
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+template <class S, LjParameters kParameters, bool kSums, class Kind>
 void add_joined(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row, const Places<S>& i,
                 const ClusterPairs::Entry* entry, const ClusterPairs::Entry* end,
                 PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
@@ -81,14 +81,14 @@ void add_joined(const LjTask<typename S::Real>& task, const ClusterPairs::Row& r
   for (; entry != end; entry += 2) {
     const TwoBeside<S> beside{entry};
     const Separations<S> separation =
-        measure<S, kParameters, kKind, Half::both>(task, row, i, beside, coefficient, constants);
-    apply<S, kParameters, kSums, kKind, Half::both>(task, beside, separation, coefficient, charges, constants,
+        measure<S, kParameters, Kind, Half::both>(task, row, i, beside, coefficient, constants);
+    apply<S, kParameters, kSums, Kind, Half::both>(task, beside, separation, coefficient, charges, constants,
                                                     sum);
   }
 }
 
 /// All entries of a row, in whatever order they stand. Those that are joined can be taken one by one, too.
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+template <class S, LjParameters kParameters, bool kSums, class Kind>
 void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
              PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
              const Constants<S>& constants, RowSums<S>& sum) {
@@ -102,9 +102,9 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
       i.y[0] = S::less_shift(i.y[0], shift, 1);
       i.z[0] = S::less_shift(i.z[0], shift, 2);
       const ClusterPairs::Entry* const joined = entry + task.parts[r].first;
-      add_entries<S, kParameters, kSums, kKind, Half::both, OneBeside<S, false>>(
+      add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S, false>>(
           task, row, i, entry, joined, coefficient, charges, constants, sum);
-      add_joined<S, kParameters, kSums, kKind>(task, row, i, joined, end, coefficient, charges, constants,
+      add_joined<S, kParameters, kSums, Kind>(task, row, i, joined, end, coefficient, charges, constants,
                                                sum);
       return;
     }
@@ -113,17 +113,17 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
   if constexpr (kLeavesOutHalves<S, kSums>)
     if (task.order == ClusterPairs::EntryOrder::by_halves)
       lower = entry + task.parts[r].first, upper = entry + task.parts[r].lower;
-  add_entries<S, kParameters, kSums, kKind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
+  add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
                                                                       charges, constants, sum);
   if constexpr (kLeavesOutHalves<S, kSums>) {
-    add_entries<S, kParameters, kSums, kKind, Half::lower, OneBeside<S>>(
+    add_entries<S, kParameters, kSums, Kind, Half::lower, OneBeside<S>>(
         task, row, i, lower, upper, coefficient, charges, constants, sum);
-    add_entries<S, kParameters, kSums, kKind, Half::upper, OneBeside<S>>(
+    add_entries<S, kParameters, kSums, Kind, Half::upper, OneBeside<S>>(
         task, row, i, upper, end, coefficient, charges, constants, sum);
   }
 }
 
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+template <class S, LjParameters kParameters, bool kSums, class Kind>
 DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& sums) {
   const LjTask<typename S::Real> task = given;  // which no number that is written can be part of
   PairCoefficients<S, kParameters> coefficient(task);
@@ -133,20 +133,20 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& su
     const ClusterPairs::Row row = task.rows[r];
     Places<S> i = spread<S>(task.at[row.cluster]);
     coefficient.choose_i(row.cluster);
-    if constexpr (has_charges(kKind))
+    if constexpr (Kind::kHasCharges)
       for (int p = 0; p < S::kRegisters; ++p) charges.of_i[p] = S::spread(task.charge + 4 * row.cluster, p);
-    if constexpr (has_dispersion(kKind))
+    if constexpr (Kind::kHasDispersion)
       for (int p = 0; p < S::kRegisters; ++p)
         charges.dispersion_of_i[p] = S::spread(task.dispersion + 4 * row.cluster, p);
     RowSums<S> sum;
     for (int p = 0; p < S::kRegisters; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
     sum.energy = sum.coulomb_energy = S::zero();
     for (auto& v : sum.virial) v = S::zero();
-    add_row<S, kParameters, kSums, kKind>(task, r, i, coefficient, charges, constants, sum);
+    add_row<S, kParameters, kSums, Kind>(task, r, i, coefficient, charges, constants, sum);
     S::subtract_over_j(sum.force, task.force[row.cluster]);
     if constexpr (kSums) {
       sums.energy += S::sum(sum.energy);
-      if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+      if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(sum.coulomb_energy);
       for (int k = 0; k < 6; ++k) sums.virial[k] += task.unit * S::sum(sum.virial[k]);
     }
   }
@@ -156,32 +156,34 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& su
   }
 }
 
-template <class S, ForceKind kKind>
+template <class S, class Kind>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_of_kind{
-    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
-      lennard_jones<S, LjParameters::one_type, true, kKind>},
-     {lennard_jones<S, LjParameters::by_type, false, kKind>,
-      lennard_jones<S, LjParameters::by_type, true, kKind>},
+    {{lennard_jones<S, LjParameters::one_type, false, Kind>,
+      lennard_jones<S, LjParameters::one_type, true, Kind>},
+     {lennard_jones<S, LjParameters::by_type, false, Kind>,
+      lennard_jones<S, LjParameters::by_type, true, Kind>},
      {nullptr, nullptr}}};
 
 /// With parameters by particle too.
-template <class S, ForceKind kKind>
+template <class S, class Kind>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_that_mix{
-    {{lennard_jones<S, LjParameters::one_type, false, kKind>,
-      lennard_jones<S, LjParameters::one_type, true, kKind>},
-     {lennard_jones<S, LjParameters::by_type, false, kKind>,
-      lennard_jones<S, LjParameters::by_type, true, kKind>},
-     {lennard_jones<S, LjParameters::by_particle, false, kKind>,
-      lennard_jones<S, LjParameters::by_particle, true, kKind>}}};
+    {{lennard_jones<S, LjParameters::one_type, false, Kind>,
+      lennard_jones<S, LjParameters::one_type, true, Kind>},
+     {lennard_jones<S, LjParameters::by_type, false, Kind>,
+      lennard_jones<S, LjParameters::by_type, true, Kind>},
+     {lennard_jones<S, LjParameters::by_particle, false, Kind>,
+      lennard_jones<S, LjParameters::by_particle, true, Kind>}}};
 
 template <class S>
 constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
-    {lj_functions_that_mix<S, ForceKind::lennard_jones>, lj_functions_of_kind<S, ForceKind::plain>,
-     lj_functions_of_kind<S, ForceKind::ewald>, lj_functions_that_mix<S, ForceKind::reaction_field>,
-     lj_functions_that_mix<S, ForceKind::switched>,
-     lj_functions_that_mix<S, ForceKind::switched_reaction_field>,
-     lj_functions_that_mix<S, ForceKind::ewald_series>, lj_functions_that_mix<S, ForceKind::switched_ewald>,
-     lj_functions_that_mix<S, ForceKind::ewald_dispersion>},
+    {lj_functions_that_mix<S, LjKind<ForceKind::lennard_jones>>,
+     lj_functions_of_kind<S, LjKind<ForceKind::plain>>, lj_functions_of_kind<S, LjKind<ForceKind::ewald>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::reaction_field>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::switched>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::switched_reaction_field>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::ewald_series>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::switched_ewald>>,
+     lj_functions_that_mix<S, LjKind<ForceKind::ewald_dispersion>>},
     kWantsLanes<S>,
     kLeavesOutHalves<S, false>};
 

@@ -9,6 +9,12 @@
 namespace dch::detail {
 namespace {
 
+/// The pairs of kLanes lanes: which particles they are of, whose position the second one has, where their
+/// types stand in the matrices, and their kinds; the last two of weighted pairs only.
+struct LanePairs {
+  const std::int32_t *i, *j, *at, *types, *kind;
+};
+
 /// The coefficients of kLanes pairs; those of one type are the same for all.
 template <class S, LjParameters kParameters>
 struct LaneCoefficients;
@@ -16,7 +22,7 @@ struct LaneCoefficients;
 template <class S>
 struct LaneCoefficients<S, LjParameters::one_type> : PairCoefficients<S, LjParameters::one_type> {
   using PairCoefficients<S, LjParameters::one_type>::PairCoefficients;
-  void choose(const LjPairTask&, const std::int32_t*, const std::int32_t*) {}
+  void choose(const LjPairTask&, const LanePairs&) {}
 };
 
 template <class S>
@@ -25,13 +31,20 @@ struct LaneCoefficients<S, LjParameters::by_type> {
   using V = typename S::V;
   explicit LaneCoefficients(const LjCoefficients<double>& c)
       : table{c.cutoff2, c.force12, c.force6, c.energy12, c.energy6, c.energy_shift, c.coulomb_cutoff2} {}
-  void choose(const LjPairTask& task, const std::int32_t* i, const std::int32_t* j) {
-    for (int k = 0; k < S::kLanes; ++k) at[k] = task.type[i[k]] * task.types + task.type[j[k]];
+  void choose(const LjPairTask& task, const LanePairs& pairs) {
+    for (int k = 0; k < S::kLanes; ++k)
+      at[k] = pairs.types ? pairs.types[k] : task.type[pairs.i[k]] * task.types + task.type[pairs.j[k]];
   }
   V operator()(int k, int) const { return S::gather(table[k], at); }
 
   const double* table[kCoefficients];
   alignas(32) std::int32_t at[S::kLanes]{};
+};
+
+/// What pairs are multiplied by, and how far their charges act.
+template <class S>
+struct PairWeights {
+  typename S::V own, charges;
 };
 
 template <class S>
@@ -40,35 +53,42 @@ struct LaneSums {
 };
 
 /// kLanes pairs of which only those in `mask` act.
-template <class S, bool kSums, ForceKind kKind, class Coefficients>
-void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t* j, std::uint32_t mask,
+template <class S, bool kSums, bool kWeighted, class Kind, class Coefficients>
+void add_pairs(const LjPairTask& task, const LanePairs& pairs, std::uint32_t mask,
                const Coordinates<S>& shift, const Constants<S>& constants, Coefficients& coefficient,
                LaneSums<S>& sum) {
   using V = typename S::V;
   const double* const positions = &task.positions->x;
   V xi, yi, zi, xj, yj, zj;
-  S::gather_xyz(positions, i, xi, yi, zi);
-  S::gather_xyz(positions, j, xj, yj, zj);
+  S::gather_xyz(positions, pairs.i, xi, yi, zi);
+  S::gather_xyz(positions, pairs.at, xj, yj, zj);
   const V dx = S::add(S::sub(xj, xi), shift.x[0]), dy = S::add(S::sub(yj, yi), shift.y[0]),
           dz = S::add(S::sub(zj, zi), shift.z[0]);
-  const V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
-  coefficient.choose(task, i, j);
+  V r2 = S::madd(dx, dx, S::madd(dy, dy, S::mul(dz, dz)));
+  if constexpr (Kind::kActsAtZero) r2 = S::max(r2, S::set1(kNearZero<double>));
+  coefficient.choose(task, pairs);
   V reach2 = coefficient(kCutoff2, 0);
-  if constexpr (has_charges(kKind)) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
+  if constexpr (Kind::kHasCharges) reach2 = S::max(reach2, coefficient(kCoulombCutoff2, 0));
   const auto near = S::less(r2, reach2, mask, 0);
   const std::uint32_t lanes = S::bits(near);
   if (lanes == 0) return;
   const V s = S::keep(near, S::inverse(r2));
   V charge = S::zero();
-  if constexpr (has_charges(kKind))
-    charge = S::mul(S::mul(S::gather(task.charge, i), S::gather(task.charge, j)),
+  if constexpr (Kind::kHasCharges)
+    charge = S::mul(S::mul(S::gather(task.charge, pairs.i), S::gather(task.charge, pairs.j)),
                     S::set1(task.charge_unit * task.charge_unit));
-  const PairTerms<S> terms =
-      pair_terms<S, kSums, kKind>(coefficient, 0, r2, s, {charge, S::zero()}, constants);
+  const Products<S> products{charge, S::zero()};
+  PairTerms<S> terms;
+  if constexpr (kWeighted)
+    terms = Kind::template weighted_terms<S, kSums>(
+        coefficient, 0, r2, s, products, constants,
+        {S::gather(task.weight, pairs.kind), S::gather(task.charge_weight, pairs.kind)});
+  else
+    terms = Kind::template terms<S, kSums>(coefficient, 0, r2, s, products, constants);
   const V fx = S::mul(terms.force, dx), fy = S::mul(terms.force, dy), fz = S::mul(terms.force, dz);
   if constexpr (kSums) {
     sum.energy = S::add(sum.energy, terms.energy);
-    if constexpr (has_charges(kKind)) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
+    if constexpr (Kind::kHasCharges) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
     sum.virial[0] = S::madd(dx, fx, sum.virial[0]);
     sum.virial[1] = S::madd(dy, fy, sum.virial[1]);
     sum.virial[2] = S::madd(dz, fz, sum.virial[2]);
@@ -76,10 +96,17 @@ void add_pairs(const LjPairTask& task, const std::int32_t* i, const std::int32_t
     sum.virial[4] = S::madd(dx, fz, sum.virial[4]);
     sum.virial[5] = S::madd(dy, fz, sum.virial[5]);
   }
-  add_to_both<S>(lanes, i, j, fx, fy, fz, task.forces);
+  add_to_both<S>(lanes, pairs.i, pairs.j, fx, fy, fz, task.forces);
 }
 
-template <class S, LjParameters kParameters, bool kSums, ForceKind kKind>
+template <bool kWeighted>
+LanePairs lanes_from(const LjPairTask& task, std::int64_t k) {
+  if constexpr (kWeighted)
+    return {task.i + k, task.j + k, task.at + k, task.pair_of_types + k, task.kind + k};
+  return {task.i + k, task.j + k, task.j + k, nullptr, nullptr};
+}
+
+template <class S, LjParameters kParameters, bool kSums, class Kind, bool kWeighted = false>
 DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   LaneCoefficients<S, kParameters> coefficient(task.coefficients);
   const Constants<S> constants(task.constants);
@@ -93,38 +120,42 @@ DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
   std::int64_t k = task.first;
   for (; k + S::kLanes <= task.last; k += S::kLanes)
-    add_pairs<S, kSums, kKind>(task, task.i + k, task.j + k, kAll, shift, constants, coefficient, sum);
+    add_pairs<S, kSums, kWeighted, Kind>(task, lanes_from<kWeighted>(task, k), kAll, shift, constants,
+                                         coefficient, sum);
   if (k < task.last) {
     // Lanes without a pair repeat the first one, whose mask bit they lack.
-    std::int32_t i[S::kLanes], j[S::kLanes];
+    std::int32_t lanes[5][S::kLanes]{};
     for (int lane = 0; lane < S::kLanes; ++lane) {
-      const std::int64_t from = k + lane < task.last ? k + lane : k;
-      i[lane] = task.i[from];
-      j[lane] = task.j[from];
+      const LanePairs from = lanes_from<kWeighted>(task, k + lane < task.last ? k + lane : k);
+      lanes[0][lane] = *from.i;
+      lanes[1][lane] = *from.j;
+      lanes[2][lane] = *from.at;
+      if constexpr (kWeighted) lanes[3][lane] = *from.types, lanes[4][lane] = *from.kind;
     }
+    const LanePairs pairs{lanes[0], lanes[1], lanes[2], kWeighted ? lanes[3] : nullptr, lanes[4]};
     const auto mask = kAll >> (S::kLanes - (task.last - k));
-    add_pairs<S, kSums, kKind>(task, i, j, mask, shift, constants, coefficient, sum);
+    add_pairs<S, kSums, kWeighted, Kind>(task, pairs, mask, shift, constants, coefficient, sum);
   }
   if constexpr (kSums) {
     sums.energy += S::sum(sum.energy);
-    if constexpr (has_charges(kKind)) sums.coulomb_energy += S::sum(sum.coulomb_energy);
+    if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(sum.coulomb_energy);
     for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
   }
 }
 
-template <class S, ForceKind kKind>
+template <class S, class Kind>
 constexpr LjFunctions<LjPairTask>::OfKind lj_pair_functions_of_kind{
-    {{lennard_jones_of_pairs<S, LjParameters::one_type, false, kKind>,
-      lennard_jones_of_pairs<S, LjParameters::one_type, true, kKind>},
-     {lennard_jones_of_pairs<S, LjParameters::by_type, false, kKind>,
-      lennard_jones_of_pairs<S, LjParameters::by_type, true, kKind>},
+    {{lennard_jones_of_pairs<S, LjParameters::one_type, false, Kind>,
+      lennard_jones_of_pairs<S, LjParameters::one_type, true, Kind>},
+     {lennard_jones_of_pairs<S, LjParameters::by_type, false, Kind>,
+      lennard_jones_of_pairs<S, LjParameters::by_type, true, Kind>},
      {nullptr, nullptr}}};
 
 template <class S>
 constexpr LjFunctions<LjPairTask> lj_pair_functions_of{
-    {lj_pair_functions_of_kind<S, ForceKind::lennard_jones>,
-     lj_pair_functions_of_kind<S, ForceKind::plain>,
-     lj_pair_functions_of_kind<S, ForceKind::ewald>,
+    {lj_pair_functions_of_kind<S, LjKind<ForceKind::lennard_jones>>,
+     lj_pair_functions_of_kind<S, LjKind<ForceKind::plain>>,
+     lj_pair_functions_of_kind<S, LjKind<ForceKind::ewald>>,
      {},
      {},
      {},

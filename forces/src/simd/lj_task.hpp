@@ -69,6 +69,12 @@ enum class LjParameters { one_type, by_type, by_particle };
 template <class Real>
 inline constexpr int kEwaldTerms = sizeof(Real) == 4 ? 14 : 26;
 
+/// How many numbers a form of PairPotential, or of its charges, may have for all pairs.
+inline constexpr int kNumbersOfForm = 4;
+/// Squared distances below this are taken for it, where pairs at no distance act: its inverse is finite.
+template <class Real>
+inline constexpr Real kNearZero = sizeof(Real) == 4 ? Real(0x1p-100) : Real(0x1p-900);
+
 /// What is the same for all pairs.
 template <class Real>
 struct LjConstants {
@@ -77,9 +83,10 @@ struct LjConstants {
   Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
   Real series_scale = 0;                 ///< EwaldSeries has powers of r^2 times this, less 1 [1/length^2]
   Real ewald_force[kEwaldTerms<Real>]{}, ewald_energy[kEwaldTerms<Real>]{};
-  Real dispersion_force[kEwaldTerms<Real>]{};   ///< a DispersionSeries
-  Real dispersion_energy[kEwaldTerms<Real>]{};  ///< the same, less its value at the cutoff
-  Real over_cutoff2 = 0;                        ///< with dispersion [1/length^2]
+  Real dispersion_force[kEwaldTerms<Real>]{};                    ///< a DispersionSeries
+  Real dispersion_energy[kEwaldTerms<Real>]{};                   ///< the same, less its value at the cutoff
+  Real over_cutoff2 = 0;                                         ///< with dispersion [1/length^2]
+  Real of_form[kNumbersOfForm]{}, of_charges[kNumbersOfForm]{};  ///< what PairPotential's forms make of them
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.
@@ -122,7 +129,11 @@ struct LjPairTask {
   const double* charge;  ///< by particle; null without charges
   double charge_unit;    ///< what charges are multiplied by
   LjConstants<double> constants;
-  Vec3* forces;  ///< by particle; added to
+  Vec3* forces;                      ///< by particle; added to
+  const std::int32_t* at = nullptr;  ///< by pair: whose position the second one has, where they are weighted
+  const std::int32_t* pair_of_types = nullptr;  ///< by pair, then: where it stands in the matrices
+  const std::int32_t* kind = nullptr;           ///< by pair, then
+  const double *weight = nullptr, *charge_weight = nullptr;  ///< by kind
 };
 
 /// Energies, and the virial sum of d f over pairs: xx, yy, zz, xy, xz, yz.

@@ -8,9 +8,10 @@
 namespace dch::detail {
 namespace {
 
-/// e^y for y <= 0, to a unit in the last place or two; not less than the least normal number.
+/// e^y for y <= 80 (700 in double precision), to a unit in the last place or two where y <= 0; not less than
+/// the least normal number.
 template <class S>
-typename S::V exp_of_negative(typename S::V y) {
+typename S::V exponential(typename S::V y) {
   using V = typename S::V;
   using Real = typename S::Real;
   constexpr bool kSingle = sizeof(Real) == 4;
@@ -43,19 +44,19 @@ struct EwaldFactors {
 
 /// erfc(x) and erfc(x) + 2 x e^(-x^2) / sqrt(pi), by formula 7.1.26 of Abramowitz and Stegun, Handbook of
 /// Mathematical Functions (1964), which is within 1.5e-7. The digits are those of LAMMPS's pair styles, with
-/// which the results have to agree.
+/// which the results have to agree; so are those of 2 / sqrt(pi), of which its styles have two.
 template <class S>
-EwaldFactors<S> ewald_factors(typename S::V x) {
+EwaldFactors<S> ewald_factors(typename S::V x, double two_over_root_pi = 1.12837917) {
   using V = typename S::V;
   using Real = typename S::Real;
-  const V expm2 = exp_of_negative<S>(S::mul(S::sub(S::zero(), x), x));
+  const V expm2 = exponential<S>(S::mul(S::sub(S::zero(), x), x));
   const V t = S::inverse(S::madd(S::set1(Real(0.3275911)), x, S::set1(1)));
   V poly = S::madd(t, S::set1(Real(1.061405429)), S::set1(Real(-1.453152027)));
   poly = S::madd(t, poly, S::set1(Real(1.421413741)));
   poly = S::madd(t, poly, S::set1(Real(-0.284496736)));
   poly = S::madd(t, poly, S::set1(Real(0.254829592)));
   const V erfc = S::mul(S::mul(t, poly), expm2);
-  return {erfc, S::madd(S::mul(S::set1(Real(1.12837917)), x), expm2, erfc)};
+  return {erfc, S::madd(S::mul(S::set1(static_cast<Real>(two_over_root_pi)), x), expm2, erfc)};
 }
 
 /// LjConstants in all lanes.
@@ -71,9 +72,14 @@ struct Constants {
         over_width(S::set1(c.over_width)),
         series_scale(S::set1(c.series_scale)),
         over_cutoff2(S::set1(c.over_cutoff2)),
-        series(&c) {}
+        series(&c) {
+    for (int k = 0; k < kNumbersOfForm; ++k) {
+      of_form[k] = S::set1(c.of_form[k]);
+      of_charges[k] = S::set1(c.of_charges[k]);
+    }
+  }
   typename S::V unit, unit2, splitting, quadratic, offset, switch_from, over_width, series_scale,
-      over_cutoff2;
+      over_cutoff2, of_form[kNumbersOfForm], of_charges[kNumbersOfForm];
   const LjConstants<typename S::Real>* series;
 };
 
@@ -229,6 +235,20 @@ PairTerms<S> pair_terms(const Coefficients& coefficient, int p, typename S::V r2
   }
   return terms;
 }
+
+/// The terms of LennardJones as what the loops over pairs ask of a kind of force: which of the particles'
+/// numbers and cutoffs it has, whether pairs at no distance act, and what a pair adds.
+template <ForceKind kKind>
+struct LjKind {
+  static constexpr bool kHasCharges = has_charges(kKind), kHasDispersion = has_dispersion(kKind);
+  static constexpr bool kHasOneCutoff = has_one_cutoff(kKind), kHasTwoCutoffs = has_two_cutoffs(kKind);
+  static constexpr bool kActsAtZero = false;
+  template <class S, bool kSums, class Coefficients>
+  static PairTerms<S> terms(const Coefficients& coefficient, int p, typename S::V r2, typename S::V s,
+                            const Products<S>& products, const Constants<S>& constants) {
+    return pair_terms<S, kSums, kKind>(coefficient, p, r2, s, products, constants);
+  }
+};
 
 }  // namespace
 }  // namespace dch::detail

@@ -43,8 +43,13 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
   const int a = atom->type[i], b = atom->type[image];
   const bool wanted = list.pairs_interact(a, b, atom->ntypes);
   if (wanted && !rules_.excluded(i, image) &&
-      distance2(atom->x[i], atom->x[image]) <= neighbor->cutneighsq[a][b])
-    list.special.push_back({i, owner, image, kind});
+      distance2(atom->x[i], atom->x[image]) <= neighbor->cutneighsq[a][b]) {
+    list.special.i.push_back(i);
+    list.special.j.push_back(owner);
+    list.special.at.push_back(image);
+    list.special.kind.push_back(kind);
+    list.special.types.push_back((a - 1) * atom->ntypes + b - 1);
+  }
 }
 
 /// Bonded pairs leave the cluster pairs; those to be weighted go into a list of their own. A bonded atom's

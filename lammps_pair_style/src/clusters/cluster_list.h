@@ -21,12 +21,18 @@ namespace LAMMPS_NS {
 /// Pairs of clusters, or pairs one by one where neighbors are few, that a force style of ours asks for in
 /// place of a neighbor list. NeighborDCH fills it when it builds lists.
 struct ClusterList {
-  /// A bonded pair that the style has to weight. No cluster pair holds it.
+  /// Bonded pairs that the style has to weight. No cluster pair holds them.
   struct Special {
-    int i;     ///< owned
-    int j;     ///< the atom that the force acts on: owned, or a ghost whose force LAMMPS sends home
-    int at;    ///< the image of j that is meant, for positions
-    int kind;  ///< 1 to 3: 1-2, 1-3, 1-4
+    std::vector<std::int32_t> i;  ///< owned
+    std::vector<std::int32_t> j;  ///< that the force acts on: owned, or a ghost whose force LAMMPS sends home
+    std::vector<std::int32_t> at;     ///< the image of j that is meant, for positions
+    std::vector<std::int32_t> kind;   ///< 1 to 3: 1-2, 1-3, 1-4
+    std::vector<std::int32_t> types;  ///< where both types stand in a matrix
+
+    std::size_t size() const { return i.size(); }
+    void clear() {
+      for (auto* numbers : {&i, &j, &at, &kind, &types}) numbers->clear();
+    }
   };
 
   /// Neighbors of an atom, each pair counted once, up to which pairs one by one are faster: see
@@ -42,7 +48,7 @@ struct ClusterList {
   double chosen_for = 0;     ///< radius at which that was chosen [length]
   dch::PairList pair_list;   ///< of points: LAMMPS's indices
   dch::ClusterPairs pairs;   ///< of the same
-  std::vector<Special> special;
+  Special special;
   /// Whether pairs of these types, from 1, are wanted.
   bool pairs_interact(int a, int b, int types) const {
     return interacts[static_cast<std::size_t>(a - 1) * static_cast<std::size_t>(types) +

@@ -12,7 +12,12 @@
 #include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"
+#include "pair_buck_dch.h"
+#include "pair_charmm_dch.h"
 #include "pair_lj_dch.h"
+#include "pair_morse_dch.h"
+#include "pair_soft_dch.h"
+#include "pair_yukawa_dch.h"
 
 namespace LAMMPS_NS {
 namespace {
@@ -30,7 +35,12 @@ std::vector<StyleEntry<Pair>> pair_styles_dch() {
   std::vector<StyleEntry<Pair>> styles;
 #define PAIR_CLASS
 #define PairStyle(key, Made) styles.push_back({#key, &create<Pair, Made>})
+#include "pair_buck_dch.h"
+#include "pair_charmm_dch.h"
 #include "pair_lj_dch.h"
+#include "pair_morse_dch.h"
+#include "pair_soft_dch.h"
+#include "pair_yukawa_dch.h"
 #undef PairStyle
 #undef PAIR_CLASS
   return styles;

@@ -36,7 +36,7 @@ void withdraw_requests(Neighbor& neighbor, int first) {
 
 }  // namespace
 
-PairDCH::PairDCH(LAMMPS* lammps, std::string plain) : Pair(lammps), plain_name_(std::move(plain)) {
+PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : Pair(lammps), style_(style), plain_name_(style.plain) {
   int has_suffix = 0;
   plain_.reset(force->new_pair(plain_name_, 0, has_suffix));
   if (!plain_) {
@@ -88,15 +88,15 @@ void PairDCH::read_restart_settings(FILE* file) {
 }
 
 void PairDCH::take_flags() {
-  offset_flag = plain().*(&PairDCH::offset_flag);
-  mix_flag = plain().*(&PairDCH::mix_flag);
+  offset_flag = (*plain_).*(&PairDCH::offset_flag);
+  mix_flag = (*plain_).*(&PairDCH::mix_flag);
   tail_flag = plain_->tail_flag;
   ncoultablebits = std::exchange(plain_->ncoultablebits, 0);
 }
 
 /// LAMMPS looks at which pairs of types have been given.
 void PairDCH::take_coefficients() {
-  has_kernel_ = false;
+  kernel_.reset();
   if (!plain_->allocated) return;
   const int n = atom->ntypes;
   if (!allocated) {
@@ -112,7 +112,7 @@ void PairDCH::modify_params(int narg, char** arg) {
   Pair::modify_params(narg, arg);
   plain_->modify_params(narg, arg);
   plain_->ncoultablebits = 0;
-  has_kernel_ = false;
+  kernel_.reset();
 }
 
 double PairDCH::init_one(int i, int j) {
@@ -121,7 +121,7 @@ double PairDCH::init_one(int i, int j) {
   etail_ij = plain_->etail_ij;
   ptail_ij = plain_->ptail_ij;
   dch::lammps::copy_mixing<Pair>(*plain_, *this);
-  has_kernel_ = false;
+  kernel_.reset();
   const auto known = std::find_if(pairs_of_types_.begin(), pairs_of_types_.end(),
                                   [&](const PairOfTypes& p) { return p.a == i && p.b == j; });
   if (known != pairs_of_types_.end()) {
@@ -196,8 +196,8 @@ bool PairDCH::may_have_levels() const {
 void PairDCH::init_style() {
   clusters_.reset();
   pairs_of_types_.clear();
-  has_kernel_ = false;
-  computed_ = pair_by_pair_ = 0;
+  kernel_.reset();
+  computed_ = by_atom_ = 0;
   has_lists_of_plain_ = may_have_levels();
   // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
   // this style's name, to compare with.
@@ -240,9 +240,9 @@ dch::lammps::StyleNote PairDCH::explain() const {
     return {name, "plain style on a neighbor list, " + obstacle_.reason + "; give " + obstacle_.remedy};
   if (computed_ == 0) return {name, "no run yet"};
   std::string how = way();
-  if (pair_by_pair_ > 0)
-    how += "; of " + std::to_string(computed_) + " times " + std::to_string(pair_by_pair_) +
-           " by single(), for energies or virials by atom" +
+  if (by_atom_ > 0)
+    how += "; of " + std::to_string(computed_) + " times " + std::to_string(by_atom_) +
+           " pair by pair, for energies or virials by atom" +
            (force->newton_pair ? "" : ", or for sums with newton off");
   return {name, how};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
 #include <lammps_host.h>
 #include <memory>
 #include <pair.h>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include <dch/base/span.hpp>
-#include <dch/forces/lennard_jones.hpp>
+#include <dch/forces/pair_potential.hpp>
 
 #include "cluster_list.h"
 #include "explained.h"
@@ -21,14 +22,22 @@ namespace LAMMPS_NS {
 ///
 /// With r-RESPA that splits the forces of pairs into levels the plain style computes, on its own lists.
 ///
-/// Ordinary pairs go through a SIMD kernel. Bonded pairs with weights, steps that want energies by atom or
-/// other tallies, and newton off with ghosts go pair by pair through the plain style's single(). Where
+/// Pairs go through a SIMD kernel, weighted ones of bonded atoms too; a style says what it is made of. At
+/// steps that want energies by atom or other tallies, and sums with newton off and ghosts, they are added up
+/// pair by pair. Where
 /// cluster pairs cannot be had (settings that dch stats names) the plain style computes, on a neighbor list.
 /// Wherever it computes, it does so without its tables of Coulomb forces, as the kernels do.
 class PairDCH : public Pair, public Explained {
  public:
-  /// @param plain name of the plain style
-  PairDCH(LAMMPS* lammps, std::string plain);
+  /// What a style is made of.
+  struct Style {
+    const char* plain;  ///< the plain style's name
+    dch::PairForm form;
+    dch::ChargeForm charges;
+    int numbers;  ///< how many the plain style writes to restart files for a pair of types
+  };
+
+  PairDCH(LAMMPS* lammps, const Style& style);
   ~PairDCH() override;
   PairDCH(const PairDCH&) = delete;
   PairDCH& operator=(const PairDCH&) = delete;
@@ -58,51 +67,50 @@ class PairDCH : public Pair, public Explained {
   dch::lammps::StyleNote explain() const override;
 
  protected:
+  /// What the plain style writes to restart files before pairs of types says of the potential; charges that
+  /// act by an Ewald sum know their splitting.
+  virtual void take_all(const double*, dch::PairPotentialParams&) const {}
+  /// The same of a pair of types.
+  /// @param all  what take_all() gets
+  virtual void take_pair(const double* all, const double* own, dch::FormPair& pair) const = 0;
+
+ private:
   /// Pairs of types, from 1, that this style computes with coefficients as they are now.
   struct PairOfTypes {
     int a, b;
     double cutoff;  ///< [length]
   };
+  struct Batch;
 
-  /// Makes the kernel for these pairs of types.
-  virtual void make_kernel(const std::vector<PairOfTypes>& pairs) = 0;
-  /// Adds forces and, if wanted, adds to eng_vdwl, eng_coul and virial.
-  virtual void add_forces(const ClusterList& wanted, dch::ForcePrecision precision,
-                          dch::Span<dch::Vec3> forces, bool with_sums) = 0;
-  /// As the kernels want them, of the points of the list.
-  dch::Span<const dch::Vec3> positions(const ClusterList& wanted) const;
-  dch::Box box(const ClusterList& wanted) const;
-
-  /// Whether the plain style's energies have a Coulomb part.
-  virtual bool has_charges() const { return false; }
-
-  Pair& plain() const { return *plain_; }
-  bool shifts_energy() const { return offset_flag != 0; }
-
- private:
   dch::lammps::Obstacle reason_for_plain() const;
   bool may_have_levels() const;
   Pair& plain_of_levels() const;
   std::string way() const;
   void take_flags();
   void take_coefficients();
-  void prepare_kernel();
   void refresh();
   void take_sums_of_plain();
   void compute_clusters(bool with_sums);
-  void compute_pair_by_pair();
-  void compute_special();
-  void compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj, double factor_coul);
+  void compute_by_atom();
+  void add_self_energies(bool by_atom);
+  void finish(Batch& batch);
+  void make_kernel();
+  bool has_charges() const { return style_.charges != dch::ChargeForm::none; }
+  dch::Span<const double> charges() const;
+  std::array<double, 4> weights(const double* special) const;
+  dch::Span<const dch::Vec3> positions() const;
+  dch::Box box() const;
 
+  Style style_;
   std::string plain_name_;
   std::unique_ptr<Pair> plain_;
-  std::shared_ptr<ClusterList> clusters_;         ///< null if the plain style computes
-  dch::lammps::Obstacle obstacle_;                ///< why it does
-  bool has_lists_of_plain_ = false;               ///< those that the plain style has asked for
-  std::int64_t computed_ = 0, pair_by_pair_ = 0;  ///< in this run: how often, and how often by single()
+  std::shared_ptr<ClusterList> clusters_;    ///< null if the plain style computes
+  dch::lammps::Obstacle obstacle_;           ///< why it does
+  bool has_lists_of_plain_ = false;          ///< those that the plain style has asked for
+  std::int64_t computed_ = 0, by_atom_ = 0;  ///< in this run: how often, and how often atom by atom
   std::vector<PairOfTypes> pairs_of_types_;
-  bool has_kernel_ = false;           ///< for the coefficients as they are
-  std::vector<dch::Vec3> of_ghosts_;  ///< forces on ghosts before ours
+  std::unique_ptr<dch::PairPotential> kernel_;  ///< null unless for the coefficients as they are
+  std::vector<dch::Vec3> of_ghosts_;            ///< forces on ghosts before ours
 };
 
 }  // namespace LAMMPS_NS

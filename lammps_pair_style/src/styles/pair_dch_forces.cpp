@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The forces of the pair styles of this package: over clusters, pair by pair, or by the plain style.
+// The forces of the pair styles of this package: over clusters, atom by atom, or by the plain style.
 #include <algorithm>
 #include <atom.h>
 #include <domain.h>
 #include <error.h>
 #include <force.h>
+#include <kspace.h>
 #include <neighbor.h>
 #include <new>
+#include <utility>
 
 #include <dch/base/error.hpp>
 
 #include "neighbor_dch.h"
 #include "pair_dch.h"
+#include "restart_numbers.h"
 
 namespace LAMMPS_NS {
 
@@ -28,19 +31,20 @@ void PairDCH::compute(int eflag, int vflag) {
   // With newton off each of two processes has half of a pair with a ghost, which the sums do not know.
   const bool has_halves = wants_sums && !clusters_->in_box && !force->newton_pair;
   try {
+    if (!kernel_) make_kernel();
     refresh();
     if (by_atom || has_halves) {
-      ++pair_by_pair_;
-      compute_pair_by_pair();
+      ++by_atom_;
+      compute_by_atom();
     } else {
       compute_clusters(wants_sums);
     }
+    if (eflag_either) add_self_energies(by_atom || has_halves);
   } catch (const dch::Error& e) {
     error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
   } catch (const std::bad_alloc&) {
     error->one(FLERR, "Pair style " + plain_name_ + "/dch: out of memory; use more processes");
   }
-  compute_special();
 }
 
 /// Only where the plain style has lists with these levels.
@@ -73,83 +77,160 @@ void PairDCH::take_sums_of_plain() {
     for (int i = 0; i < atoms; ++i) std::copy_n(plain_->cvatom[i], 9, cvatom[i]);
 }
 
-dch::Span<const dch::Vec3> PairDCH::positions(const ClusterList& wanted) const {
-  const std::size_t points = wanted.points();
+dch::Span<const dch::Vec3> PairDCH::positions() const {
+  const std::size_t points = clusters_->points();
   return {points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr, points};
 }
 
-dch::Box PairDCH::box(const ClusterList& wanted) const {
-  return wanted.in_box ? box_of(*domain) : dch::Box::none();
+dch::Span<const double> PairDCH::charges() const {
+  if (!has_charges()) return {};
+  return {atom->q, clusters_->points()};
+}
+
+dch::Box PairDCH::box() const { return clusters_->in_box ? box_of(*domain) : dch::Box::none(); }
+
+std::array<double, 4> PairDCH::weights(const double* special) const {
+  return {1, special[1], special[2], special[3]};
 }
 
 void PairDCH::refresh() {
   if (!clusters_->one_by_one)
-    clusters_->pairs.refresh(positions(*clusters_), box(*clusters_), NeighborDCH::install(lmp)->executor());
+    clusters_->pairs.refresh(positions(), box(), NeighborDCH::install(lmp)->executor());
 }
 
-void PairDCH::prepare_kernel() {
-  if (has_kernel_) return;
-  make_kernel(pairs_of_types_);
-  has_kernel_ = true;
+void PairDCH::make_kernel() {
+  std::vector<std::pair<int, int>> given;
+  for (const PairOfTypes& p : pairs_of_types_) given.emplace_back(p.a, p.b);
+  const RestartNumbers of_plain(*plain_, plain_name_, atom->ntypes, style_.numbers, given, *error);
+  const auto n = static_cast<std::size_t>(atom->ntypes);
+  dch::PairPotentialParams params;
+  params.form = style_.form;
+  params.charges = style_.charges;
+  params.types = atom->ntypes;
+  params.pairs.resize(n * n);
+  params.constant = force->qqrd2e;
+  params.shifted = offset_flag != 0;
+  if (style_.charges == dch::ChargeForm::ewald) params.splitting = force->kspace->g_ewald;
+  take_all(of_plain.all(), params);
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const auto a = static_cast<std::size_t>(given[k].first - 1),
+               b = static_cast<std::size_t>(given[k].second - 1);
+    take_pair(of_plain.all(), of_plain.of_pair(k), params.pairs[a * n + b]);
+    params.pairs[b * n + a] = params.pairs[a * n + b];
+  }
+  kernel_ = std::make_unique<dch::PairPotential>(params);
 }
 
 /// With newton off for pairs each process computes its own half of a pair with a ghost. Kernels add to both;
 /// LAMMPS would send the other half home where newton is on for bonds.
 void PairDCH::compute_clusters(bool with_sums) {
-  prepare_kernel();
-  const std::size_t points = clusters_->points();
-  auto* f = points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr;
-  const bool keeps_ghosts = force->newton && !force->newton_pair && !clusters_->in_box;
-  if (keeps_ghosts) of_ghosts_.assign(f + atom->nlocal, f + points);
-  add_forces(*clusters_, NeighborDCH::install(lmp)->precision(), {f, points}, with_sums);
-  if (keeps_ghosts) std::copy(of_ghosts_.begin(), of_ghosts_.end(), f + atom->nlocal);
-}
-
-void PairDCH::compute_one(int i, int j, dch::Vec3 from_j_to_i, double factor_lj, double factor_coul) {
-  const int a = atom->type[i], b = atom->type[j];
-  const double r2 = norm2(from_j_to_i);
-  if (r2 >= cutsq[a][b]) return;
-  double over_r = 0;
-  const double energy = plain_->single(i, j, a, b, r2, factor_coul, factor_lj, over_r);
-  double of_charges = 0;
-  if (double ignored = 0; eflag_either && has_charges())
-    of_charges = plain_->single(i, j, a, b, r2, factor_coul, 0, ignored);
-  const dch::Vec3 pull = over_r * from_j_to_i;
-  double **f = atom->f, *of_i = f[i], *of_j = f[j];
-  of_i[0] += pull.x;
-  of_i[1] += pull.y;
-  of_i[2] += pull.z;
-  if (force->newton_pair || j < atom->nlocal) {
-    of_j[0] -= pull.x;
-    of_j[1] -= pull.y;
-    of_j[2] -= pull.z;
-  }
-  if (evflag)
-    ev_tally(i, j, atom->nlocal, force->newton_pair, energy - of_charges, of_charges, over_r, from_j_to_i.x,
-             from_j_to_i.y, from_j_to_i.z);
-}
-
-void PairDCH::compute_pair_by_pair() {
-  const auto compute_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
-    if (i < atom->nlocal) {
-      compute_one(i, j, -1.0 * from_i_to_j, 1, 1);
+  const ClusterList& wanted = *clusters_;
+  const std::size_t points = wanted.points();
+  const dch::Span<dch::Vec3> f{points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr, points};
+  const bool keeps_ghosts = force->newton && !force->newton_pair && !wanted.in_box;
+  if (keeps_ghosts) of_ghosts_.assign(f.begin() + atom->nlocal, f.end());
+  const dch::ForcePrecision precision = NeighborDCH::install(lmp)->precision();
+  kernel_->set_executor(NeighborDCH::install(lmp)->executor());
+  dch::LennardJonesSums sums;
+  if (wanted.one_by_one) {
+    if (with_sums) {
+      sums = kernel_->add_forces_and_sum(wanted.pair_list, positions(), box(), f, charges());
     } else {
-      compute_one(j, i, from_i_to_j, 1, 1);
+      kernel_->add_forces(wanted.pair_list, positions(), box(), f, charges());
+    }
+  } else if (with_sums) {
+    sums = kernel_->add_forces_and_sum(wanted.pairs, precision, f, charges());
+  } else {
+    kernel_->add_forces(wanted.pairs, precision, f, charges());
+  }
+  const ClusterList::Special& special = wanted.special;
+  kernel_->add_weighted({special.i, special.j, special.at, special.types, special.kind,
+                         weights(force->special_lj), weights(force->special_coul)},
+                        positions(), f, charges(), with_sums ? &sums : nullptr);
+  if (keeps_ghosts) std::copy(of_ghosts_.begin(), of_ghosts_.end(), f.begin() + atom->nlocal);
+  eng_vdwl += sums.energy;
+  eng_coul += sums.coulomb_energy;
+  for (int k = 0; k < 6; ++k) virial[k] += sums.virial[static_cast<std::size_t>(k)];
+}
+
+/// Of charges that know their own image.
+void PairDCH::add_self_energies(bool by_atom) {
+  const double of_charge = kernel_->self_energy();
+  if (of_charge == 0) return;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double energy = of_charge * atom->q[i] * atom->q[i];
+    if (by_atom)
+      ev_tally(i, i, atom->nlocal, 0, 0, energy, 0, 0, 0, 0);
+    else
+      eng_coul += energy;
+  }
+}
+
+/// Pairs on their way to be computed and added up atom by atom.
+struct PairDCH::Batch {
+  int count = 0;
+  int i[dch::PairBatch::kSize], j[dch::PairBatch::kSize];
+  dch::Vec3 from_j_to_i[dch::PairBatch::kSize];
+  dch::PairBatch pairs;
+};
+
+void PairDCH::finish(Batch& batch) {
+  kernel_->compute(batch.pairs, weights(force->special_lj), weights(force->special_coul));
+  for (int k = 0; k < batch.count; ++k) {
+    const int i = batch.i[k], j = batch.j[k];
+    const double over_r = batch.pairs.force_over_r[k];
+    const dch::Vec3 apart = batch.from_j_to_i[k], pull = over_r * apart;
+    double **f = atom->f, *of_i = f[i], *of_j = f[j];
+    of_i[0] += pull.x;
+    of_i[1] += pull.y;
+    of_i[2] += pull.z;
+    if (force->newton_pair || j < atom->nlocal) {
+      of_j[0] -= pull.x;
+      of_j[1] -= pull.y;
+      of_j[2] -= pull.z;
+    }
+    if (evflag)
+      ev_tally(i, j, atom->nlocal, force->newton_pair, batch.pairs.energy[k], batch.pairs.coulomb_energy[k],
+               over_r, apart.x, apart.y, apart.z);
+  }
+  batch = {};
+}
+
+void PairDCH::compute_by_atom() {
+  const int types = atom->ntypes;
+  Batch batch;
+  const auto add = [&](int i, int j, dch::Vec3 from_j_to_i, int kind) {
+    const int a = atom->type[i], b = atom->type[j];
+    const double r2 = norm2(from_j_to_i);
+    if (r2 >= cutsq[a][b]) return;
+    const int k = batch.count++;
+    batch.i[k] = i;
+    batch.j[k] = j;
+    batch.from_j_to_i[k] = from_j_to_i;
+    batch.pairs.r2[k] = r2;
+    batch.pairs.types[k] = (a - 1) * types + b - 1;
+    batch.pairs.kind[k] = kind;
+    if (has_charges()) batch.pairs.charges[k] = atom->q[i] * atom->q[j];
+    if (batch.count == dch::PairBatch::kSize) finish(batch);
+  };
+  const auto add_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
+    if (i < atom->nlocal) {
+      add(i, j, -1.0 * from_i_to_j, 0);
+    } else {
+      add(j, i, from_i_to_j, 0);
     }
   };
   if (clusters_->one_by_one) {
-    clusters_->pair_list.for_each(positions(*clusters_), box(*clusters_), compute_pair);
+    clusters_->pair_list.for_each(positions(), box(), add_pair);
   } else {
-    clusters_->pairs.for_each(compute_pair);
+    clusters_->pairs.for_each(add_pair);
   }
-}
-
-void PairDCH::compute_special() {
-  for (const ClusterList::Special& pair : clusters_->special) {
-    const double *xi = atom->x[pair.i], *xj = atom->x[pair.at];
-    compute_one(pair.i, pair.j, {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, force->special_lj[pair.kind],
-                force->special_coul[pair.kind]);
+  const ClusterList::Special& special = clusters_->special;
+  for (std::size_t k = 0; k < special.size(); ++k) {
+    const double *xi = atom->x[special.i[k]], *xj = atom->x[special.at[k]];
+    add(special.i[k], special.j[k], {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, special.kind[k]);
   }
+  finish(batch);
 }
 
 }  // namespace LAMMPS_NS

@@ -58,10 +58,11 @@ void ClusterVerifier::take_ours(const ClusterList& ours, double rounding, std::v
   } else {
     ours.pairs.for_each(take_pair);
   }
-  for (const ClusterList::Special& special : ours.special) {
-    const dch::Vec3 from_i_to_j = between(special.i, special.at);
-    take(pair_of(special.i, special.at, from_i_to_j, special.kind, rounding), special.i, special.at,
-         from_i_to_j, out);
+  const ClusterList::Special& special = ours.special;
+  for (std::size_t k = 0; k < special.size(); ++k) {
+    const int i = special.i[k], image = special.at[k];
+    const dch::Vec3 from_i_to_j = between(i, image);
+    take(pair_of(i, image, from_i_to_j, special.kind[k], rounding), i, image, from_i_to_j, out);
   }
 }
 

@@ -58,10 +58,10 @@ class Explain(unittest.TestCase):
     def test_steps_that_single_computes(self):
         script = "suffix dch\n" + LATEST + "compute e all pe/atom\nthermo_style custom step c_s\nthermo 10\n"
         found, _ = explained(script.replace("thermo_style", "compute s all reduce sum c_e\nthermo_style") + "run 40\n")
-        self.assertIn("of 41 times 5 by single(), for energies or virials by atom", found["pair lj/cut/dch"])
+        self.assertIn("of 41 times 5 pair by pair, for energies or virials by atom", found["pair lj/cut/dch"])
         off = "newton off\nsuffix dch\n" + LATEST + "run 40\n"
         found, _ = explained(off, 2)
-        self.assertIn("by single(), for energies or virials by atom, or for sums with newton off", found["pair lj/cut/dch"])
+        self.assertIn("pair by pair, for energies or virials by atom, or for sums with newton off", found["pair lj/cut/dch"])
         self.assertNotIn("single()", explained(off, 1)[0]["pair lj/cut/dch"])
 
     def test_settings_with_their_remedies(self):
@@ -102,17 +102,20 @@ class Explain(unittest.TestCase):
 
     def test_molecules(self):
         found, _ = explained("include ${here}/in.peptide\n", 1, {"lists": "suffix", "steps": 10})
-        self.assertIn("there is no lj/charmm/coul/long/dch; give 'suffix opt' before it for lj/charmm/coul/long/opt",
-                      found["pair lj/charmm/coul/long"])
+        self.assertRegex(found["pair lj/charmm/coul/long/dch"], "^cluster pairs, in double precision")
         self.assertRegex(found["bond harmonic/dch"], "^SIMD kernel 8 times")
         for style in ("angle charmm", "dihedral charmm", "improper harmonic", "kspace pppm", "fix 1, nvt", "fix 2, shake"):
             self.assertIn("native, there is no ", found[style])
+
+    def test_a_style_that_opt_has(self):
+        found, _ = explained("suffix dch\n" + LATEST.replace("lj/cut", "ufm") + "run 10\n")
+        self.assertIn("there is no ufm/dch; give 'suffix opt' before it for ufm/opt", found["pair ufm"])
 
     def test_hybrid(self):
         for ranks in (1, 2):
             found, _ = explained("include ${here}/in.hybrid\n", ranks, {"lists": "suffix", "steps": 20})
             self.assertRegex(found["pair lj/cut/dch"], "^cluster pairs, in double precision")
-            self.assertRegex(found["pair morse"], "^native, there is no morse/dch")
+            self.assertRegex(found["pair morse/dch"], "^cluster pairs, in double precision")
         found, _ = explained("include ${here}/in.hybrid\n", 1, {"lists": "dch", "steps": 20})
         self.assertEqual(found["list 1, pair lj/cut"], "native, a part of list 3")
         self.assertEqual(found["list 3, parent of skip lists, half, newton on"], "DCH")

@@ -38,19 +38,19 @@ class ForceStyles(ComparedWithStock):
         self.assertIn("DCH neighbor lists: off", output)
 
     def test_with_lists_for_another_style(self):
-        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 2.0")
-        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 morse 0.1 5 1.1")
+        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 born 2.0")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 born 0.1 0.2 1.1 0.1 0.01")
         self.compare(script + "run 20\n")
         output = run("include ${load}\nsuffix dch\ndch on\n" + script + "run 20\ndch stats\n")
         self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
-        self.assertIn("pair morse, half, newton on: DCH", output)
+        self.assertIn("pair born, half, newton on: DCH", output)
 
     def test_sub_styles_whose_cutoffs_differ_by_type(self):
         """From 2022 on, hybrid asks for a list with each sub-style's largest cutoff for all types."""
         script = MELT.replace("create_box 1", "create_box 2").replace("mass 1", "set type 1 type/fraction 2 0.5 881\nmass *")
-        script = script.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 1.3")
+        script = script.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 born 1.3")
         script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff * * lj/cut 1.0 1.0 1.4\n"
-                                "pair_coeff 1 1 lj/cut 1.0 1.0 2.5\npair_coeff * * morse 0.1 5 1.1")
+                                "pair_coeff 1 1 lj/cut 1.0 1.0 2.5\npair_coeff * * born 0.1 0.2 1.1 0.1 0.01")
         script += "compute near all rdf 50 1 1 cutoff 2.0\ncomm_modify cutoff 3.0\nfix 2 all ave/time 1 1 20 c_near[*] mode vector\n"
         script += "variable sum equal sum(f_2[2])\nthermo_style custom step temp epair press v_sum\nrun 20\n"
         plain = thermo_tables(run(script))

@@ -85,17 +85,17 @@ class Silent(unittest.TestCase):
 
     def test_hybrid(self):
         """The lists that are compared with are parts of one that LAMMPS makes for them alone, or of others'."""
-        script = TWO_TYPES.replace("pair_style lj/cut 2.5", "pair_style hybrid lj/cut 2.5 morse 2.0")
+        script = TWO_TYPES.replace("pair_style lj/cut 2.5", "pair_style hybrid lj/cut 2.5 born 2.0")
         script = script.replace("pair_coeff * * 1.0 1.0",
-                                "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 2 lj/cut 1.0 1.0\npair_coeff 2 2 morse 0.1 5 1.1")
+                                "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 2 lj/cut 1.0 1.0\npair_coeff 2 2 born 0.1 0.2 1.1 0.1 0.01")
         for lists in ("", "dch on\n"):
             for ranks in (1, 2):
                 with self.subTest(lists=lists, ranks=ranks):
                     self.compare_with_plain(self.check(lists + script, ranks=ranks), lists + script, ranks=ranks)
 
     def test_a_list_that_lammps_copies_from_the_one_to_compare_with(self):
-        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 morse 2.0")
-        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 morse 0.1 5 1.1")
+        script = MELT.replace("pair_style lj/cut 2.5", "pair_style hybrid/overlay lj/cut 2.5 born 2.0")
+        script = script.replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 lj/cut 1.0 1.0\npair_coeff 1 1 born 0.1 0.2 1.1 0.1 0.01")
         computed = "compute rdf all rdf 10\nthermo_style custom step temp epair c_rdf[5][2]\n"
         for lists in ("", "dch on\n"):
             for every in ("yes", "every 3"):

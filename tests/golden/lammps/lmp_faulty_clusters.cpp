@@ -113,8 +113,8 @@ void other_image(const AtomPoints& points, ClusterList& list) {
 }
 
 void other_weight(ClusterList& list) {
-  if (list.special.empty()) no_place("bonded pair");
-  list.special.front().kind = 1 + list.special.front().kind % 3;
+  if (list.special.size() == 0) no_place("bonded pair");
+  list.special.kind.front() = 1 + list.special.kind.front() % 3;
 }
 
 std::string fault;

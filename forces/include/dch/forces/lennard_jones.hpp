@@ -10,6 +10,7 @@
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
+#include <dch/forces/cluster_scratch.hpp>
 #include <dch/lists/pair_list.hpp>
 
 #pragma GCC visibility push(default)
@@ -159,23 +160,6 @@ class LennardJones {
                                       Span<Vec3> forces, Span<const double> charges = {}) const;
 
  private:
-  template <class Real>
-  struct alignas(4 * sizeof(Real)) FourNumbers {
-    Real slot[4];
-  };
-  template <class Real>
-  struct alignas(64) Lanes {
-    Real numbers[48];
-  };
-  /// Scratch memory for one precision.
-  template <class Real>
-  struct Scratch {
-    // All 0 between calls.
-    std::vector<std::vector<ClusterOfFour<Real>>> force;  ///< found by each thread for its task
-    std::vector<std::vector<Lanes<Real>>> lanes;          ///< the same before it is summed up, if wanted
-    std::vector<ClusterOfFour<Real>> earlier;             ///< found by tasks before that of the cluster
-    std::vector<FourNumbers<Real>> charge, dispersion, half_sigma, root_epsilon;
-  };
   /// Each for all pairs of types: cutoff2, force12, force6, energy12, energy6, energy_shift, coulomb_cutoff2.
   template <class Real>
   using Tables = std::array<std::vector<Real>, 7>;
@@ -193,10 +177,8 @@ class LennardJones {
   void add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces, Span<const double> charges,
            LennardJonesSums* sums);
   template <class Real>
-  void make_room(std::size_t clusters, std::size_t workers, Scratch<Real>& scratch) const;
-  template <class Real>
   void run(const ClusterPairs& pairs, Span<const double> charges, const Tables<Real>& tables,
-           Scratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const;
+           detail::ClusterScratch<Real>& scratch, Span<Vec3> forces, LennardJonesSums* sums) const;
   void add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
            Span<const double> charges, LennardJonesSums* sums) const;
   /// Of ClusterPairs or a PairList.
@@ -226,8 +208,8 @@ class LennardJones {
   std::vector<std::int32_t>* unresolved_ = nullptr;
   Tables<double> full_;
   Tables<float> mixed_;
-  Scratch<double> scratch_;
-  Scratch<float> scratch_float_;
+  detail::ClusterScratch<double> scratch_;
+  detail::ClusterScratch<float> scratch_float_;
 };
 
 }  // namespace dch
