@@ -28,6 +28,29 @@ thermo 20
 thermo_modify format float %.15g
 """
 
+# Of each style its name, arguments and coefficients of three pairs of types; "" for a pair that is mixed.
+STYLES = (
+    ("lj/cut/coul/cut", "2.2 2.7", "1.0 1.0", "0.7 0.9", ""),
+    ("lj/cut/coul/long", "2.2 2.7", "1.0 1.0", "0.7 0.9", ""),
+    ("lj/cut/coul/dsf", "0.5 2.2 2.7", "1.0 1.0", "0.7 0.9", ""),
+    ("lj/charmm/coul/long", "1.6 2.2 2.7", "1.0 1.0 0.5 0.9", "0.7 0.9", ""),
+    ("lj/charmm/coul/charmm", "1.6 2.2 1.8 2.7", "1.0 1.0", "0.7 0.9 0.6 0.8", ""),
+    ("lj/expand", "2.2", "1.0 0.9 0.1", "0.7 0.8 0.2", "0.8 0.85 0.15"),
+    ("buck", "2.4", "4000 0.15 1.0", "3500 0.155 0.7", "3000 0.15 0.8"),
+    ("buck/coul/long", "2.2 2.7", "4000 0.15 1.0", "3500 0.155 0.7", "3000 0.15 0.8"),
+    ("morse", "2.4", "1.0 5.0 1.1", "0.7 6.0 1.0", "0.9 5.5 1.05"),
+    ("soft", "2.4", "20.0", "15.0", ""),
+    ("yukawa", "1.2 2.6", "10.0", "7.0", ""),
+)
+
+
+def salt_with(style, arguments, first, second, both):
+    """SALT with another style."""
+    script = SALT.replace("pair_style lj/cut/coul/long 2.2 2.7\n", f"pair_style {style} {arguments}\npair_modify table 0\n")
+    lines = f"pair_coeff 1 1 {first}\npair_coeff 2 2 {second}\n" + (f"pair_coeff 1 2 {both}\n" if both else "")
+    script = script.replace("pair_coeff * * 1.0 1.0\n", lines)
+    return script if style.endswith("long") else script.replace("kspace_style pppm 1e-4\n", "")
+
 
 class ForceStyles(ComparedWithStock):
     """Other ways to set a style, to change it, to read it back."""
@@ -90,6 +113,48 @@ run 0
         tables = self.compare(script)
         self.assertEqual(len(tables), 3)
         self.assertLess(abs(tables[2][0]["E_pair"] - tables[1][0]["E_pair"]), 1e-6)
+
+    def test_every_style_goes_through_restarts_and_data_files(self):
+        for style, *words in STYLES:
+            again = "pair_modify table 0\n" + ("kspace_style pppm 1e-4\n" if style.endswith("long") else "")
+            script = salt_with(style, *words) + f"""
+run 10
+write_restart {host.work}/salt.restart
+write_data {host.work}/salt.data pair ij
+clear
+dch precision double
+read_restart {host.work}/salt.restart
+{again}
+fix 1 all nve
+thermo_modify format float %.15g
+run 10
+"""
+            from_data = f"""
+clear
+dch precision double
+units lj
+atom_style charge
+pair_style {style} {words[0]}
+read_data {host.work}/salt.data
+{again}
+thermo_modify format float %.15g
+run 0
+"""
+            has_data = style != "lj/cut/coul/dsf"  # which writes no coefficients to data files
+            with self.subTest(style):
+                self.assertEqual(len(self.compare(script + (from_data if has_data else ""))), 3 if has_data else 2)
+
+    def test_every_style_refuses_what_the_plain_one_does(self):
+        for style, *words in STYLES:
+            with self.subTest(style):
+                for wrong in (salt_with(style, "", *words[1:]), salt_with(style, words[0], "1.0 1.0 1.0 1.0 1.0 1.0 1.0", *words[2:])):
+                    said = []
+                    for suffix in ("", "suffix dch\n"):
+                        code, output = host.run_text("include ${load}\n" + suffix + wrong + "run 0\n")
+                        self.assertNotEqual(code, 0)
+                        said.append([line for line in output.splitlines() if "ERROR" in line])
+                    self.assertEqual(said[0], said[1])
+                    self.assertTrue(said[0])
 
     def test_charges_restart_and_change(self):
         script = SALT + f"""
