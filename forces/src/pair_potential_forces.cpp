@@ -157,9 +157,9 @@ void PairPotential::add_weighted(const WeightedPairs& pairs, Span<const Vec3> po
 
 void PairPotential::compute(PairBatch& pairs, const std::array<double, 4>& weight,
                             const std::array<double, 4>& charge_weight) const {
-  detail::style_of(params_).batch({detail::pointers_to(full_), constants<double>(), params_.constant, weight.data(),
-                           charge_weight.data()},
-                          pairs);
+  detail::style_of(params_).batch({detail::pointers_to(full_), constants<double>(), params_.constant,
+                                   weight.data(), charge_weight.data()},
+                                  pairs);
 }
 
 void PairPotential::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,

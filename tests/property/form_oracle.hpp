@@ -128,7 +128,7 @@ struct Scene {
 
 /// Adds what a pair adds; the displacement is that from i to j.
 inline void add(const PairPotentialParams& all, const Scene& scene, std::size_t i, std::size_t j, Vec3 d,
-         Weights weights, LennardJonesResult& result) {
+                Weights weights, LennardJonesResult& result) {
   const auto a = static_cast<std::size_t>(scene.types[i]), b = static_cast<std::size_t>(scene.types[j]);
   const FormPair& pair = all.pairs[a * static_cast<std::size_t>(all.types) + b];
   const Dual r{std::sqrt(norm2(d)), 1};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What PairPotential refuses.
-#include <gtest/gtest.h>
 #include <functional>
+#include <gtest/gtest.h>
 #include <string>
 
 #include <dch/base/error.hpp>
