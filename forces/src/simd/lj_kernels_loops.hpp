@@ -83,7 +83,7 @@ void add_joined(const LjTask<typename S::Real>& task, const ClusterPairs::Row& r
     const Separations<S> separation =
         measure<S, kParameters, Kind, Half::both>(task, row, i, beside, coefficient, constants);
     apply<S, kParameters, kSums, Kind, Half::both>(task, beside, separation, coefficient, charges, constants,
-                                                    sum);
+                                                   sum);
   }
 }
 
@@ -105,7 +105,7 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
       add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S, false>>(
           task, row, i, entry, joined, coefficient, charges, constants, sum);
       add_joined<S, kParameters, kSums, Kind>(task, row, i, joined, end, coefficient, charges, constants,
-                                               sum);
+                                              sum);
       return;
     }
   }
@@ -114,12 +114,12 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
     if (task.order == ClusterPairs::EntryOrder::by_halves)
       lower = entry + task.parts[r].first, upper = entry + task.parts[r].lower;
   add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
-                                                                      charges, constants, sum);
+                                                                     charges, constants, sum);
   if constexpr (kLeavesOutHalves<S, kSums>) {
-    add_entries<S, kParameters, kSums, Kind, Half::lower, OneBeside<S>>(
-        task, row, i, lower, upper, coefficient, charges, constants, sum);
-    add_entries<S, kParameters, kSums, Kind, Half::upper, OneBeside<S>>(
-        task, row, i, upper, end, coefficient, charges, constants, sum);
+    add_entries<S, kParameters, kSums, Kind, Half::lower, OneBeside<S>>(task, row, i, lower, upper,
+                                                                        coefficient, charges, constants, sum);
+    add_entries<S, kParameters, kSums, Kind, Half::upper, OneBeside<S>>(task, row, i, upper, end, coefficient,
+                                                                        charges, constants, sum);
   }
 }
 

@@ -207,9 +207,12 @@ void ClusterPairFinder::append_rows(std::int32_t own, std::int32_t first_shift, 
     const FoundRow found = kernels_->find_row(row, slice.near.from(first), count, limit_.out, entries);
     slice.work.beside_clusters += count;
     slice.work.by_points += found.compared;
-    if (s == 0 && !is_alone) entries->mask &= kPairsWithinCluster;
-    const std::int32_t kept =
-        restricts ? restrict_row(c, request, clusters, entries, found.entries, slice) : found.entries;
+    std::int32_t kept = found.entries;
+    if (s == 0 && !is_alone) {
+      entries->mask &= kPairsWithinCluster;
+      if (entries->mask == 0) std::copy(entries + 1, entries + kept--, entries);
+    }
+    if (restricts) kept = restrict_row(c, request, clusters, entries, kept, slice);
     if (kept == 0) continue;
     slice.rows.push_back({static_cast<std::int64_t>(slice.written), c, first_shift});
     slice.written += static_cast<std::size_t>(kept);

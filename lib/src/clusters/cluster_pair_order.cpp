@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 
-#include <dch/base/error.hpp>
 #include <dch/base/instruction_set.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 
@@ -138,10 +136,6 @@ class RowOrderer {
 }  // namespace
 
 void ClusterPairs::order_entries(EntryOrder wanted, Executor* executor) {
-  if (refreshes > 0)
-    throw InvalidParameter("order_entries() was called after refresh() had been called " +
-                           std::to_string(refreshes) +
-                           " times; call it after a search, before positions are taken");
   const bool is_done = wanted == EntryOrder::as_found || entry_order != EntryOrder::as_found;
   if (is_done || refreshes_before < steps_to_order(wanted) || rows.empty()) return;
   const std::vector<ImageKey> image_of_shift =
@@ -160,7 +154,7 @@ void ClusterPairs::order_entries(EntryOrder wanted, Executor* executor) {
   } else {
     executor->run(slices, order);
   }
-  // Memory may be lacking until here: then rows are what they were, of entries in another order.
+  // Memory may be lacking until here: then rows are what they were, of the same entries.
   RowOrderer all = std::move(ordered.front());
   for (auto other = ordered.begin() + 1; other != ordered.end(); ++other) {
     all.rows.insert(all.rows.end(), other->rows.begin(), other->rows.end());

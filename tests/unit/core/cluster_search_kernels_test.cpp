@@ -179,7 +179,7 @@ TEST_P(ClusterSearchKernelsTest, FindThePairsOfSlotsThatAreNear) {
   });
 }
 
-/// Calls f(entries, count, random) for entries of masks of few bits, of more, and of any.
+/// Calls f(entries, count) for entries of masks of few bits, of more, and of any.
 template <class F>
 void for_random_entries(const F& f) {
   scenes::Random random(7);
@@ -190,9 +190,8 @@ void for_random_entries(const F& f) {
     for (ClusterPairs::Entry& entry : entries) {
       entry = {static_cast<std::int32_t>(random.below(1000)), 0,
                static_cast<std::uint16_t>(random.below(65536))};
-      while (entry.mask == 0)
-        for (std::size_t bits = random.below(most + 1); bits > 0; --bits)
-          entry.mask = static_cast<std::uint16_t>(entry.mask | 1u << random.below(16));
+      for (std::size_t bits = random.below(most + 1); bits > 0; --bits)
+        entry.mask = static_cast<std::uint16_t>(entry.mask | 1u << random.below(16));
     }
     f(entries, count);
   }

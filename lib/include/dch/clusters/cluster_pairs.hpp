@@ -215,11 +215,10 @@ struct ClusterPairs {
               std::vector<std::int32_t>& away, Executor* executor = nullptr);
 
   /// Puts the entries of each row in the order that a kernel is faster with
-  /// (LennardJones::wanted_order()); all kernels take any. To be called after a search and before positions
-  /// are taken. Masks may lose pairs later, rows must not lose entries then. Does nothing if positions were
-  /// taken less than steps_to_order() times between the last two searches, as it would not pay. O(entries).
-  /// @throws InvalidParameter if positions have been taken since the search. After any throw the order is
-  ///   said to be as_found.
+  /// (LennardJones::wanted_order()); all kernels take any. Masks may lose pairs later, rows must not lose
+  /// entries then. Does nothing if positions were taken less than steps_to_order() times between the two last
+  /// searches, as it would not pay, or if there is an order already. O(entries). After a throw the order is
+  /// said to be as_found.
   void order_entries(EntryOrder wanted, Executor* executor = nullptr);
   /// How often positions have to be taken between two searches for an order to pay.
   static constexpr int steps_to_order(EntryOrder order) { return order == EntryOrder::joined ? 10 : 3; }

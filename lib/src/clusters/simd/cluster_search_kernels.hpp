@@ -94,8 +94,8 @@ struct JoinedEntriesTo {
   ClusterPairs::Entry *alone, *joined;
 };
 
-/// How many entries have bits in both halves of their masks, in the lower one alone and in the upper one
-/// alone.
+/// How many entries have bits in both halves of their masks, in the lower one alone, and in the upper one
+/// alone or nowhere.
 struct EntryHalves {
   std::int32_t both = 0, lower = 0, upper = 0;
 };

@@ -11,7 +11,7 @@ namespace {
 
 /// Masks with at least so many bits come before those with fewer. With sixteen classes in place of three a
 /// register holds 1 in 50 pairs more; to find the classes takes longer than that.
-inline constexpr int kLeastBits[] = {9, 6, 1};
+inline constexpr int kLeastBits[] = {9, 6, 0};
 
 /// In memory, for sets whose registers hold fewer.
 struct PlainMasks {
@@ -58,10 +58,11 @@ JoinedEntries join(const ClusterPairs::Entry* entries, std::int32_t count, const
   __builtin_memcpy(from, entries, sizeof from[0] * static_cast<std::size_t>(count));
   std::uint16_t sorted[2 * kJoinedAtOnce]{}, number[2 * kJoinedAtOnce]{};
   const typename S::Masks given = S::of(from, count);
+  const auto each = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
   std::int32_t found = 0;
   std::uint32_t before = 0;
   for (const int least : kLeastBits) {
-    const std::uint32_t lanes = S::with_bits(given, least);
+    const std::uint32_t lanes = S::with_bits(given, least) & each;
     S::move_to_front(lanes & ~before, given, sorted + found, number + found);
     found += __builtin_popcount(lanes & ~before);
     before = lanes;
@@ -71,7 +72,7 @@ JoinedEntries join(const ClusterPairs::Entry* entries, std::int32_t count, const
   for (std::int32_t n = 0; n < count; ++n) fits[n] = S::without_bits_of(sorted[n], all);
   ClusterPairs::Entry alone[kJoinedAtOnce + 1];
   JoinedEntries result;
-  auto left = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+  std::uint32_t left = each;
   while (left != 0) {
     const int first = __builtin_ctz(left);
     left &= left - 1;
@@ -93,18 +94,19 @@ template <class S>
 EntryHalves split(const ClusterPairs::Entry* entries, std::int32_t count, const EntryHalvesTo& to) {
   constexpr long long kLowerBits = 0x000000FF00000000LL, kUpperBits = 0x0000FF0000000000LL;
   EntryHalves found;
-  const auto add = [&](const ClusterPairs::Entry* from) {
+  const auto add = [&](const ClusterPairs::Entry* from, std::uint32_t lanes) {
     const auto some = S::load_entries(from);
     const std::uint32_t lower = S::with_bits(some, kLowerBits), upper = S::with_bits(some, kUpperBits);
     found.both += S::append(lower & upper, some, to.both + found.both);
     found.lower += S::append(lower & ~upper, some, to.lower + found.lower);
-    found.upper += S::append(upper & ~lower, some, to.upper + found.upper);
+    found.upper += S::append(~lower & lanes, some, to.upper + found.upper);
   };
   std::int32_t n = 0;
-  for (; n + S::kFours <= count; n += S::kFours) add(entries + n);
+  constexpr std::uint32_t kAll = (1u << S::kFours) - 1;
+  for (; n + S::kFours <= count; n += S::kFours) add(entries + n, kAll);
   ClusterPairs::Entry last[S::kFours]{};
   for (std::int32_t k = n; k < count; ++k) last[k - n] = entries[k];
-  add(last);
+  add(last, (1u << (count - n)) - 1);
   return found;
 }
 
