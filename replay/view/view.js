@@ -277,7 +277,7 @@ const tellFault = (what, fault) => { element('fault').textContent = `${what}: ${
 
 function start() {
   const viewer = new Viewer();
-  let ticket = 0, playing = 0;
+  let ticket = 0, playing = null;
 
   const refill = () => {
     if (!viewer.frame) return;
@@ -298,11 +298,13 @@ function start() {
       tellFault('This frame cannot be shown', fault);
     }
   };
-  const step = async () => {
-    const slider = element('frame');
-    slider.value = (Number(slider.value) + 1) % frames.length;
-    await load();
-    if (playing) playing = setTimeout(step, 100);
+  const play = async () => {
+    const slider = element('frame'), mine = playing = {};
+    while (playing === mine) {  // not if it was stopped meanwhile, whoever plays now
+      slider.value = (Number(slider.value) + 1) % frames.length;
+      await load();
+      await new Promise(done => setTimeout(done, 100));
+    }
   };
 
   const most = Math.max(...frames.map(facts => facts.levels.length));
@@ -313,8 +315,8 @@ function start() {
   element('level').addEventListener('change', refill);
   for (const box of document.querySelectorAll('fieldset input')) box.addEventListener('change', refill);
   element('play').addEventListener('click', () => {
-    clearTimeout(playing);
-    playing = playing ? 0 : setTimeout(step, 0);
+    if (playing) playing = null;
+    else play();
     element('play').textContent = playing ? 'stop' : 'play';
   });
   addEventListener('resize', () => viewer.resize());

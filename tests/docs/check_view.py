@@ -37,6 +37,32 @@ PROBE = """<script>
     const pixels = new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer);
     return pixels.filter(pixel => pixel !== pixels[pixels.length - 1]).length;
   };
+  // How many frames are waited for at once if it is stopped and played again while a frame loads.
+  const loops = async () => {
+    const read = readFrame, wait100 = setTimeout;
+    let waiting = 0, most = 0, again = true;
+    readFrame = facts => {
+      if (again) {
+        again = false;
+        element('play').click();
+        element('play').click();
+      }
+      return read(facts);
+    };
+    setTimeout = (task, time) => {
+      if (time !== 100) return wait100(task, time);
+      most = Math.max(most, ++waiting);
+      return wait100(() => { --waiting; task(); }, time);
+    };
+    element('play').click();
+    for (let k = 0; k < 10; ++k) await wait();
+    most = waiting;
+    for (let k = 0; k < 10; ++k) await wait();
+    element('play').click();
+    readFrame = read;
+    setTimeout = wait100;
+    return most;
+  };
   const weighed = values => values.reduce((sum, value, k) => sum + (k + 1) % 1000 * value, 0);
   while (document.body.dataset.shown !== '0') await wait();
   const found = {first: drawn(), pixels: {}};
@@ -59,6 +85,7 @@ PROBE = """<script>
   found.sums = [frame.contacts, ...edges, ...frame.levels.slice(1).map(one => one.nodes), ...frame.levels.map(one => one.parents)].map(weighed);
   found.level = level;
   found.counts = element('counts').textContent;
+  found.loops = await loops();
   found.fault = element('fault').textContent;
   const shown = document.createElement('pre');
   shown.id = 'found';
@@ -84,6 +111,8 @@ def faults_of(found, frame):
     for what, is_there in has.items():
         if (found["pixels"][what] > 200) != is_there or not is_there and found["pixels"][what] > 0:
             yield f"{found['pixels'][what]} pixels are drawn of {what}"
+    if found["loops"] != 1:
+        yield f"{found['loops']} loops play at once"
     if found["first"] < 1000 or found["fault"]:
         yield f"the first frame has {found['first']} pixels; {found['fault']}"
 
