@@ -27,11 +27,14 @@ NOT_COMPARED = ("proc", "dev", "sys", "tmp", "root", "run", "var/lib/apt", "var/
 
 
 def sections(page):
-    """Headings, each with its blocks: (language, text)."""
-    for part in re.split(r"^#+ ", page, flags=re.MULTILINE)[1:]:
-        blocks = re.findall(r"^```(\w+)\n(.*?)^```", part, re.MULTILINE | re.DOTALL)
-        if blocks:
-            yield part.split("\n")[0], blocks
+    """Headings, each with its blocks: (language, text). Lines of a block may begin as headings do."""
+    found = []
+    for heading, language, text in re.findall(r"^#+ ([^\n]*)$|^```(\w+)\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
+        if heading:
+            found.append((heading, []))
+        else:
+            found[-1][1].append((language, text))
+    return [(heading, blocks) for heading, blocks in found if blocks]
 
 
 class System:
