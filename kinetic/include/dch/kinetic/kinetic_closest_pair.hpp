@@ -42,8 +42,8 @@ struct ClosestCounters {
 /// nearest images.
 ///
 ///     dch::kinetic::KineticClosestPair closest(box, plans, 0.0);
-///     while (auto change = closest.step(end)) std::printf("%g: %d, %d\n", change->time, change->after.a,
-///     change->after.b);
+///     while (auto change = closest.step(end))
+///       std::printf("%g: %d, %d\n", change->time, change->after.a, change->after.b);
 ///
 /// Certificates say which of two pairs is the closer one, and hold until the polynomial that is the
 /// difference of their squared distances changes its sign. Pairs that are equally close for a moment have no

@@ -55,7 +55,7 @@ inline constexpr double kLargestShareOfBox = kMaxShareOfBox;  ///< the name of b
 ///
 ///     auto edges = dch::kinetic::make_kinetic_edges(params, plans, 0.0);
 ///     while (auto event = edges->step(end)) {          // time passes up to the event
-///       edges->set_motion(event->edge.a, ...);         // as it does at a collision
+///       edges->set_motion(event->edge.a, after_a);     // as it does at a collision
 ///     }
 ///
 /// A pair that touches its distance without crossing it has no event, and one that is at its distance counts

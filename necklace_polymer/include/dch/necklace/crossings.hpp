@@ -73,7 +73,7 @@ struct StepCrossings {
 ///
 ///     dch::necklace::CrossingFinder finder(chains);
 ///     finder.start(positions, box);
-///     while (...) report(finder.step(positions, box).crossings);
+///     while (read_frame(positions, box)) report(finder.step(positions, box).crossings);
 ///
 /// Beads go along straight lines to the images nearest to where they were; in a box that changes its shape,
 /// to where the change alone would have taken them. bond_encounter() says which crossings there are, exactly
