@@ -51,6 +51,16 @@ def index_pairs(values: Any, name: str) -> npt.NDArray[np.int32]:
     return np.require(array, np.int32, ["C", "A"])
 
 
+def indices(values: Any, name: str) -> npt.NDArray[np.int32]:
+    """Whole numbers that are not negative, in one row."""
+    array = np.asarray(values)
+    if array.ndim != 1 or array.size and array.dtype.kind not in "iu":
+        raise InvalidParameter(f"{name} has the shape {array.shape} and the type {array.dtype}; give whole numbers in one row")
+    if array.size and not 0 <= int(array.min()) <= int(array.max()) < 2**31:
+        raise InvalidParameter(f"{name} has numbers from {array.min()} to {array.max()}; give numbers from 0 on")
+    return np.require(array, np.int32, ["C", "A"])
+
+
 def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
     """The vectors of a cell as rows, and along which of them it is periodic.
 
@@ -136,6 +146,17 @@ def is_single(dtype: Any) -> bool:
     return bool(kind == np.float32)
 
 
+def check_given(name: str, array: Any, kind: npt.DTypeLike, shape: tuple[int | None, ...]) -> None:
+    """An array to write to, of this type and shape, in which None is any number."""
+    wanted = tuple("n" if length is None else length for length in shape)
+    if not isinstance(array, np.ndarray) or array.dtype != kind or array.ndim != len(shape) or any(
+            want is not None and have != want for have, want in zip(array.shape, shape)):
+        found = f"the shape {array.shape} and the type {array.dtype}" if isinstance(array, np.ndarray) else repr(array)
+        raise InvalidParameter(f"out for {name} has {found}; give an array of {np.dtype(kind)} with the shape {wanted}")
+    if not (array.flags.writeable and array.flags.c_contiguous and array.flags.aligned):
+        raise InvalidParameter(f"out for {name} is read-only or not contiguous; give an array that numpy has made")
+
+
 def given_arrays(out: Any, letters: str, single: bool, *read: Floats) -> tuple[Any, ...] | None:
     """Arrays to write to, one for each letter; none of them overlaps another one, or those that are read meanwhile."""
     if out is None:
@@ -146,16 +167,21 @@ def given_arrays(out: Any, letters: str, single: bool, *read: Floats) -> tuple[A
                                "and each letter once")
     for letter, array in zip(letters, arrays):
         kind = np.dtype(np.int64 if letter in "ijS" else np.float32 if single else np.float64)
-        width = (3,) if letter in "DS" else ()
-        if not isinstance(array, np.ndarray) or array.dtype != kind or array.ndim != 1 + len(width) or array.shape[1:] != width:
-            found = f"the shape {array.shape} and the type {array.dtype}" if isinstance(array, np.ndarray) else repr(array)
-            raise InvalidParameter(f"out for {letter} has {found}; give an array of {kind} with the shape {('n', *width)}")
-        if not (array.flags.writeable and array.flags.c_contiguous and array.flags.aligned):
-            raise InvalidParameter(f"out for {letter} is read-only or not contiguous; give an array that numpy has made")
+        check_given(letter, array, kind, (None, 3) if letter in "DS" else (None,))
     for k, array in enumerate(arrays):
         if any(np.may_share_memory(array, other) for other in (*arrays[:k], *read)):
             raise InvalidParameter(f"out for {letters[k]} shares memory with another array; give arrays of their own")
     return arrays
+
+
+def check_pair(out: Any, shape: tuple[int, int], real: npt.DTypeLike, *read: Floats) -> None:
+    """Arrays for indices and distances, which overlap neither each other nor what is read."""
+    if not isinstance(out, (tuple, list)) or len(out) != 2:
+        raise InvalidParameter(f"out is {type(out).__name__}; give two arrays, one for indices and one for distances")
+    for name, array, kind in zip(("index", "distance"), out, (np.int32, real)):
+        check_given(name, array, kind, shape)
+        if any(np.may_share_memory(array, other) for other in (*read, *(out[:1] if name == "distance" else ()))):
+            raise InvalidParameter(f"out for {name} shares memory with another array; give arrays of their own")
 
 
 def in_order(letters: str, find: Callable[[str], tuple[Any, ...]]) -> Any:

@@ -107,7 +107,8 @@ def all_pairs(positions: Any, cutoff: Any, cell: Any = None, pbc: Any = None, fu
 
 
 def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any = None, *, epsilon: float = 0,
-            threads: int | None = None, dtype: Any = np.float64) -> tuple[npt.NDArray[np.int32], npt.NDArray[Any]]:
+            threads: int | None = None, dtype: Any = np.float64,
+            out: Any = None) -> tuple[npt.NDArray[np.int32], npt.NDArray[Any]]:
     """The k nearest points of each point, itself left out, or of each query, nearest first.
 
     Distances are those of nearest images; each point counts once. Of points equally near, the one with the smaller
@@ -128,6 +129,8 @@ def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any
         queries.
     dtype
         float32 or float64, of the distances.
+    out
+        Two arrays of the types and the shape of the results, which are written to and returned; a pair of C-contiguous ones.
 
     Returns
     -------
@@ -141,6 +144,12 @@ def nearest(points: Any, k: int, cell: Any = None, pbc: Any = None, queries: Any
     asked = None if queries is None else arguments.points(queries, "queries")
     many = arguments.count(k, "k", 1, 2**20)
     kind = np.float32 if arguments.is_single(dtype) else np.float64
-    index, distance = _core.nearest(arguments.points(points), vectors, periodic, asked, many,
-                                    arguments.length(epsilon, "epsilon"), arguments.threads(threads))
-    return index, distance.astype(kind, copy=False)
+    places = arguments.points(points)
+    if out is not None:
+        arguments.check_pair(out, (len(places if asked is None else asked), many), kind, places, *(() if asked is None else (asked,)))
+    index, distance = _core.nearest(places, vectors, periodic, asked, many, arguments.length(epsilon, "epsilon"),
+                                    arguments.threads(threads))
+    if out is None:
+        return index, distance.astype(kind, copy=False)
+    out[0][...], out[1][...] = index, distance
+    return out[0], out[1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""capped_distance and self_capped_distance, called as those of MDAnalysis.lib.distances.
+"""capped_distance and self_capped_distance, called as those of MDAnalysis.lib.distances, and an analysis of contacts of chains.
 
 Positions are arrays of (n, 3), or anything with positions, as an AtomGroup. A box is [lx, ly, lz, alpha, beta, gamma]
 with angles in degrees, or None. Each pair counts once, in its nearest image. Distances are those of double precision;
@@ -12,11 +12,15 @@ from typing import Any
 
 import numpy as np
 
+from MDAnalysis.analysis.base import AnalysisBase
+
 from . import _arguments as arguments
 from . import _core
+from ._chains import Chains
+from ._contacts import ContactFinder, ContactMap
 from ._core import InvalidParameter
 
-__all__ = ["capped_distance", "self_capped_distance"]
+__all__ = ["ContactAnalysis", "capped_distance", "self_capped_distance"]
 
 
 def cell_of(box: Any) -> Any:
@@ -107,3 +111,59 @@ def self_capped_distance(reference: Any, max_cutoff: float, min_cutoff: float | 
         request = _core.Request(np.array([[cutoff]]), None, None, True)
         pairs, distances = find(points, request, cutoff, min_cutoff, box, threads)
     return (pairs, distances) if return_distances else pairs
+
+
+class ContactAnalysis(AnalysisBase):  # type: ignore[misc]
+    """Contacts of chains with themselves and each other, over the frames of any file that MDAnalysis reads.
+
+    Parameters
+    ----------
+    group
+        An AtomGroup: its atoms are the beads, in chains by the bonds among them, or by `chains`.
+    gap, radius, skip_bonds, within, between, threads
+        As dch.ContactFinder has them; a radius for each atom of the group. Lengths in Angstrom, as all of MDAnalysis.
+    chains
+        dch.Chains over as many particles as the group has atoms; None for those of its bonds.
+    max_bins
+        Of the map, as dch.ContactMap has them.
+
+    run() fills results.counts, the number of contacts of each frame, and results.map, a dch.ContactMap; results.last are the
+    contacts of the last frame, a dch.Contacts, whose i and j are places in the group.
+
+    InvalidParameter if the group has no bonds and no chains are given, and as dch.Chains and dch.ContactFinder.
+    """
+
+    def __init__(self, group: Any, gap: float, radius: Any = 0, *, chains: Chains | None = None, skip_bonds: int = 1, within: bool = True,
+                 between: bool = True, max_bins: int = 512, threads: int | None = None, **options: Any) -> None:
+        super().__init__(group.universe.trajectory, **options)
+        self._group = group
+        self._chains = chains_of(group) if chains is None else chains
+        if self._chains.particles != len(group):
+            raise InvalidParameter(f"chains has {self._chains.particles} particles for a group of {len(group)} atoms; give as many")
+        pairs: dict[str, Any] = {"skip_bonds": skip_bonds, "within": within, "between": between}
+        self._finder = ContactFinder(self._chains, gap, radius, threads=threads, **pairs)
+        self._map_options: dict[str, Any] = {"max_bins": max_bins, **pairs}
+        ContactMap(self._chains, **self._map_options)  # which refuses what does not fit
+
+    def _prepare(self) -> None:
+        self.results.counts = np.zeros(self.n_frames, np.int64)
+        self.results.map = ContactMap(self._chains, **self._map_options)
+        self.results.last = None
+
+    def _single_frame(self) -> None:
+        found = self._finder.find(arguments.points(self._group.positions), cell_of(self._ts.dimensions))
+        self.results.counts[self._frame_index] = len(found.i)
+        self.results.map.add(found)
+        self.results.last = found
+
+
+def chains_of(group: Any) -> Chains:
+    """By the bonds both of whose atoms are in the group."""
+    indices = group.indices
+    place = np.full(len(group.universe.atoms), -1)
+    place[indices] = np.arange(len(indices))
+    bonds = place[group.universe.bonds.indices] if hasattr(group.universe, "bonds") else np.zeros((0, 2), int)
+    bonds = bonds[(bonds >= 0).all(axis=1)]
+    if len(bonds) == 0:
+        raise InvalidParameter("the group has no bonds; give chains, such as dch.Chains.from_molecules(group.resids)")
+    return Chains.from_bonds(len(indices), bonds)

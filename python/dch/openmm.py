@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Neighbor pairs of OpenMM's Contexts, and a reporter of bonds of chains that go through each other.
+"""Neighbor pairs of OpenMM's Contexts, and reporters of contacts of chains and of bonds that go through each other.
 
     i, j, D = dch.openmm.ContextPairs(context, 0.6 * unit.nanometer).pairs("ijD")
     simulation.reporters.append(dch.openmm.CrossingReporter("crossings.csv", 100))
+    simulation.reporters.append(dch.openmm.ContactReporter("contacts.csv", 1000, gap=0.3))
 """
 from __future__ import annotations
 
@@ -12,11 +13,13 @@ from typing import Any, TextIO
 from openmm import unit
 
 from ._arguments import count, index_pairs, length
+from ._chains import Chains
+from ._contacts import ContactFinder, ContactMap, Contacts
 from ._core import InvalidParameter
 from ._crossings import Crossings, CrossingStep
 from ._pairs import VerletList
 
-__all__ = ["ContextPairs", "CrossingReporter"]
+__all__ = ["ContactReporter", "ContextPairs", "CrossingReporter"]
 
 COLUMNS = ("Step", "Time (ps)", "p1", "p2", "q1", "q2", "Sign", "X (nm)", "Y (nm)", "Z (nm)")
 
@@ -28,7 +31,7 @@ def in_nanometers(value: Any) -> Any:
 def bonds_of(topology: Any) -> list[list[int]]:
     bonds = [[bond[0].index, bond[1].index] for bond in topology.bonds()]
     if not bonds:
-        raise InvalidParameter("the topology of the simulation has no bonds; give CrossingReporter those of the chains")
+        raise InvalidParameter("the topology of the simulation has no bonds; give the reporter those of the chains")
     return bonds
 
 
@@ -83,6 +86,29 @@ class ContextPairs:
         return f"ContextPairs({self._pairs!r})"
 
 
+class Table:
+    """A file of rows of numbers under the names of their columns; closed with this if it was opened by name."""
+
+    def __init__(self, file: str | TextIO | None, columns: tuple[str, ...]) -> None:
+        self._owned: TextIO | None = None
+        if isinstance(file, str):
+            file = self._owned = open(file, "w")
+        self._file = file
+        if self._file is not None:
+            print("#" + ",".join(f'"{name}"' for name in columns), file=self._file, flush=True)
+
+    def __del__(self) -> None:
+        owned: TextIO | None = getattr(self, "_owned", None)  # not there where the file could not be opened
+        if owned is not None:
+            owned.close()
+
+    def write(self, rows: Any) -> None:
+        if self._file is not None:
+            for row in rows:
+                print(*row, sep=",", file=self._file)
+            self._file.flush()
+
+
 class CrossingReporter:
     """Writes down the bonds that go through each other between reports, a line each, and counts them.
 
@@ -123,17 +149,7 @@ class CrossingReporter:
         self.crossings = self.contacts = self.undetermined = 0
         #: What the last report found, a dch.CrossingStep; None where it began.
         self.found: CrossingStep | None = None
-        self._owned_file: TextIO | None = None
-        if isinstance(file, str):
-            file = self._owned_file = open(file, "w")
-        self._file = file
-        if self._file is not None:
-            print("#" + ",".join(f'"{name}"' for name in COLUMNS), file=self._file, flush=True)
-
-    def __del__(self) -> None:
-        file: TextIO | None = getattr(self, "_owned_file", None)  # not there where an argument was refused
-        if file is not None:
-            file.close()
+        self._table = Table(file, COLUMNS)
 
     def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
         """Steps until the next report, and that it needs positions, not wrapped."""
@@ -163,8 +179,8 @@ class CrossingReporter:
         self.crossings += len(found.crossings.time)
         self.contacts += len(found.contacts.time)
         self.undetermined += len(found.undetermined.bonds)
-        if self._file is not None and len(found.crossings.time) > 0:
-            self._write(self._file, found, last, now)
+        if len(found.crossings.time) > 0:
+            self._table.write(self._rows(found, last, now))
 
     @staticmethod
     def _warn(found: CrossingStep, step: int) -> None:
@@ -175,9 +191,68 @@ class CrossingReporter:
                       RuntimeWarning, stacklevel=3)
 
     @staticmethod
-    def _write(file: TextIO, found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> None:
+    def _rows(found: CrossingStep, last: tuple[int, float], now: tuple[int, float]) -> Any:
         for p, q, time, _, place, sign in zip(*found.crossings):
             step, picoseconds = (a + time * (b - a) for a, b in zip(last, now))
-            numbers = [f"{step:.3f}", f"{picoseconds:.9g}", *p, *q, sign, *(f"{x:.9g}" for x in place)]
-            print(*numbers, sep=",", file=file)
-        file.flush()
+            yield f"{step:.3f}", f"{picoseconds:.9g}", *p, *q, sign, *(f"{x:.9g}" for x in place)
+
+
+class ContactReporter:
+    """Writes down how many contacts chains have, a line each report, and counts them in a map.
+
+    Parameters
+    ----------
+    file
+        Name of the file to write to, a file, or None for none. Lines have the step, the time, how many contacts there are,
+        and how many of these began and how many ended since the last report.
+    reportInterval
+        Steps between reports, at least 1.
+    gap, radius
+        As dch.ContactFinder has them; lengths in nm unless they have a unit.
+    bonds
+        (m, 2) indices of particles; None for those of the simulation's topology. Chains are what they make.
+    skip_bonds, within, between, threads
+        As dch.ContactFinder has them.
+    max_bins
+        Of the map, as dch.ContactMap has them.
+
+    If the System uses periodic boundary conditions, contacts are those of nearest images. InvalidParameter as for dch.Chains
+    and dch.ContactFinder; if bonds is None and the topology has none, at the first report.
+    """
+
+    def __init__(self, file: str | TextIO | None, reportInterval: int, gap: Any, radius: Any = 0, bonds: Any = None, *,
+                 skip_bonds: int = 1, within: bool = True, between: bool = True, max_bins: int = 512,
+                 threads: int | None = None) -> None:
+        self._interval = count(reportInterval, "reportInterval", 1, 2**31 - 1)
+        self._bonds = None if bonds is None else index_pairs(bonds, "bonds")
+        self._gap, self._radius, self._threads = in_nanometers(gap), in_nanometers(radius), threads
+        self._pairs: dict[str, Any] = {"skip_bonds": skip_bonds, "within": within, "between": between}
+        self._max_bins = max_bins
+        empty = Chains(0)
+        ContactMap(empty, max_bins)  # which refuse what does not fit
+        ContactFinder(empty, self._gap, threads=threads, **self._pairs)
+        self._finder: ContactFinder | None = None
+        self._last: set[tuple[int, int]] = set()
+        #: How often beads were in contact, a dch.ContactMap; None before the first report.
+        self.map: ContactMap | None = None
+        #: What the last report found, a dch.Contacts; None before the first.
+        self.found: Contacts | None = None
+        self._table = Table(file, ("Step", "Time (ps)", "Contacts", "Began", "Ended"))
+
+    def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
+        """Steps until the next report, and that it needs positions, not wrapped."""
+        return self._interval - simulation.currentStep % self._interval, True, False, False, False, False
+
+    def report(self, simulation: Any, state: Any) -> None:
+        """Called by the Simulation."""
+        positions, cell = positions_and_cell(simulation.system, state)
+        if self._finder is None or self.map is None:
+            chains = Chains.from_bonds(len(positions), bonds_of(simulation.topology) if self._bonds is None else self._bonds)
+            self._finder = ContactFinder(chains, self._gap, self._radius, threads=self._threads, **self._pairs)
+            self.map = ContactMap(chains, self._max_bins, **self._pairs)
+        self.found = self._finder.find(positions, cell)
+        self.map.add(self.found)
+        now = set(zip(self.found.i.tolist(), self.found.j.tolist()))
+        time = state.getTime().value_in_unit(unit.picosecond)
+        self._table.write([(simulation.currentStep, f"{time:.9g}", len(now), len(now - self._last), len(self._last - now))])
+        self._last = now

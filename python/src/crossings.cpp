@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Bonds that go through each other from one frame to the next.
-#include <functional>
 #include <pybind11/stl.h>
 
 #include <dch/base/error.hpp>
@@ -8,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "rows.hpp"
 #include "threads.hpp"
 
 namespace dch::python {
@@ -16,20 +16,6 @@ namespace {
 using necklace::CrossingFinder;
 using necklace::StepCrossings;
 using necklace::UndeterminedBond;
-
-/// A number or several of each event, one row an event.
-template <class T, std::size_t kColumns, class Events, class Row>
-py::array rows_of(const Events& events, const Row& row) {
-  std::vector<T> values;
-  values.reserve(kColumns * events.size());
-  for (const auto& event : events) {
-    const std::array<T, kColumns> numbers = row(event);
-    values.insert(values.end(), numbers.begin(), numbers.end());
-  }
-  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(events.size())};
-  if (kColumns > 1) shape.push_back(static_cast<py::ssize_t>(kColumns));
-  return array_of(std::move(values), std::move(shape));
-}
 
 /// What a step gave, with particles in the place of numbers of bonds.
 class StepArrays {
@@ -80,20 +66,6 @@ class StepArrays {
 
   const StepCrossings& step_;
   Span<const IndexPair> bonds_;
-};
-
-/// The threads that there are now: others after a fork.
-class PresentThreads final : public Executor {
- public:
-  explicit PresentThreads(int count) : threads_(count) {}
-  int threads() const override { return threads_.count(); }
-  void run(int parts, const std::function<void(int)>& task) override {
-    if (Executor* const pool = threads_.executor()) return pool->run(parts, task);
-    for (int part = 0; part < parts; ++part) task(part);
-  }
-
- private:
-  Threads threads_;
 };
 
 /// The finder, and what it holds from step to step.

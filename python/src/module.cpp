@@ -46,7 +46,9 @@ void add_errors(py::module_& m) {
 PYBIND11_MODULE(_core, m) {
   m.attr("version") = DCH_VERSION;
   add_errors(m);
+  dch::python::bind_chains(m);
   dch::python::bind_crossings(m);
+  dch::python::bind_hierarchy(m);
   dch::python::bind_pairs(m);
   dch::python::bind_queries(m);
 }

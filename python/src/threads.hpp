@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,20 @@ class Threads {
   int count_;
   std::unique_ptr<Executor> pool_;
   pid_t process_;
+};
+
+/// The threads that there are now: others after a fork.
+class PresentThreads final : public Executor {
+ public:
+  explicit PresentThreads(int count) : threads_(count) {}
+  int threads() const override { return threads_.count(); }
+  void run(int parts, const std::function<void(int)>& task) override {
+    if (Executor* const pool = threads_.executor()) return pool->run(parts, task);
+    for (int part = 0; part < parts; ++part) task(part);
+  }
+
+ private:
+  Threads threads_;
 };
 
 /// Says of an object that a thread is using it, as long as this lives: the lock of the interpreter is given

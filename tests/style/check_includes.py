@@ -27,7 +27,7 @@ BELOW = {
     "trajectory": ["lib"],
     "lammps_pair_style": ["lib", "forces", "necklace_polymer"],
     "openmm_plugin": ["lib", "forces", "necklace_polymer"],
-    "python": ["lib", "necklace_polymer", "proximity"],
+    "python": ["lib", "necklace_polymer", "proximity", "trajectory"],
     "replay": ["lib", "kinetic", "necklace_polymer", "proximity", "trajectory"],
 }
 ENDINGS = {".cpp", ".hpp", ".h"}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""dch.openmm.CrossingReporter in simulations of soft chains, which go through each other, against the roots of all pairs' cubics."""
+"""The reporters of dch.openmm in simulations of soft chains, which go through each other: crossings against the roots of all
+pairs' cubics, contacts against those of the frames."""
 
 import io
 import os
@@ -14,7 +15,7 @@ from openmm import app, unit
 
 import dch
 from crossing_roots import CHAIN, all_crossings, at, bonds_of_chains, random_chains
-from dch.openmm import CrossingReporter
+from dch.openmm import ContactReporter, CrossingReporter
 
 EVERY, BOX = 10, 6.0
 
@@ -122,6 +123,34 @@ class Reports(unittest.TestCase):
         self.assertIsNone(reporter.found)
         simulation.step(10)
         self.assertEqual(reporter.found.frame, 1)
+
+
+class Contacts(unittest.TestCase):
+    def test_contacts_are_those_of_the_frames(self):
+        for is_periodic, bonds, gap in ((True, None, 5 * unit.angstrom), (False, np.array(bonds_of_chains(6 * CHAIN)), 0.5)):
+            simulation, recorder, out = soft_chains(is_periodic), Recorder(), io.StringIO()
+            reporter = ContactReporter(out, EVERY, gap, radius=0.1, bonds=bonds, skip_bonds=2)
+            simulation.reporters += [recorder, reporter]
+            simulation.step(100)
+            chains = dch.Chains.from_bonds(6 * CHAIN, bonds_of_chains(6 * CHAIN))
+            before, lines = set(), []
+            for k, frame in enumerate(recorder.frames, start=1):
+                found = dch.contacts(chains, frame, np.eye(3) * BOX if is_periodic else None, gap=0.5, radius=0.1, skip_bonds=2)
+                now = set(zip(found.i.tolist(), found.j.tolist()))
+                lines.append(f"{k * EVERY},{0.01 * k * EVERY:.9g},{len(now)},{len(now - before)},{len(before - now)}")
+                before = now
+            self.assertGreater(len(before), 0)
+            self.assertEqual(out.getvalue().splitlines(), ['#"Step","Time (ps)","Contacts","Began","Ended"', *lines])
+            self.assertEqual((reporter.map.frames, len(reporter.found.i)), (10, len(before)))
+
+    def test_what_is_refused(self):
+        for options in ({"gap": np.nan}, {"gap": 1, "bonds": [[0, 0.5]]}, {"gap": 1, "skip_bonds": -1}, {"gap": 1, "max_bins": 0}):
+            with self.assertRaises(dch.InvalidParameter):
+                ContactReporter(None, EVERY, **options)
+        simulation = soft_chains(True)
+        simulation.topology = app.Topology()
+        with self.assertRaisesRegex(dch.InvalidParameter, "give the reporter those of the chains"):
+            begin(simulation, ContactReporter(None, EVERY, 0.5))
 
 
 class Refused(unittest.TestCase):

@@ -15,6 +15,7 @@ import numpy
 import openmm
 from openmm import app, unit
 
+import dch.openmm
 import openmm_dch
 
 BLOCKS = re.findall(r"^```python\n(.*?)^```", pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
@@ -57,7 +58,7 @@ def context_of(system, positions):
 
 class ManualTest(unittest.TestCase):
     def test_each_example_is_here(self):
-        words = ("openmm_dch.enable", "replaceNonbonded", "NecklaceContactForce", "ContextPairs", "CrossingReporter")
+        words = ("openmm_dch.enable", "replaceNonbonded", "NecklaceContactForce", "ContextPairs", "CrossingReporter", "ContactReporter")
         self.assertEqual([[word for word in words if word in block] for block in BLOCKS], [[word] for word in words])
 
     def test_the_drop_in(self):
@@ -94,19 +95,26 @@ class ManualTest(unittest.TestCase):
         self.assertEqual(len(names["i"]), len(names["S"]))
         self.assertGreater(len(names["i"]), 0)
 
-    def test_a_reporter_of_crossings(self):
+    def run_reporter(self, name, *files):
         system, topology, positions = beads()
         simulation = app.Simulation(topology, system, openmm.VerletIntegrator(0.001), openmm.Platform.getPlatformByName("CPU"))
         simulation.context.setPositions(positions)
-        program, = example("CrossingReporter")
+        program, = example(name)
         self.assertEqual(program.count("100000"), 1)
         with tempfile.TemporaryDirectory() as folder:
             here = os.getcwd()
             self.addCleanup(os.chdir, here)
             os.chdir(folder)
-            exec(program.replace("100000", "20"), {"unit": unit, "simulation": simulation})
-            self.assertTrue(pathlib.Path("crossings.csv").exists())
+            exec(program.replace("100000", "20").replace("1000,", "10,"), {"unit": unit, "simulation": simulation, "dch": dch})
+            for file in files:
+                self.assertGreater(pathlib.Path(file).stat().st_size, 0)
             os.chdir(here)
+
+    def test_a_reporter_of_crossings(self):
+        self.run_reporter("CrossingReporter", "crossings.csv")
+
+    def test_a_reporter_of_contacts(self):
+        self.run_reporter("ContactReporter", "contacts.csv", "contacts.cool")
 
 
 if __name__ == "__main__":

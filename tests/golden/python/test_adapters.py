@@ -16,6 +16,7 @@ from scenes import Scene
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
+    from MDAnalysis import Universe
     from MDAnalysis.lib import distances
 
 
@@ -123,6 +124,28 @@ class Mdanalysis(unittest.TestCase):
         expected = distances.self_capped_distance(self.first[:60], 14.0123, box=box, method="bruteforce")
         found = dch.mdanalysis.self_capped_distance(self.first[:60], 14.0123, box=box)
         self.assert_same(found, expected)
+
+    def test_contacts_of_chains(self):
+        random = np.random.default_rng(10)
+        frames = (random.normal(size=(4, 4, 15, 3)).cumsum(axis=2) * 2).reshape(4, 60, 3).astype(np.float32)
+        bonds = [(k, k + 1) for k in range(59) if k % 15 != 14]
+        universe = Universe.empty(70, trajectory=True)
+        universe.add_TopologyAttr("bonds", [(a + 10, b + 10) for a, b in bonds])  # the first ten atoms are in no chain
+        universe.load_new(np.concatenate([np.zeros((4, 10, 3), np.float32), frames], axis=1), order="fac",
+                          dimensions=np.tile([40.0, 41, 42, 90, 90, 90], (4, 1)))
+        group, chains = universe.atoms[10:], dch.Chains.from_bonds(60, bonds)
+        for analysis in (dch.mdanalysis.ContactAnalysis(group, 1.0, 1.2), dch.mdanalysis.ContactAnalysis(group, 1.0, 1.2, chains=chains)):
+            analysis.run()
+            expected = [dch.contacts(chains, frame, [40, 41, 42], gap=1.0, radius=1.2) for frame in frames]
+            self.assertEqual(analysis.results.counts.tolist(), [len(found.i) for found in expected])
+            self.assertGreater(min(analysis.results.counts), 0)
+            self.assertEqual(analysis.results.map.frames, 4)
+            self.assertEqual(np.triu(analysis.results.map.contacts).sum(), sum(analysis.results.counts))
+            np.testing.assert_array_equal(analysis.results.last.j, expected[-1].j)
+            self.assertEqual(analysis.run(stop=2).results.map.frames, 2)
+        for wrong, options in ((universe.atoms[:10], {}), (group, {"chains": dch.Chains(3)}), (group, {"max_bins": 0})):
+            with self.assertRaises(dch.InvalidParameter):
+                dch.mdanalysis.ContactAnalysis(wrong, 1.0, **options)
 
     def test_input(self):
         one = dch.mdanalysis.capped_distance([0, 0, 0], [[1, 0, 0]], 2, return_distances=False)

@@ -78,6 +78,16 @@ class Outputs(unittest.TestCase):
         with self.assertRaisesRegex(dch.InvalidParameter, f"has {listed - 1} rows for {listed} pairs; give at least as many"):
             verlet.pairs("ijdDS", out=given("ijdDS", listed - 1))
 
+    def test_given_arrays_of_nearest_atoms(self):
+        random = np.random.default_rng(4600)
+        points, queries = random.random((50, 3)) * 4, random.random((7, 3)) * 4
+        for real, asked in itertools.product((np.float64, np.float32), (None, queries)):
+            index, distance = dch.nearest(points, 3, [4, 4, 4], queries=asked, dtype=real)
+            out = np.full(index.shape, -7, np.int32), np.full(index.shape, -7, real)
+            found = dch.nearest(points, 3, [4, 4, 4], queries=asked, dtype=real, out=out)
+            self.assert_same(found, (index, distance))
+            self.assertTrue(all(one is array for one, array in zip(found, out, strict=True)))
+
     def test_one_letter_takes_and_gives_one_array(self):
         out = np.full(10, -7.0)
         found = dch.neighbour_list("d", positions=[[0, 0, 0], [1, 0, 0]], cutoff=2, out=out)
@@ -133,6 +143,20 @@ class Refusals(unittest.TestCase):
         self.refuse("out for d is read-only or not contiguous", out=(i, j, d, D))
         bytes_ = np.zeros(8 * 4 + 1, np.uint8)[1:]
         self.refuse("out for d is read-only or not contiguous", out=(i, j, bytes_.view(np.float64), D))
+
+    def test_arrays_of_nearest_atoms(self):
+        index, distance = np.zeros((3, 1), np.int32), np.zeros((3, 1))
+        frozen = distance.copy()
+        frozen.flags.writeable = False
+        for out, message in ((index, "out is ndarray; give two arrays"), ((index,), "out is tuple"),
+                             ((index[:2], distance), r"out for index has the shape \(2, 1\).*int32 with the shape \(3, 1\)"),
+                             ((index.astype(int), distance), "out for index has .*int64"),
+                             ((index, distance.astype(np.float32)), "out for distance has .*float32"),
+                             ((index, frozen), "out for distance is read-only"),
+                             ((index, self.positions[:, :1]), "out for distance is read-only or not contiguous"),
+                             ((distance.reshape(-1).view(np.int32)[:3].reshape(3, 1), distance), "out for distance shares memory")):
+            with self.assertRaisesRegex(dch.InvalidParameter, message):
+                dch.nearest(self.positions, 1, out=out)
 
     def test_arrays_that_share_memory(self):
         i, j, d, D = given("ijdD", 4)

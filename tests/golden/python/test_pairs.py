@@ -200,7 +200,7 @@ class Threads(unittest.TestCase):
 
 class Documents(unittest.TestCase):
     def test_examples_in_docstrings_run(self):
-        for module in (dch._crossings, dch._pairs, dch._queries, dch.ase, dch.mdanalysis):
+        for module in (dch._chains, dch._contacts, dch._crossings, dch._hierarchy, dch._pairs, dch._queries, dch.ase, dch.mdanalysis):
             result = doctest.testmod(module)
             self.assertEqual(result.failed, 0, module)
             self.assertGreater(result.attempted, 1)
