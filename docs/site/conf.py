@@ -24,6 +24,7 @@ author = "The authors of dch"
 release = re.search(r"project\(dch VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 sys.dont_write_bytecode = True
 load_stub("dch._core", ROOT / "python" / "dch" / "_core.pyi")
+load_stub("dch._trajectory", ROOT / "python" / "dch" / "_trajectory.pyi")
 
 root_doc = "docs/site/index"
 include_patterns = ["**.md"]

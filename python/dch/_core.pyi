@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The compiled half: arrays have to be contiguous and of the right type."""
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

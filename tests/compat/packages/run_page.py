@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Runs the blocks of code of docs/install.md, section by section, in the root of the sources.
+"""Runs the blocks of code of docs/install.md, section by section, in the root of the sources, and those by which docs/python.md
+builds the module.
 
     run_page.py [--builder ROOT] FOLDER [HEADING ...]
 
@@ -24,6 +25,13 @@ ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL
 HOMES = {"root": "/root", "nobody": "/tmp/nobody"}  # who runs what is installed, and where
 # Folders of the system itself, of apt and dpkg, and of whoever runs something.
 NOT_COMPARED = ("proc", "dev", "sys", "tmp", "root", "run", "var/lib/apt", "var/lib/dpkg", "var/cache", "var/log")
+
+
+def all_sections():
+    """Of both pages, each with a heading of its own."""
+    docs = ROOT / "docs"
+    yield from sections((docs / "install.md").read_text())
+    yield next(("Build of the module", blocks) for heading, blocks in sections((docs / "python.md").read_text()) if heading == "Build")
 
 
 def sections(page):
@@ -150,7 +158,7 @@ def main():
     parser.add_argument("headings", nargs="*")
     args = parser.parse_args()
     sources = args.builder / BUILT_IN if args.builder else ROOT
-    for heading, blocks in sections((ROOT / "docs" / "install.md").read_text()):
+    for heading, blocks in all_sections():
         if args.headings and heading not in args.headings:
             continue
         print(f"-- {heading}", flush=True)
