@@ -3,8 +3,8 @@
 //
 //   csr_times CUTOFF SIDE FILE      FILE: positions in a cube, three doubles each
 //
-// For each line of standard input it makes a list and says how many pairs there are and the seconds of the processor that it
-// took.
+// For each line of standard input it makes a list and says how many pairs there are and the seconds of the
+// processor that it took.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

@@ -19,6 +19,8 @@ REAL_KINDS = "fiub"
 
 def numbers(values: Any, name: str) -> Floats:
     """As a contiguous array of float64: the same one if it is one, else a copy."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.flags.carray:
+        return values
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -77,10 +79,13 @@ def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
         raise InvalidParameter(f"cell has the shape {vectors.shape}; give three vectors as rows, (3, 3), or three lengths")
     if not np.isfinite(vectors).all():
         raise InvalidParameter(f"cell is {vectors.tolist()}; all components must be finite")
-    flags = np.asarray(True if pbc is None else pbc)
+    if pbc is None or isinstance(pbc, bool):
+        flag = pbc is not False
+        return vectors, (flag, flag, flag)
+    flags = np.asarray(pbc)
     if flags.shape not in [(), (3,)] or flags.dtype.kind not in "biu":
         raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
-    x, y, z = (bool(flag) for flag in np.broadcast_to(flags, 3))
+    x, y, z = (bool(flag) for flag in (flags if flags.ndim else [flags] * 3))
     return vectors, (x, y, z)
 
 
@@ -137,6 +142,8 @@ def quantities(letters: Any) -> str:
 
 def is_single(dtype: Any) -> bool:
     """Whether numbers are asked for as float32, else as float64."""
+    if dtype is np.float64:
+        return False
     try:
         kind = np.dtype(dtype)
     except TypeError as error:

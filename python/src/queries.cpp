@@ -60,10 +60,11 @@ class Search {
     }
     particles_ = -1;
     const py::gil_scoped_release release;
-    const NeighborPairsParams pairs = request_.pairs_of(points.size(), 0);  // throws if it does not fit
+    request_.pairs_of(points.size(), 0);  // throws if it does not fit
     search_->update(points, box);
-    constexpr std::size_t kFewParticles = 1000;
-    expected_pairs_ = points.size() <= kFewParticles ? 0 : expected_pairs(points, box, pairs);
+    sampled_.clear();
+    if (!fits_if_all_are_near(points.size(), true)) sampled_.assign(points.begin(), points.end());
+    box_ = box;
     particles_ = static_cast<std::int64_t>(points.size());
   }
 
@@ -73,13 +74,29 @@ class Search {
   std::int64_t particles() const { return std::max<std::int64_t>(particles_, 0); }
 
  private:
+  static constexpr double kRowBytes = 12;  // of indices, and what rows are made of
+
+  /// Whether a list of all pairs takes less than half of what is free: nobody needs to know then how many are near.
+  static bool fits_if_all_are_near(std::size_t particles, bool full) {
+    constexpr std::size_t kFewParticles = 1000;
+    const auto n = static_cast<double>(particles);
+    return particles <= kFewParticles || kRowBytes * (full ? 1 : 0.5) * n * n <= 0.5 * available_memory();
+  }
+
+  /// @throws py::error_already_set, a MemoryError, if there is not enough for a list.
+  void check_list(bool full) {
+    const auto n = static_cast<std::size_t>(particles_);
+    if (sampled_.empty() || fits_if_all_are_near(n, full)) return;
+    const double pairs = expected_pairs(sampled_, box_, request_.pairs_of(n, 0));
+    check_memory(full ? pairs : 0.5 * pairs, kRowBytes, "pairs", "take a smaller cutoff");
+  }
+
   NeighborList list(bool full, RowOrder order) {
     const InUse in_use(used_, "NeighborSearch");
     if (particles_ < 0)
       throw InvalidParameter(
           "this NeighborSearch has no positions yet, or the last update failed; call update()");
-    constexpr double kRowBytes = 12;  // of indices, and what rows are made of
-    check_memory(full ? expected_pairs_ : 0.5 * expected_pairs_, kRowBytes, "pairs", "take a smaller cutoff");
+    check_list(full);
     NeighborList list;
     const py::gil_scoped_release release;
     ListParams params = request_.list_of(static_cast<std::size_t>(particles_), kind_of(full));
@@ -93,7 +110,8 @@ class Search {
   HierarchyParams params_;
   std::unique_ptr<PairSearch> search_;
   std::int64_t particles_ = -1;
-  double expected_pairs_ = 0;
+  std::vector<Vec3> sampled_;  ///< positions, where a list of all pairs might not fit into memory
+  Box box_;
   std::atomic<bool> used_{false};
 };
 
