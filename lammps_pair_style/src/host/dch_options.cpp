@@ -126,6 +126,19 @@ Request parse_expiry(const std::vector<std::string>& words) {
   return request;
 }
 
+Request parse_styles(const std::vector<std::string>& words) {
+  Request request;
+  request.action = Request::Action::styles;
+  if (words.size() == 1 || (words[1] != "auto" && words[1] != "no")) {
+    refuse((words.size() == 1 ? "'dch styles' lacks its value"
+                              : "'dch styles' does not know '" + words[1] + "'") +
+           std::string("; give 'dch styles auto' or 'dch styles no'"));
+  }
+  request.takes_styles = words[1] == "auto";
+  expect_no_more(words, 2);
+  return request;
+}
+
 Request parse_precision(const std::vector<std::string>& words) {
   Request request;
   request.action = Request::Action::precision;
@@ -143,8 +156,8 @@ Request parse_precision(const std::vector<std::string>& words) {
 
 Request parse_request(const std::vector<std::string>& words) {
   const std::string remedy =
-      "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch explain', "
-      "'dch verify yes|no|every N', "
+      "; give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch styles auto|no', 'dch stats', "
+      "'dch explain', 'dch verify yes|no|every N', "
       "'dch precision double|mixed', 'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' "
       "or "
       "'dch skin auto|fixed'";
@@ -155,6 +168,7 @@ Request parse_request(const std::vector<std::string>& words) {
   if (words[0] == "threads") return parse_threads(words);
   if (words[0] == "order") return parse_order(words);
   if (words[0] == "expiry") return parse_expiry(words);
+  if (words[0] == "styles") return parse_styles(words);
   if (words[0] == "precision") return parse_precision(words);
   Request request;
   if (words[0] == "off") {

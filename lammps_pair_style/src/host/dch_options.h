@@ -20,7 +20,7 @@ enum class ExpiryRule { automatic, exact, half };
 
 /// What one `dch ...` line of an input script asks for.
 struct Request {
-  enum class Action { on, off, stats, explain, verify, precision, threads, skin, order, expiry };
+  enum class Action { on, off, stats, explain, verify, precision, threads, skin, order, expiry, styles };
   Action action = Action::on;
   std::string engine;    ///< `on`: what fills lists, see dch::make_search; empty if none was named
   bool has_c = false;    ///< `on c`, which has no effect any more
@@ -29,6 +29,7 @@ struct Request {
   bool tunes_skin = false;                                      ///< `skin`: auto, not fixed
   OrderAtoms order_atoms = OrderAtoms::automatic;               ///< `order`
   ExpiryRule expiry = ExpiryRule::automatic;                    ///< `expiry`
+  bool takes_styles = true;                                     ///< `styles`: auto, not no
   int threads = 1;                                              ///< `threads`: of each process
 };
 

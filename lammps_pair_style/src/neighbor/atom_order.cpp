@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <atom.h>
+#include <comm.h>
 #include <cstring>
 #include <domain.h>
 #include <fix.h>
 #include <modify.h>
+#include <unordered_map>
 #include <update.h>
 #include <utility>
 
@@ -103,29 +105,82 @@ void AtomOrder::note_short_rows() {
     obstacle_ = "neighbors are few, and rows are put in the order of atoms ('dch order yes')";
 }
 
-bool AtomOrder::is_due() const { return obstacle_.empty() && update->ntimestep >= next_; }
+void AtomOrder::note_grains() {
+  if (when_ == OrderAtoms::automatic && obstacle_.empty())
+    obstacle_ = "lists are of grains, where the order costs time ('dch order yes')";
+}
 
-void AtomOrder::apply(const std::vector<std::int32_t>& indices) {
+bool AtomOrder::is_due() const {
+  if (!obstacle_.empty()) return false;
+  return update->ntimestep >= next_ || (comm->nprocs == 1 && update->ntimestep >= atom->nextsort);
+}
+
+/// Atom::sort() needs room for one atom more.
+bool AtomOrder::can_sort() const { return atom->nlocal > 1 && atom->nlocal < atom->nmax; }
+
+std::vector<int> AtomOrder::apply(const std::vector<std::int32_t>& indices) {
   next_ = (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq;
+  if (!can_sort()) return {};
+  if (comm->nprocs == 1) follow_lammps();
+  std::vector<int> places = put(indices);
+  if (comm->nprocs > 1) atom->nextsort = next_;
+  return places;
+}
+
+/// Remembers the order in which LAMMPS would have the atoms. If it would sort them now, it does, as it does
+/// behind us: after they have been wrapped.
+void AtomOrder::follow_lammps() {
+  if (update->ntimestep >= atom->nextsort) {
+    restore();
+    if (domain->triclinic) domain->x2lamda(atom->nlocal);
+    domain->pbc();
+    atom->sort();
+    if (domain->triclinic) domain->lamda2x(atom->nlocal);
+  }
+  if (lammps_order_.empty()) lammps_order_.assign(atom->tag, atom->tag + atom->nlocal);
+}
+
+void AtomOrder::restore() {
+  const std::vector<tagint> ids = std::exchange(lammps_order_, {});
+  const auto n = static_cast<std::size_t>(atom->nlocal);
+  if (ids.size() != n || !can_sort()) return;  // atoms have come or gone, so the order is another one anyway
+  std::unordered_map<tagint, std::int32_t> index;
+  index.reserve(n);
+  for (std::int32_t i = 0; i < atom->nlocal; ++i) index.emplace(atom->tag[i], i);
+  std::vector<std::int32_t> indices;
+  indices.reserve(n);
+  for (const tagint id : ids) {
+    const auto found = index.find(id);
+    if (found == index.end()) return;
+    indices.push_back(found->second);
+  }
+  put(indices);
+}
+
+std::vector<int> AtomOrder::put(const std::vector<std::int32_t>& indices) {
   const int n = atom->nlocal;
-  if (n < 2 || n >= atom->nmax) return;  // Atom::sort() needs room for one atom more
   std::vector<double> rank(3 * static_cast<std::size_t>(n), -1);
   double next = 0.5;
   for (const std::int32_t i : indices)
     if (i >= 0 && i < n && rank[3 * static_cast<std::size_t>(i)] < 0)
       rank[3 * static_cast<std::size_t>(i)] = next++;
   std::vector<double*> rows;
+  std::vector<int> places;
   rows.reserve(static_cast<std::size_t>(n));
+  places.reserve(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < rank.size(); i += 3) {
     if (rank[i] < 0) rank[i] = next++;
     rank[i + 1] = rank[i + 2] = 0.5;
     rows.push_back(&rank[i]);
+    places.push_back(static_cast<int>(rank[i]));
   }
+  const bigint next_of_lammps = atom->nextsort;
   {
     const CoordinatesAreRanks ranks_in_place(*atom, *domain, rows.data());
     atom->sort();
   }
-  atom->nextsort = next_;
+  atom->nextsort = next_of_lammps;
+  return places;
 }
 
 }  // namespace LAMMPS_NS

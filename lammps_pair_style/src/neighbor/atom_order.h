@@ -25,6 +25,8 @@ class AtomOrder : protected Pointers {
   /// Rows of the lists of this run are short, so they are put in the order of atoms, not atoms in that of
   /// rows.
   void note_short_rows();
+  /// Lists of this run are of grains, whose contacts would have to follow.
+  void note_grains();
   /// Why atoms stay as LAMMPS sorts them in this run; empty if they do not.
   const std::string& obstacle() const { return obstacle_; }
   /// Whether atoms are to be put in order before the next lists are built.
@@ -32,9 +34,19 @@ class AtomOrder : protected Pointers {
   /// Puts atoms in the order given, those that it lacks last. To be called where no ghosts are of use until
   /// they are made anew.
   /// @param indices of atoms; what is -1, a ghost or has been there before is passed over
-  void apply(const std::vector<std::int32_t>& indices);
+  /// @return by old index the new one; empty if atoms have stayed where they were
+  std::vector<int> apply(const std::vector<std::int32_t>& indices);
+  /// Puts atoms back in the order in which LAMMPS would have them, if that is known: on one process, unless
+  /// atoms have come or gone. Fixes that draw random numbers may come before the next run. To be called as
+  /// apply().
+  void restore();
 
  private:
+  bool can_sort() const;
+  void follow_lammps();
+  std::vector<int> put(const std::vector<std::int32_t>& indices);
+
+  std::vector<tagint> lammps_order_;  ///< IDs; empty if atoms are in that order, or it is not known
   dch::lammps::OrderAtoms when_ = dch::lammps::OrderAtoms::automatic;
   std::string obstacle_;
   bigint next_ = 0;  ///< step

@@ -40,6 +40,10 @@ void FixDCHOrder::install(LAMMPS* lammps) {
 
 int FixDCHOrder::setmask() { return FixConst::PRE_EXCHANGE | FixConst::MIN_PRE_EXCHANGE; }
 
+void FixDCHOrder::setup_pre_exchange() {
+  if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) ours->restore_order();
+}
+
 void FixDCHOrder::pre_exchange() {
   if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) ours->order_atoms();
 }

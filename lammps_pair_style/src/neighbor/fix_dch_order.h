@@ -21,6 +21,7 @@ class FixDCHOrder : public Fix {
   static void install(LAMMPS* lammps);
 
   int setmask() override;
+  void setup_pre_exchange() override;
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
 };

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <comm.h>
 #include <cstdio>
+#include <cstring>
 #include <error.h>
+#include <input.h>
 #include <neigh_list.h>
 #include <new>
 #include <typeinfo>
@@ -29,6 +31,11 @@ constexpr double kRadiusMargin = 1.0 + 1e-6;
 
 // A pair of clusters' pairs takes less time than one by one, by these factors: see docs/lammps/measured.md.
 constexpr double kMostPairsDouble = 2.7, kMostPairsMixed = 4.2;
+
+/// Names of protected members.
+struct Words : Input {
+  using Input::command;
+};
 
 std::string short_number(double value) {
   char text[32];
@@ -106,6 +113,9 @@ void NeighborDCH::init() {
                           "style or give 'dch off' before the run"));
   }
   show_bins();
+  // The order decides which atoms this command deletes; it makes ghosts and lists anew.
+  const char* const word = input->*(&Words::command);
+  if (word && std::strcmp(word, "delete_atoms") == 0) order_.restore();
   Neighbor::init();
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};
@@ -134,18 +144,22 @@ void NeighborDCH::init() {
   prepare_skin();
   before_run_ = search_stats();
   order_.begin_run();
+  if (any_by_radius()) order_.note_grains();
   prepare_expiry();
   if (order_.obstacle().empty()) FixDCHOrder::install(lmp);
   hide_bins();
 }
 
+bool NeighborDCH::any_by_radius() const {
+  return std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+}
+
 /// Whether sizes differ so much that a hierarchy for each class of sizes is faster than one for all.
 bool NeighborDCH::sizes_differ_much() {
   constexpr double kRatio = 2;
-  const bool any_by_radius =
-      std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+  const bool of_grains = any_by_radius();
   double ratio = 1;
-  if (any_by_radius) {
+  if (of_grains) {
     const auto [min, max] = std::minmax_element(atom->radius, atom->radius + atom->nlocal);
     if (atom->nlocal > 0) ratio = *max / *min;
   } else {
@@ -154,9 +168,9 @@ bool NeighborDCH::sizes_differ_much() {
       if (own > skin) ratio = std::max(ratio, cutneighmax / own);
     }
   }
-  size_reason_ = (any_by_radius ? "the largest grain is " : "the largest cutoff with the skin is ") +
+  size_reason_ = (of_grains ? "the largest grain is " : "the largest cutoff with the skin is ") +
                  short_number(ratio) +
-                 (any_by_radius ? " times the smallest" : " times the least of a type with itself");
+                 (of_grains ? " times the smallest" : " times the least of a type with itself");
   return ratio > kRatio;
 }
 

@@ -73,6 +73,11 @@ class NeighborDCH : public Neighbor {
   /// From the next run on, lists come from the engine of that name; see dch::make_search. Without a name,
   /// from the one that suits the number of processes.
   void enable(const std::string& engine);
+  /// Whether styles of ours take the place of LAMMPS's while lists come from an engine.
+  void set_styles(bool taken) { wants_styles_ = taken; }
+  bool takes_styles() const { return enabled_ && wants_styles_; }
+  /// Why pair styles that have been taken so should leave forces to the plain style; empty if they need not.
+  dch::lammps::Obstacle obstacle_to_styles() const;
   /// All lists are native from their next build on.
   void disable();
   /// 0: never; N: at every Nth build of a run, the first included, the native lists are built too and
@@ -92,6 +97,8 @@ class NeighborDCH : public Neighbor {
 
   /// Whether runs from now on put atoms in memory in the order of the structure.
   void set_order(dch::lammps::OrderAtoms when) { order_.set_when(when); }
+  /// Puts them back in LAMMPS's order, from the same place of the setup of a run.
+  void restore_order() { order_.restore(); }
   /// Does so, if it is time, from between the decision to build lists and the exchange of atoms.
   void order_atoms();
 
@@ -155,6 +162,7 @@ class NeighborDCH : public Neighbor {
   double builds_saved() const;
   bool choose_size_classes();
   dch::lammps::RunReport settings_of_run() const;
+  bool any_by_radius() const;
   bool sizes_differ_much();
   double pairs_of_clusters() const;
   bool fills_lists() const { return enabled_ && !served_.empty(); }
@@ -174,6 +182,7 @@ class NeighborDCH : public Neighbor {
 
   std::unique_ptr<Neighbor> retired_;
   bool enabled_ = false;
+  bool wants_styles_ = true;
   std::string engine_;                 ///< for lists, as it was named; lists that are off leave it no say
   std::string engine_in_use_ = "dch";  ///< that search_ was made as
   std::string engine_reason_;          ///< who wanted it

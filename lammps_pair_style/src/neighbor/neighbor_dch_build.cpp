@@ -103,7 +103,7 @@ void NeighborDCH::order_atoms() {
   std::vector<std::int32_t> atoms;
   atoms.reserve(points.size());
   for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
-  order_.apply(atoms);
+  stock_builds_.follow(order_.apply(atoms));
 }
 
 bool NeighborDCH::may_use_box() const {

@@ -107,7 +107,10 @@ void NeighborDCH::prepare_expiry() {
   stays_near_ = force->kspace != nullptr || comm->nprocs > 1;
   for (int k = 0; k < modify->nfix; ++k)
     if (!draws_no_random_numbers(modify->fix[k]->style)) stays_near_ = true;
-  const bool sorts = comm->nprocs == 1 && atom->sortfreq > 0 && !order_.obstacle().empty();
+  // Atoms in an order of ours are put back, in the end, in that of LAMMPS's last sort.
+  const bool sorts = comm->nprocs == 1 && atom->sortfreq > 0 &&
+                     (!order_.obstacle().empty() ||
+                      update->laststep >= (update->ntimestep / atom->sortfreq + 1) * atom->sortfreq);
   stock_builds_.begin_run(expiry_obstacle_.empty() && sorts && delay <= 1);
 }
 

@@ -203,6 +203,13 @@ std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const Pair& asker, co
   return clusters;
 }
 
+Obstacle NeighborDCH::obstacle_to_styles() const {
+  if (!enabled_) return {"'dch off' was given", "'dch on'"};
+  if (!wants_styles_) return {"'dch styles no' was given", "'dch styles auto'"};
+  if (engine_ == "grid") return {"the engine grid makes no cluster pairs", "'dch on engine auto'"};
+  return {};
+}
+
 void NeighborDCH::announce(const std::vector<dch::lammps::ListNote>& before) const {
   if (notes_ == before || comm->me != 0) return;
   utils::logmesg(lmp, "DCH neighbor lists: " + std::to_string(served_.size() + clusters_.size()) + " of " +

@@ -41,6 +41,13 @@ void StockBuilds::defer_sort() {
   next_sort_ = std::exchange(atom->nextsort, MAXBIGINT);
 }
 
+void StockBuilds::follow(const std::vector<int>& places) {
+  if (!defers_ || places.size() != hold_.size()) return;
+  std::vector<dch::Vec3> moved(hold_.size());
+  for (std::size_t i = 0; i < places.size(); ++i) moved[static_cast<std::size_t>(places[i])] = hold_[i];
+  hold_ = std::move(moved);
+}
+
 void StockBuilds::note_build() {
   differs_ = std::exchange(defers_, false);
   if (!differs_) return;

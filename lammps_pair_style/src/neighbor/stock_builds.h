@@ -14,7 +14,7 @@ namespace LAMMPS_NS {
 ///
 /// LAMMPS sorts atoms at the first build after a sort is due, and fixes draw random numbers in the order of
 /// atoms. One process that sorts at the steps at which it would have sorted keeps that order, and the numbers
-/// go to the same atoms: nothing else at a build moves atoms in memory.
+/// go to the same atoms: nothing else at a build moves atoms in memory but AtomOrder.
 class StockBuilds : protected Pointers {
  public:
   explicit StockBuilds(LAMMPS* lammps) : Pointers(lammps) {}
@@ -35,6 +35,9 @@ class StockBuilds : protected Pointers {
   void note_missed();
   /// We build now, where it would not: atoms must not be sorted.
   void defer_sort();
+  /// Atoms have been moved in memory, in the middle of a build.
+  /// @param places by old index the new one; empty if none has been moved
+  void follow(const std::vector<int>& places);
   /// Lists are being built, now that atoms have been wrapped, sent and sorted.
   void note_build();
 

@@ -8,6 +8,7 @@
 
 #include <dch/base/error.hpp>
 
+#include "chosen_styles.h"
 #include "dch_options.h"
 #include "neighbor_dch.h"
 #include "style_notes.h"
@@ -32,6 +33,9 @@ void DchCommand::command(int narg, char** arg) {
             std::string(
                 "'dch on c' has no effect any more and will be an error in the next version; give 'dch on'"));
       neighbor_dch->enable(request.engine);
+      break;
+    case Request::Action::styles:
+      neighbor_dch->set_styles(request.takes_styles);
       break;
     case Request::Action::off:
       neighbor_dch->disable();
@@ -66,6 +70,7 @@ void DchCommand::command(int narg, char** arg) {
       break;
     }
   }
+  choose_styles(*lmp, neighbor_dch->takes_styles());
 }
 
 }  // namespace LAMMPS_NS

@@ -17,6 +17,8 @@ template <class Base, class... Arguments>
 struct StyleEntry {
   const char* name;
   Base* (*create)(LAMMPS* lammps, Arguments... arguments);
+  /// The same if `dch on` takes it in place of a plain style, which the log says.
+  Base* (*create_chosen)(LAMMPS* lammps, Arguments... arguments);
 };
 
 /// All that the headers of styles enter by LAMMPS's macros PairStyle, BondStyle, AngleStyle, ComputeStyle

@@ -10,12 +10,14 @@
 
 #include <dch/base/error.hpp>
 
+#include "stock_name.h"
+
 namespace LAMMPS_NS {
 
 BondDCH::BondDCH(LAMMPS* lammps, const char* plain_style, std::size_t coefficients)
     : Bond(lammps), plain_("Bond", plain_style, coefficients) {
   int has_suffix = 0;
-  plain_.take(force->new_bond(plain_style, 0, has_suffix), *error);
+  plain_.take(force->new_bond(dch::lammps::stock_name(*force->bond_map, plain_style), 0, has_suffix), *error);
   writedata = plain_->writedata;
   reinitflag = plain_->reinitflag;
 }

@@ -9,6 +9,8 @@ namespace LAMMPS_NS {
 class Explained {
  public:
   virtual dch::lammps::StyleNote explain() const = 0;
+  /// Says that `dch on` has taken this style, not the script: what suits the run decides how it computes.
+  virtual void choose() {}
 
  protected:
   ~Explained() = default;  // styles are deleted as those of LAMMPS, whose destructors may throw

@@ -20,6 +20,7 @@
 #include "ghosts_sent.h"
 #include "lammps_versions.h"
 #include "neighbor_dch.h"
+#include "stock_name.h"
 
 namespace LAMMPS_NS {
 namespace {
@@ -38,7 +39,7 @@ void withdraw_requests(Neighbor& neighbor, int first) {
 
 PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : Pair(lammps), style_(style), plain_name_(style.plain) {
   int has_suffix = 0;
-  plain_.reset(force->new_pair(plain_name_, 0, has_suffix));
+  plain_.reset(force->new_pair(dch::lammps::stock_name(*force->pair_map, plain_name_), 0, has_suffix));
   if (!plain_) {
     error->all(FLERR, "Pair style " + plain_name_ + "/dch needs the pair style " + plain_name_ +
                           ", which this LAMMPS was built without");
@@ -204,8 +205,9 @@ void PairDCH::init_style() {
   const int requests = neighbor->nrequest;
   plain_->init_style();
   if (!has_lists_of_plain_) withdraw_requests(*neighbor, requests);
-  obstacle_ = reason_for_plain();
   NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
+  obstacle_ = reason_for_plain();
+  if (is_chosen_ && obstacle_.empty()) obstacle_ = neighbor_dch->obstacle_to_styles();
   const Pair& asker = has_lists_of_plain_ ? *plain_ : *this;
   clusters_ = neighbor_dch->request_clusters(asker, plain_name_ + "/dch", obstacle_);
   if (!has_lists_of_plain_ && (!clusters_ || neighbor_dch->verifies())) neighbor->request(this, instance_me);

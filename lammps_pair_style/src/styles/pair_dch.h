@@ -65,6 +65,7 @@ class PairDCH : public Pair, public Explained {
   void del_tally_callback(Compute* compute) override;
   double memory_usage() override;
   dch::lammps::StyleNote explain() const override;
+  void choose() override { is_chosen_ = true; }
 
  protected:
   /// What the plain style writes to restart files before pairs of types says of the potential; charges that
@@ -103,6 +104,7 @@ class PairDCH : public Pair, public Explained {
 
   Style style_;
   std::string plain_name_;
+  bool is_chosen_ = false;  ///< by `dch on`, not by the script
   std::unique_ptr<Pair> plain_;
   std::shared_ptr<ClusterList> clusters_;    ///< null if the plain style computes
   dch::lammps::Obstacle obstacle_;           ///< why it does

@@ -72,6 +72,12 @@ TEST(DchOptions, Expiry) {
   EXPECT_EQ(parse_request({"expiry", "auto"}).expiry, ExpiryRule::automatic);
 }
 
+TEST(DchOptions, Styles) {
+  EXPECT_EQ(parse_request({"styles", "no"}).action, Request::Action::styles);
+  EXPECT_FALSE(parse_request({"styles", "no"}).takes_styles);
+  EXPECT_TRUE(parse_request({"styles", "auto"}).takes_styles);
+}
+
 TEST(DchOptions, Threads) {
   EXPECT_EQ(parse_request({"threads", "3"}).action, Request::Action::threads);
   EXPECT_EQ(parse_request({"threads", "3"}).threads, 3);
@@ -79,8 +85,8 @@ TEST(DchOptions, Threads) {
 
 TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
   const std::string grammar =
-      "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch stats', 'dch explain', "
-      "'dch verify yes|no|every N', "
+      "give 'dch on', 'dch on engine dch|grid|auto', 'dch off', 'dch styles auto|no', 'dch stats', "
+      "'dch explain', 'dch verify yes|no|every N', "
       "'dch precision double|mixed', "
       "'dch threads N', 'dch order auto|yes|no', 'dch expiry auto|exact|half' or 'dch skin auto|fixed'";
   const std::vector<std::pair<Words, std::string>> cases{
@@ -108,6 +114,9 @@ TEST(DchOptions, ErrorsNameTheWordAndTheRemedy) {
        "'dch expiry' lacks its value; give 'dch expiry auto', 'dch expiry exact' or 'dch expiry half'"},
       {{"expiry", "never"}, "'dch expiry' does not know 'never'; give 'dch expiry auto'"},
       {{"expiry", "half", "on"}, "'on' after"},
+      {{"styles"}, "'dch styles' lacks its value; give 'dch styles auto' or 'dch styles no'"},
+      {{"styles", "mine"}, "'dch styles' does not know 'mine'"},
+      {{"styles", "no", "fix"}, "'fix' after 'dch no'"},
       {{"skin"}, "lacks its value; give 'dch skin auto' or 'dch skin fixed'"},
       {{"skin", "0.3"}, "does not know '0.3'"},
       {{"skin", "auto", "on"}, "'on' after"},
