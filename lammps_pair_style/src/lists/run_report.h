@@ -57,7 +57,7 @@ inline constexpr std::size_t kExpiryVerdicts = 6;
 /// What one process counts during a run. Times in seconds of wall clock.
 struct RunCounters {
   std::int64_t builds = 0;   ///< builds of our lists
-  std::int64_t entries = 0;  ///< in our lists, at the last build
+  std::int64_t entries = 0;  ///< in our lists, at the last build; of a report also in cluster pairs
   std::int64_t verified_builds = 0;
   std::int64_t verified_entries = 0;
   std::array<std::int64_t, kExpiryVerdicts> verdicts{};  ///< by ExpiryVerdict, how often

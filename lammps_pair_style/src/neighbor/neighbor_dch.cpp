@@ -151,7 +151,8 @@ void NeighborDCH::init() {
 }
 
 bool NeighborDCH::any_by_radius() const {
-  return std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.by_radius; });
+  return std::any_of(served_.begin(), served_.end(),
+                     [](const ServedList& served) { return served.by_radius; });
 }
 
 /// Whether sizes differ so much that a hierarchy for each class of sizes is faster than one for all.

@@ -52,12 +52,15 @@ dch::lammps::RunReport NeighborDCH::settings_of_run() const {
 dch::lammps::RunReport NeighborDCH::report() const {
   const dch::SearchStats now = search_stats();
   std::size_t bytes = now.memory_bytes;
+  std::int64_t entries = run_.entries;
   for (const ServedList& served : served_) bytes += served.memory_bytes();
   for (const ServedClusters& clusters : clusters_) bytes += clusters.list->memory_bytes();
+  if (run_.builds > 0)  // not at each build, as it takes a twentieth of one
+    for (const ServedClusters& clusters : clusters_) entries += clusters.list->count();
 
   const std::string choice = search_ ? search_->choice() : std::string();
 
-  std::array<std::int64_t, 9> sums{run_.entries,
+  std::array<std::int64_t, 9> sums{entries,
                                    run_.verified_entries,
                                    now.promotions - before_run_.promotions,
                                    now.demotions - before_run_.demotions,

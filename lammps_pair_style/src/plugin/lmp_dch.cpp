@@ -21,10 +21,9 @@ namespace {
 // are missing.
 bool take_settings(int& argc, char** argv, std::string& settings) {
   char** const end = argv + argc;
-  char** const option =
-      std::find_if(argv, end, [](const char* word) {
-        return std::strcmp(word, "-dch") == 0 || std::strcmp(word, "--dch") == 0;
-      });
+  char** const option = std::find_if(argv, end, [](const char* word) {
+    return std::strcmp(word, "-dch") == 0 || std::strcmp(word, "--dch") == 0;
+  });
   if (option == end) return true;
   const bool complete = option + 1 < end && option[1][0] != '-';
   const int taken = complete ? 2 : 1;

@@ -88,7 +88,8 @@ std::vector<StyleEntry<Angle>> angle_styles_dch() {
 std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
   std::vector<StyleEntry<Compute, int, char**>> styles;
 #define COMPUTE_CLASS
-#define ComputeStyle(key, Made) styles.push_back({#key, &create<Compute, Made, int, char**>, &create_chosen<Compute, Made, int, char**>})
+#define ComputeStyle(key, Made) \
+  styles.push_back({#key, &create<Compute, Made, int, char**>, &create_chosen<Compute, Made, int, char**>})
 #include "compute_necklace_contact.h"
 #include "explained.h"
 #undef ComputeStyle
@@ -99,7 +100,8 @@ std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
 std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch() {
   std::vector<StyleEntry<Fix, int, char**>> styles;
 #define FIX_CLASS
-#define FixStyle(key, Made) styles.push_back({#key, &create<Fix, Made, int, char**>, &create_chosen<Fix, Made, int, char**>})
+#define FixStyle(key, Made) \
+  styles.push_back({#key, &create<Fix, Made, int, char**>, &create_chosen<Fix, Made, int, char**>})
 #include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"

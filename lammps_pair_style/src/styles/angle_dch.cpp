@@ -17,7 +17,8 @@ namespace LAMMPS_NS {
 AngleDCH::AngleDCH(LAMMPS* lammps, const char* plain_style, std::size_t coefficients)
     : Angle(lammps), plain_("Angle", plain_style, coefficients) {
   int has_suffix = 0;
-  plain_.take(force->new_angle(dch::lammps::stock_name(*force->angle_map, plain_style), 0, has_suffix), *error);
+  plain_.take(force->new_angle(dch::lammps::stock_name(*force->angle_map, plain_style), 0, has_suffix),
+              *error);
   writedata = plain_->writedata;
   centroidstressflag = plain_->centroidstressflag;
 }

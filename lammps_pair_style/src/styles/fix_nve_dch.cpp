@@ -16,7 +16,8 @@
 namespace LAMMPS_NS {
 
 FixNVEDCH::FixNVEDCH(LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), plain_(modify->fix_map->at(dch::lammps::stock_name(*modify->fix_map, "nve"))(lammps, narg, arg)) {
+    : Fix(lammps, narg, arg),
+      plain_(modify->fix_map->at(dch::lammps::stock_name(*modify->fix_map, "nve"))(lammps, narg, arg)) {
   dynamic_group_allow = plain_->dynamic_group_allow;
   time_integrate = plain_->time_integrate;
 }

@@ -29,7 +29,7 @@ class Loading(unittest.TestCase):
 
     def test_launcher_takes_settings_before_the_script(self):
         script = run(MELT + "dch on\ndch verify yes\nrun 20\n", executable=host.lmp_dch)
-        code, output = host.run_text(MELT + "run 20\ndch stats\n", executable=[host.lmp_dch, "-dch", "on,verify=yes"])
+        code, output = host.run_text(MELT + "run 20\ndch stats\n", executable=[host.lmp_dch, "-dch", "on,styles=no,verify=yes"])
         self.assertEqual(code, 0, output)
         self.assertIn("half, newton on: DCH", output)
         self.assertIn("DCH neighbor lists: on, verified at every build", output)
@@ -112,8 +112,8 @@ class OrderOfAtoms(unittest.TestCase):
         few = "dch expiry half\n" + self.MELT.replace("lj/cut 2.5", "lj/cut 1.2")  # builds at the steps of stock
         for ranks in (1, 2):
             stock = self.last_frame(few, ranks)
-            alone = self.last_frame("dch on\ndch verify yes\n" + few, ranks)
-            told = self.last_frame("dch on\ndch order yes\n" + few, ranks)
+            alone = self.last_frame("dch styles no\ndch on\ndch verify yes\n" + few, ranks)
+            told = self.last_frame("dch styles no\ndch on\ndch order yes\n" + few, ranks)
             self.assertEqual(stock[0], alone[0])
             self.assertIn("neighbors are few, and rows are put in the order of atoms ('dch order yes')", alone[3])
             self.assertLess(largest_relative_difference(stock[1], alone[1]), 1e-9)

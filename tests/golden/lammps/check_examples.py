@@ -60,7 +60,7 @@ class Scripts(unittest.TestCase):
 
     def test_melt_with_the_launcher(self):
         output = run_example("in.melt", "launcher.log", executable=host.lmp_dch, cells=6, steps=20, lists="dch")
-        self.assertIn("half, newton on: DCH", output)
+        self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
 
     def test_chain(self):
         data = host.work / "chain.data"

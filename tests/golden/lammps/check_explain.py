@@ -38,8 +38,8 @@ class Explain(unittest.TestCase):
             found, output = explained(LATEST + "dch on\nrun 20\n", ranks)
             self.assertIn(f"DCH choices: lists on, {ranks} process", output)
             self.assertEqual(found["list 1, pair lj/cut, half, newton on"], "DCH")
-            self.assertIn("give 'suffix dch' before it for lj/cut/dch", found["pair lj/cut"])
-            self.assertIn("give 'suffix dch' before it for nve/dch", found["fix 1, nve"])
+            self.assertIn("give that before it for lj/cut/dch", found["pair lj/cut"])
+            self.assertIn("give that before it for nve/dch", found["fix 1, nve"])
             where = r"^dch.* on one process$" if ranks == 1 else r"^auto.* on several processes; it has taken grid: .* points a cell"
             self.assertRegex(found["engine"], where)
             self.assertEqual(found["expiry of lists"], "when a pair is missing")
