@@ -28,6 +28,11 @@ find_package_handle_standard_args(
   REASON_FAILURE_MESSAGE "Install the package liblammps-dev, or name the parts with -DLAMMPS_INCLUDE_DIR=, \
 -DLAMMPS_LIBRARY= and -DDCH_LAMMPS_VERSION=, or leave the LAMMPS adapter out with -DDCH_BUILD_LAMMPS=OFF.")
 
+include(${CMAKE_CURRENT_LIST_DIR}/LammpsSizes.cmake)
+if(LammpsHost_FOUND)
+  dch_check_lammps_sizes(${LAMMPS_LIBRARY})
+endif()
+
 # The adapter takes the place of a part of LAMMPS, hence is for a version; with these it has been run.
 set(_lammps_known 20210929 20250204)
 if(LammpsHost_FOUND AND NOT DCH_LAMMPS_VERSION IN_LIST _lammps_known)

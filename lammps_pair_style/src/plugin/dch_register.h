@@ -23,4 +23,8 @@ namespace dch::lammps {
 /// says so.
 bool fits_version(void* handle);
 
+/// Whether atom IDs of so many bytes are those that the library was built for; if not, a message on stderr
+/// says so.
+bool fits_ids_of(int bytes);
+
 }  // namespace dch::lammps

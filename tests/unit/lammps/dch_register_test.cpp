@@ -15,4 +15,15 @@ TEST(DchRegister, RefusesAnythingButTheVersionItWasBuiltFor) {
                                  ", but this is version 0; build them against the headers of this LAMMPS"));
 }
 
+TEST(DchRegister, RefusesLongIds) {
+  testing::internal::CaptureStderr();
+  EXPECT_TRUE(dch::lammps::fits_ids_of(4));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(dch::lammps::fits_ids_of(8));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(testing::HasSubstr("this has IDs of 8 bytes (LAMMPS_BIGBIG)"),
+                             testing::HasSubstr("build LAMMPS with -D LAMMPS_SIZES=smallbig")));
+}
+
 }  // namespace
