@@ -159,20 +159,17 @@ void AtomOrder::restore() {
 
 std::vector<int> AtomOrder::put(const std::vector<std::int32_t>& indices) {
   const int n = atom->nlocal;
-  std::vector<double> rank(3 * static_cast<std::size_t>(n), -1);
+  // What follows an atom's rank, where LAMMPS looks for y and z, makes no difference: there is one bin of
+  // them.
+  std::vector<double> rank(static_cast<std::size_t>(n) + 2, -1);
   double next = 0.5;
   for (const std::int32_t i : indices)
-    if (i >= 0 && i < n && rank[3 * static_cast<std::size_t>(i)] < 0)
-      rank[3 * static_cast<std::size_t>(i)] = next++;
+    if (i >= 0 && i < n && rank[static_cast<std::size_t>(i)] < 0) rank[static_cast<std::size_t>(i)] = next++;
   std::vector<double*> rows;
-  std::vector<int> places;
   rows.reserve(static_cast<std::size_t>(n));
-  places.reserve(static_cast<std::size_t>(n));
-  for (std::size_t i = 0; i < rank.size(); i += 3) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
     if (rank[i] < 0) rank[i] = next++;
-    rank[i + 1] = rank[i + 2] = 0.5;
     rows.push_back(&rank[i]);
-    places.push_back(static_cast<int>(rank[i]));
   }
   const bigint next_of_lammps = atom->nextsort;
   {
@@ -180,7 +177,7 @@ std::vector<int> AtomOrder::put(const std::vector<std::int32_t>& indices) {
     atom->sort();
   }
   atom->nextsort = next_of_lammps;
-  return places;
+  return {rank.begin(), rank.begin() + n};
 }
 
 }  // namespace LAMMPS_NS

@@ -25,8 +25,7 @@ void complain(const char* format, int wanted, int found) {
 bool dch::lammps::fits_version(void* handle) {
   // Only the C function may be trusted before the versions are known to agree.
   const int version = handle ? lammps_version(handle) : 0;
-  if (version == DCH_LAMMPS_VERSION)
-    return fits_ids_of(lammps_extract_setting(handle, "tagint"));
+  if (version == DCH_LAMMPS_VERSION) return fits_ids_of(lammps_extract_setting(handle, "tagint"));
   complain(
       "ERROR: the DCH neighbor lists were built for LAMMPS version %d, but this is version %d; build them "
       "against the headers of this LAMMPS\n",
@@ -38,7 +37,8 @@ bool dch::lammps::fits_ids_of(int bytes) {
   const int known = static_cast<int>(sizeof(LAMMPS_NS::tagint));
   if (bytes == known) return true;
   complain(
-      "ERROR: the DCH neighbor lists were built for LAMMPS with atom IDs of %d bytes (LAMMPS_SMALLBIG), but this "
+      "ERROR: the DCH neighbor lists were built for LAMMPS with atom IDs of %d bytes (LAMMPS_SMALLBIG), but "
+      "this "
       "has IDs of %d bytes (LAMMPS_BIGBIG); build LAMMPS with -D LAMMPS_SIZES=smallbig, the default\n",
       known, bytes);
   return false;

@@ -114,7 +114,7 @@ void AtomPoints::name_in_box() {
 }
 
 void AtomPoints::forget_keys() {
-  own_keys_ = {};
+  own_keys_ = std::vector<std::uint64_t>();  // {} would keep the memory
   keys_ = {};
 }
 

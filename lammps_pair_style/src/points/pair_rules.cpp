@@ -7,6 +7,14 @@
 #include <neighbor.h>
 
 namespace LAMMPS_NS {
+namespace {
+
+/// Name of a protected member.
+struct Reach : Comm {
+  using Comm::multi_reduce;
+};
+
+}  // namespace
 
 void PairRules::copy_settings() {
   excludes_any_ = neighbor->exclude != 0;
@@ -38,7 +46,9 @@ bool PairRules::excluded(int i, int j) const {
   });
 }
 
-bool PairRules::goes_by_parity() const { return comm->mode != Comm::MULTI; }
+bool PairRules::goes_by_parity() const {
+  return comm->mode != Comm::MULTI || (comm->*(&Reach::multi_reduce)) == 0;
+}
 
 // With comm_modify mode multi and reduce/multi a process may have no ghost of a smaller atom where the larger
 // one's owner has: the owner of the smaller takes the pair. Else the parity of the IDs decides, which every

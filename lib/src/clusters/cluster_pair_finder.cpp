@@ -130,7 +130,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
     executor->run(slices, search);
   }
   join(out);
-  std::swap(cuts_, last_cuts_);
+  keep_cuts();
 }
 
 /// Each pair of nodes once: in the turn of the one that comes first. A node meets itself once, and in each of

@@ -132,6 +132,7 @@ class ClusterPairFinder {
   void cut_node(const Scene<Metric>& scene, std::int32_t k, std::vector<LocalPoint>& local,
                 std::vector<LocalPoint>& ordered, ClusterPairs& out);
   bool order_as_before(std::int32_t k);
+  void keep_cuts();
   void put_cluster(const LocalPoint* points, const std::int32_t* ids, std::int32_t count, std::int32_t c,
                    const Frame& frame, const ListParams& request, ClusterPairs& out);
   template <class Metric>

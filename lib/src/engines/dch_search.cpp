@@ -107,35 +107,40 @@ void DchSearch::by_key(Span<const Vec3> positions, const Box& box, Span<const st
     hierarchy_.update(positions, box);
     return;
   }
-  KeyTable fresh;
-  fresh.fill(positions.size(), keys);
-  if (state_ == State::keyed && match(positions, keys)) {
+  const bool is_matched = state_ == State::keyed && keys.size() == positions.size() && match(positions, keys);
+  state_ = State::empty;  // until all is done
+  keys_.fill(positions.size(), keys);
+  if (is_matched) {
     hierarchy_.update(positions, box);
   } else {
     hierarchy_.build(positions, box);
   }
-  keys_ = std::move(fresh);
   state_ = State::keyed;
 }
 
-/// Makes the hierarchy hold the particles with these keys under their new indices; false if so many come
-/// and go that a new build is less work.
+/// Makes the hierarchy hold the particles with these keys under their new indices; false, with nothing done,
+/// if so many come and go that a new build is less work, or if keys repeat, which KeyTable::fill() refuses.
 bool DchSearch::match(Span<const Vec3> positions, Span<const std::uint64_t> keys) {
   const std::size_t before = hierarchy_.size();
   std::vector<std::int32_t> old_of_new(keys.size());
   std::vector<char> stays(before, 0);
-  std::size_t arrivals = 0;
+  std::vector<std::uint64_t> arriving;
+  bool any_twice = false;
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    old_of_new[k] = keys_.find(keys[k]);
-    if (old_of_new[k] == KeyTable::kAbsent) {
-      ++arrivals;
+    const std::int32_t old = old_of_new[k] = keys_.find(keys[k]);
+    if (old == KeyTable::kAbsent) {
+      arriving.push_back(keys[k]);
     } else {
-      stays[old_of_new[k]] = 1;
+      any_twice |= stays[old] != 0;
+      stays[old] = 1;
     }
   }
+  const std::size_t arrivals = arriving.size();
   const std::size_t exchanged = arrivals + (before - (keys.size() - arrivals));
   if (hierarchy_.params().policy == MaintenancePolicy::automatic && !hierarchy_.exchange_pays(exchanged))
     return false;
+  std::sort(arriving.begin(), arriving.end());
+  if (any_twice || std::adjacent_find(arriving.begin(), arriving.end()) != arriving.end()) return false;
   for (std::size_t id = 0; id < before; ++id)
     if (!stays[id]) hierarchy_.remove(static_cast<std::int32_t>(id));
   for (std::size_t k = 0; k < keys.size(); ++k)

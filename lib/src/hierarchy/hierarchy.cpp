@@ -38,6 +38,32 @@ detail::StructureParams checked(const detail::StructureParams& p) {
   return p;
 }
 
+/// Moves the value of each old id to its new one, and drops those of ids that have none.
+/// @param new_of_old kNone for the latter
+template <class Value>
+void gather_in_place(Span<const std::int32_t> old_of_new, const std::vector<std::int32_t>& new_of_old,
+                     std::vector<Value>& values) {
+  const auto n = static_cast<std::int32_t>(old_of_new.size());
+  std::vector<char> is_done(old_of_new.size(), 0);
+  // A chain of places, each of which takes what the next one holds, ends where that is beyond them, or is
+  // where the chain began.
+  const auto follow = [&](std::int32_t first) {
+    const Value held = values[first];
+    std::int32_t to = first;
+    while (to < n && !is_done[to]) {
+      const std::int32_t from = old_of_new[to];
+      is_done[to] = 1;
+      values[to] = from == first ? held : values[from];
+      to = from;
+    }
+  };
+  for (std::int32_t k = 0; k < n; ++k)
+    if (new_of_old[k] == kNone) follow(k);
+  for (std::int32_t k = 0; k < n; ++k)
+    if (!is_done[k]) follow(k);
+  values.resize(old_of_new.size());
+}
+
 }  // namespace
 
 Hierarchy::Hierarchy(const HierarchyParams& params) : Hierarchy(detail::StructureParams(params)) {}
@@ -113,14 +139,8 @@ void Hierarchy::renumber(Span<const std::int32_t> old_of_new) {
                              (contains(old) ? " is listed twice" : " is not in the hierarchy"));
     new_of_old[old] = static_cast<std::int32_t>(k);
   }
-  std::vector<Vec3> raw(old_of_new.size());
-  std::vector<std::int32_t> slots(old_of_new.size());
-  for (std::size_t k = 0; k < old_of_new.size(); ++k) {
-    raw[k] = h.raw[old_of_new[k]];
-    slots[k] = h.slot_of_id[old_of_new[k]];
-  }
-  h.raw = std::move(raw);
-  h.slot_of_id = std::move(slots);
+  gather_in_place(old_of_new, new_of_old, h.raw);
+  gather_in_place(old_of_new, new_of_old, h.slot_of_id);
   h.free_ids.clear();
   const auto rename = [&](std::vector<std::int32_t>& ids) {
     for (std::int32_t& id : ids)
