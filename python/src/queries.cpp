@@ -76,7 +76,8 @@ class Search {
  private:
   static constexpr double kRowBytes = 12;  // of indices, and what rows are made of
 
-  /// Whether a list of all pairs takes less than half of what is free: nobody needs to know then how many are near.
+  /// Whether a list of all pairs takes less than half of what is free: nobody needs to know then how many are
+  /// near.
   static bool fits_if_all_are_near(std::size_t particles, bool full) {
     constexpr std::size_t kFewParticles = 1000;
     const auto n = static_cast<double>(particles);

@@ -207,12 +207,11 @@ void ClusterPairFinder::append_rows(std::int32_t own, std::int32_t first_shift, 
     const FoundRow found = kernels_->find_row(row, slice.near.from(first), count, limit_.out, entries);
     slice.work.beside_clusters += count;
     slice.work.by_points += found.compared;
-    std::int32_t kept = found.entries;
-    if (s == 0 && !is_alone) {
-      entries->mask &= kPairsWithinCluster;
-      if (entries->mask == 0) std::copy(entries + 1, entries + kept--, entries);
-    }
-    if (restricts) kept = restrict_row(c, request, clusters, entries, kept, slice);
+    if (s == 0 && !is_alone) entries->mask &= kPairsWithinCluster;
+    const bool loses_own = found.entries > 0 && entries->mask == 0;
+    const std::int32_t kept = restricts || loses_own
+                                  ? restrict_row(c, request, clusters, entries, found.entries, slice)
+                                  : found.entries;
     if (kept == 0) continue;
     slice.rows.push_back({static_cast<std::int64_t>(slice.written), c, first_shift});
     slice.written += static_cast<std::size_t>(kept);
@@ -238,12 +237,6 @@ std::int32_t ClusterPairFinder::restrict_row(std::int32_t c, const ListParams& r
     kept += mask != 0;
   }
   return kept;
-}
-
-ClusterPairFinder::Work ClusterPairFinder::work() const {
-  Work work;
-  for (const Slice& slice : slices_) work += slice.work;
-  return work;
 }
 
 /// A slice that is alone has the memory of the pairs themselves while it is searched.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// ClusterPairFinder: pairs that masks leave out, by exclusions and types.
+// ClusterPairFinder: pairs that masks leave out, by exclusions and types; what it counts.
 #include <utility>
 
 #include "clusters/cluster_pair_finder.hpp"
@@ -56,6 +56,12 @@ void ClusterPairFinder::keep_cuts() {
   last_cuts_ = std::move(cuts_);
   cuts_ = {};
   clusters_ = {};
+}
+
+ClusterPairFinder::Work ClusterPairFinder::work() const {
+  Work work;
+  for (const Slice& slice : slices_) work += slice.work;
+  return work;
 }
 
 std::size_t ClusterPairFinder::memory_bytes() const {
