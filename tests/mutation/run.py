@@ -58,6 +58,8 @@ CLUSTER_PAIRS = (["unit/hierarchy/dch_unit_hierarchy", "property/dch_property_cl
                   "*TasksName*/orthorhombic_ppf",
                   "*ClusterPairsScenes.*/orthorhombic_ppf:*ClusterPairsScenes.*/none:*ForcesOnThreads.*/none",
                   "*ClusterPairsScenes.*/triclinic_ppp"])
+ENTRY_ORDER = (["property/dch_property_clusters"],
+               ["*OrderedEntries.*/orthorhombic_ppf:*OrderedEntries.*/none", "*OrderedEntries.*:*OrderedForces.*"])
 LEAF_FRAME = (["unit/core/dch_unit_core"], ["LeafFrame.*"])
 CLUSTER_KERNELS = (["unit/core/dch_unit_core"], ["*ClusterSearchKernelsTest*"])
 FILES = {
@@ -82,6 +84,8 @@ FILES = {
     "clusters/cluster_pair_finder.cpp": CLUSTER_PAIRS,
     "clusters/cluster_pair_cuts.cpp": CLUSTER_PAIRS,
     "clusters/cluster_pair_masks.cpp": CLUSTER_PAIRS,
+    "clusters/cluster_pair_order.cpp": ENTRY_ORDER,
+    "clusters/simd/join_loops.hpp": CLUSTER_KERNELS,
     "clusters/simd/near_loops.hpp": CLUSTER_KERNELS,
 }
 SLACK_SECONDS = 2
