@@ -112,7 +112,7 @@ def programs(build):
         return run_it
 
     return [program.Program("LAMMPS, plain styles", lambda scene: compute(scene, []), UNITS, QQR2E, program.DOUBLE),
-            program.Program("LAMMPS, dch on", with_dch("dch on"), UNITS + DCH, QQR2E, program.DOUBLE),
+            program.Program("LAMMPS, dch on", with_dch("dch styles no", "dch on"), UNITS + DCH, QQR2E, program.DOUBLE),
             program.Program("LAMMPS, suffix dch", with_dch("suffix dch"), UNITS + DCH, QQR2E, program.DOUBLE),
             program.Program("LAMMPS, suffix dch, mixed", with_dch("suffix dch", "dch precision mixed"), UNITS + DCH,
                             QQR2E, program.MIXED)]

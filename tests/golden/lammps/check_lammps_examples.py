@@ -18,7 +18,7 @@ from lammps_run import Host
 
 STEPS = 100
 ENOUGH = 40  # scripts with equal lists on 1 and 2 processes
-TURN_ON = ["dch on", "dch verify yes"]
+TURN_ON = ["dch styles no", "dch on", "dch verify yes"]  # lists are compared
 WORD = r"(\S+)"
 
 # Drive several replicas or another program, or only read what others have written.

@@ -78,12 +78,12 @@ class Repeats(unittest.TestCase):
             self.check(scene, "dch on\nsuffix dch\n", 1, threads=(1, 2))
 
     def test_lists_on_one_process(self):
-        self.check("gas", "dch on\n", 1)
-        self.check("melt", "dch on engine grid\n", 1, threads=(1, 2))
+        self.check("gas", "dch styles no\ndch on\n", 1)
+        self.check("melt", "dch styles no\ndch on engine grid\n", 1, threads=(1, 2))
 
     def test_choice_of_the_engine(self):
         for ranks, threads in ((1, (1, 2)), (2, (1,))):
-            engine = self.check("widening", "dch on engine auto\n", ranks, threads)
+            engine = self.check("widening", "dch styles no\ndch on engine auto\n", ranks, threads)
             self.assertIn("distances of the hierarchy", engine)  # which is in use after the grid
 
     def test_two_processes(self):

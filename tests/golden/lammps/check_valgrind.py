@@ -176,13 +176,13 @@ class NoErrors(unittest.TestCase):
                 self.check(what, script, verified, name)
 
     def test_lists(self):
-        self.check_sets("lists", all_of(LISTS, "dch on"), len(LISTS))
+        self.check_sets("lists", all_of(LISTS, "dch styles no\ndch on"), len(LISTS))
 
     def test_forces(self):
         self.check_sets("forces", all_of(FORCES, "suffix dch"), len(FORCES))
 
     def test_lists_of_two_processes(self):
-        self.check("lists", all_of(LISTS, "dch on"), len(LISTS), ranks=2)
+        self.check("lists", all_of(LISTS, "dch styles no\ndch on"), len(LISTS), ranks=2)
 
     def test_forces_of_two_processes(self):
         self.check("forces", all_of(FORCES, "suffix dch"), len(FORCES), ranks=2)
