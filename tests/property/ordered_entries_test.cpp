@@ -168,6 +168,12 @@ TEST_P(OrderedEntries, AreMadeWhereListsLiveSomeSteps) {
   ClusterPairs pairs = ordered(EntryOrder::by_halves);
   pairs.order_entries(EntryOrder::joined);
   EXPECT_EQ(pairs.entry_order, EntryOrder::by_halves) << "they have an order already";
+  pairs = ordered(EntryOrder::as_found);
+  EXPECT_TRUE(pairs.parts.empty());
+  ClusterPairs of_none;
+  of_none.refreshes_before = kRefreshes;
+  of_none.order_entries(EntryOrder::joined);
+  EXPECT_EQ(of_none.entry_order, EntryOrder::as_found);
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, OrderedEntries, ::testing::ValuesIn(scenes::all_boxes(10.0)),

@@ -70,7 +70,7 @@ JoinedEntries join(const ClusterPairs::Entry* entries, std::int32_t count, const
   const typename S::Masks all = S::load(sorted);
   std::uint32_t fits[kJoinedAtOnce];
   for (std::int32_t n = 0; n < count; ++n) fits[n] = S::without_bits_of(sorted[n], all);
-  ClusterPairs::Entry alone[kJoinedAtOnce + 1];
+  ClusterPairs::Entry alone[kJoinedAtOnce];
   JoinedEntries result;
   std::uint32_t left = each;
   while (left != 0) {

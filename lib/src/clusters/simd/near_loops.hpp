@@ -44,7 +44,7 @@ struct BoxTest {
   std::uint32_t operator()(std::int32_t k, std::int32_t last) const {
     const V t = S::adds(S::adds(gap2(k, 0), gap2(k, 1)), gap2(k, 2));
     const std::uint32_t lanes = S::bits_greater(limit, t) & S::kAll;
-    return last - k < S::kLanes ? lanes & ((1u << (last - k)) - 1) : lanes;
+    return last - k < S::kLanes ? lanes & static_cast<std::uint32_t>((1ull << (last - k)) - 1) : lanes;
   }
   NearClusters from;
   V limit, low[3], high[3];
