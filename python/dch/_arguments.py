@@ -85,7 +85,7 @@ def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
     flags = np.asarray(pbc)
     if flags.shape not in [(), (3,)] or flags.dtype.kind not in "biu":
         raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
-    x, y, z = (bool(flag) for flag in (flags if flags.ndim else [flags] * 3))
+    x, y, z = np.broadcast_to(flags, 3).astype(bool).tolist()
     return vectors, (x, y, z)
 
 

@@ -14,7 +14,7 @@ from script_tests import host, main
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 EXAMPLES = DOCS.parent / "examples" / "lammps"
 # Pages of another kind: what builds the adapter is run by compat.packages and compat.in_tree, the others have tests of their own.
-OTHERS = {"design.md", "explain.md", "install.md", "measured.md", "examples.md", "python.md"}
+OTHERS = {"design.md", "explain.md", "install.md", "measured.md", "examples.md", "new_style.md", "python.md", "scaling.md"}
 PROGRAMS = ("lmp", "lmp-dch", "mpirun")
 
 CHAINS = """
@@ -61,6 +61,16 @@ def examples(page):
 
 
 class Manual(unittest.TestCase):
+    def test_new_style(self):
+        """What the page shows of a style stands in its sources."""
+        sources = "".join(path.read_text(encoding="utf-8") for folder in ("forces/src/simd", "lammps_pair_style/src/styles")
+                          for path in sorted((DOCS.parent / folder).rglob("*.h*")))
+        sources += (DOCS.parent / "tests/golden/lammps/CMakeLists.txt").read_text(encoding="utf-8")
+        shown = examples(DOCS / "lammps" / "new_style.md")
+        self.assertGreater(len(shown), 3)
+        for block in shown:
+            self.assertIn(re.sub(r"\s+", " ", block).strip(), re.sub(r"\s+", " ", sources))
+
     def check(self, code, output, what):
         self.assertEqual(code, 0, f"{what}\n{output}")
         self.assertGreater(len(thermo_tables(output)[-1]), 1, f"{what}\n{output}")
