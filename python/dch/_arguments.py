@@ -19,7 +19,7 @@ REAL_KINDS = "fiub"
 
 def numbers(values: Any, name: str) -> Floats:
     """As a contiguous array of float64: the same one if it is one, else a copy."""
-    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.flags.carray:
+    if type(values) is np.ndarray and values.dtype == np.float64 and values.flags.carray:
         return values
     try:
         array = np.asarray(values)
@@ -85,7 +85,7 @@ def box(cell: Any, pbc: Any) -> tuple[Floats, tuple[bool, bool, bool]]:
     flags = np.asarray(pbc)
     if flags.shape not in [(), (3,)] or flags.dtype.kind not in "biu":
         raise InvalidParameter(f"pbc is {pbc!r}; give True, False, or three of them")
-    x, y, z = np.broadcast_to(flags, 3).astype(bool).tolist()
+    x, y, z = (bool(flag) for flag in (flags.tolist() if flags.ndim else 3 * [flags]))
     return vectors, (x, y, z)
 
 
