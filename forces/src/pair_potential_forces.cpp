@@ -10,6 +10,7 @@
 #include "base/describe.hpp"
 #include "cluster_run.hpp"
 #include "lj_sums.hpp"
+#include "pair_list_run.hpp"
 #include "simd/form_kernels.hpp"
 #include "style_of.hpp"
 
@@ -90,23 +91,14 @@ void PairPotential::add(const ClusterPairs& pairs, ForcePrecision precision, Spa
 void PairPotential::add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
                         Span<const double> charges, LennardJonesSums* sums) const {
   check(pairs, forces.size(), charges.size());
-  if (positions.size() != pairs.particles)
-    throw InvalidParameter(std::to_string(positions.size()) + " positions given for a pair list of " +
-                           std::to_string(pairs.particles) +
-                           " particles; make the list anew for another number");
-  if (!same_periodicity(now, pairs.box))
-    throw InvalidBox("a pair list made in the box " + pairs.box.description() + " was used in the box " +
-                     now.description() + "; make it anew for another periodicity");
-  // Pairs without types are all of type 0, as in clusters.
-  std::vector<std::int32_t> none;
-  if (pairs.type.empty()) none.assign(pairs.particles, 0);
+  detail::PairListRun run(pairs, positions, now);
   detail::LjPairTask task{pairs.i.data(),
                           pairs.j.data(),
                           0,
                           0,
                           positions.data(),
                           {},
-                          none.empty() ? pairs.type.data() : none.data(),
+                          run.types(),
                           params_.types,
                           detail::pointers_to(full_),
                           charges.data(),
@@ -114,14 +106,7 @@ void PairPotential::add(const PairList& pairs, Span<const Vec3> positions, const
                           constants<double>(),
                           forces.data()};
   const auto function = choose(detail::style_of(params_).pairs, params_.types, sums != nullptr);
-  detail::LjSums found;
-  for (std::size_t g = 0; g + 1 < pairs.groups.size(); ++g) {
-    task.first = pairs.groups[g].first;
-    task.last = pairs.groups[g + 1].first;
-    task.shift = PairList::shift(pairs.groups[g], now);
-    if (task.first < task.last) function(task, found);
-  }
-  if (sums) detail::give(found, *sums);
+  run.add(task, function, sums);
 }
 
 void PairPotential::add_weighted(const WeightedPairs& pairs, Span<const Vec3> positions, Span<Vec3> forces,

@@ -22,6 +22,18 @@ struct BareCharges {
   }
 };
 
+/// Of charges whose bare energy is multiplied by factors. What a weight leaves out is left out of the bare
+/// terms, since reciprocal space holds the whole.
+template <class S, bool kWeighted>
+FormTerms<S> screened_terms(const PairDistance<S>& at, typename S::V bare, EwaldFactors<S> factors,
+                            typename S::V weight) {
+  if constexpr (kWeighted) {
+    const typename S::V left_out = S::sub(S::set1(1), weight);
+    factors = {S::sub(factors.energy, left_out), S::sub(factors.force, left_out)};
+  }
+  return {S::mul(S::mul(bare, factors.force), at.s), S::mul(bare, factors.energy)};
+}
+
 /// q_i q_j erfc(splitting r) / r, by the formula of ewald_factors().
 struct EwaldCharges {
   static constexpr bool kAct = true;
@@ -31,12 +43,8 @@ struct EwaldCharges {
                             typename S::V weight) {
     using V = typename S::V;
     const V bare = S::mul(charge, at.over_r);
-    EwaldFactors<S> factors = ewald_factors<S>(S::mul(constants.splitting, at.r));
-    if constexpr (kWeighted) {
-      const V left_out = S::sub(S::set1(1), weight);
-      factors = {S::sub(factors.energy, left_out), S::sub(factors.force, left_out)};
-    }
-    return {S::mul(S::mul(bare, factors.force), at.s), S::mul(bare, factors.energy)};
+    const EwaldFactors<S> factors = ewald_factors<S>(S::mul(constants.splitting, at.r));
+    return screened_terms<S, kWeighted>(at, bare, factors, weight);
   }
 };
 
@@ -54,11 +62,7 @@ struct DampedShiftedCharges {
     EwaldFactors<S> factors = ewald_factors<S>(S::mul(constants.splitting, at.r), 1.12837916709551257);
     factors = {S::sub(factors.energy, S::madd(at.r2, force, S::mul(at.r, energy))),
                S::madd(at.r2, force, factors.force)};
-    if constexpr (kWeighted) {
-      const V left_out = S::sub(S::set1(1), weight);
-      factors = {S::sub(factors.energy, left_out), S::sub(factors.force, left_out)};
-    }
-    return {S::mul(S::mul(bare, factors.force), at.s), S::mul(bare, factors.energy)};
+    return screened_terms<S, kWeighted>(at, bare, factors, weight);
   }
 };
 
