@@ -89,6 +89,8 @@ std::string work_table(const RunReport& r) {
           (r.order_obstacle.empty() ? "in the order of the structure"
                                     : "in LAMMPS's order: " + r.order_obstacle) +
           "\n";
+  text += "  ghosts                  " +
+          (r.ghosts_for.empty() ? "none, as nothing reads them" : "made: " + r.ghosts_for) + "\n";
   text += expiry_lines(r);
   text += "  instructions            " + r.instructions + "\n";
   if (r.skin > 0)

@@ -98,6 +98,7 @@ struct RunReport {
   std::string instructions;     ///< name of the instruction set that the search uses
   RunCounters counters;         ///< entries summed, builds and times the largest of any process
   std::string order_obstacle;   ///< why atoms are not in the order of the structure; empty if they are
+  std::string ghosts_for;       ///< why LAMMPS makes ghosts; empty if there are none
   std::string expiry_obstacle;  ///< why half the skin ends lists; empty if missing pairs do
   std::int64_t atoms = 0;
   std::int64_t structures_built = 0, repairs = 0, refreshes = 0;          ///< the largest of any process

@@ -41,11 +41,17 @@ void FixDCHOrder::install(LAMMPS* lammps) {
 int FixDCHOrder::setmask() { return FixConst::PRE_EXCHANGE | FixConst::MIN_PRE_EXCHANGE; }
 
 void FixDCHOrder::setup_pre_exchange() {
-  if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) ours->restore_order();
+  if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) {
+    ours->restore_order();
+    ours->leave_out_ghosts();
+  }
 }
 
 void FixDCHOrder::pre_exchange() {
-  if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) ours->order_atoms();
+  if (auto* ours = dynamic_cast<NeighborDCH*>(neighbor)) {
+    ours->order_atoms();
+    ours->leave_out_ghosts();
+  }
 }
 
 }  // namespace LAMMPS_NS

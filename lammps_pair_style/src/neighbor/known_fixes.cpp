@@ -60,7 +60,49 @@ constexpr const char* kWithoutRandomNumbers[] = {"nve",
                                                  "GROUP",
                                                  FixDCHOrder::kStyle};
 
+// By their whole names: a style with a slash may do more.
+constexpr const char* kFixesWithoutGhosts[] = {"nve",
+                                               "nve/dch",
+                                               "nve/limit",
+                                               "nve/noforce",
+                                               "nvt",
+                                               "langevin",
+                                               "langevin/philox",
+                                               "temp/berendsen",
+                                               "temp/csvr",
+                                               "temp/rescale",
+                                               "momentum",
+                                               "recenter",
+                                               "addforce",
+                                               "aveforce",
+                                               "lineforce",
+                                               "planeforce",
+                                               "setforce",
+                                               "spring/self",
+                                               "viscous",
+                                               "enforce2d",
+                                               "wall/harmonic",
+                                               "wall/lj126",
+                                               "wall/lj93",
+                                               "wall/reflect",
+                                               "ave/time",
+                                               "dt/reset",
+                                               "halt",
+                                               "print",
+                                               FixDCHOrder::kStyle};
+constexpr const char* kComputesWithoutGhosts[] = {
+    "temp", "temp/com", "temp/partial", "pressure", "pe", "ke", "com", "gyration", "msd", "vacf", "reduce"};
+
+template <class Names>
+bool has_name(const Names& names, const char* style) {
+  return std::any_of(std::begin(names), std::end(names),
+                     [&](const char* name) { return std::strcmp(style, name) == 0; });
+}
+
 }  // namespace
+
+bool is_fix_without_ghosts(const char* style) { return has_name(kFixesWithoutGhosts, style); }
+bool is_compute_without_ghosts(const char* style) { return has_name(kComputesWithoutGhosts, style); }
 
 bool draws_no_random_numbers(const char* style) {
   return std::any_of(

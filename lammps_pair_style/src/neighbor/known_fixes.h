@@ -9,4 +9,8 @@ inline constexpr const char* kHistoryFix = "NEIGH_HISTORY";  ///< LAMMPS's own, 
 /// atoms in another order, or in this order at other steps, take another trajectory.
 bool draws_no_random_numbers(const char* style);
 
+/// Whether fixes, or computes, of this style are known to look at no ghost.
+bool is_fix_without_ghosts(const char* style);
+bool is_compute_without_ghosts(const char* style);
+
 }  // namespace LAMMPS_NS

@@ -113,6 +113,8 @@ void NeighborDCH::init() {
                           "style or give 'dch off' before the run"));
   }
   show_bins();
+  show_cutoff();
+  ghosts_for_ = "no DCH list is in use";
   // The order decides which atoms this command deletes; it makes ghosts and lists anew.
   const char* const word = input->*(&Words::command);
   if (word && std::strcmp(word, "delete_atoms") == 0) order_.restore();
@@ -146,7 +148,8 @@ void NeighborDCH::init() {
   order_.begin_run();
   if (any_by_radius()) order_.note_grains();
   prepare_expiry();
-  if (order_.obstacle().empty()) FixDCHOrder::install(lmp);
+  ghosts_for_ = need_of_ghosts();
+  if (order_.obstacle().empty() || ghosts_for_.empty()) FixDCHOrder::install(lmp);
   hide_bins();
 }
 

@@ -101,6 +101,8 @@ class NeighborDCH : public Neighbor {
   void restore_order() { order_.restore(); }
   /// Does so, if it is time, from between the decision to build lists and the exchange of atoms.
   void order_atoms();
+  /// Has LAMMPS make no ghosts in runs where nothing reads them, from the same place.
+  void leave_out_ghosts();
 
   /// Cluster pairs for the run that is about to begin, kept up at every build of lists from then on; whether
   /// lists come from the hierarchy too or not. From a pair style's init_style(). A half list that the style
@@ -140,6 +142,9 @@ class NeighborDCH : public Neighbor {
   void announce(const std::vector<dch::lammps::ListNote>& before) const;
   void show_bins();
   void hide_bins();
+  std::string need_of_ghosts() const;
+  std::string reader_of_ghosts() const;
+  void show_cutoff();
 
   void build_native_reference();
   void prepare_search();
@@ -190,7 +195,9 @@ class NeighborDCH : public Neighbor {
 
   bool bins_hidden_ = false;
   int all_bins_ = 0, all_stencils_ = 0,
-      stencils_in_use_ = 0;  ///< nbin, nstencil, nstencil_perpetual while hidden
+      stencils_in_use_ = 0;                           ///< nbin, nstencil, nstencil_perpetual while hidden
+  std::string ghosts_for_ = "no DCH list is in use";  ///< why there are ghosts; empty if there are none
+  double full_cutoff_ = 0;                            ///< cutneighmax while that is hidden, else 0 [length]
 
   std::vector<ServedList> served_;
   std::vector<int> served_plist_;  ///< perpetual lists that are ours

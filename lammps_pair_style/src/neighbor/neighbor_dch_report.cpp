@@ -44,6 +44,7 @@ dch::lammps::RunReport NeighborDCH::settings_of_run() const {
   report.skin_obstacle = skin_obstacle_;
   report.in_box = points_.in_box();
   report.order_obstacle = order_.obstacle();
+  report.ghosts_for = ghosts_for_;
   report.expiry_obstacle = expiry_obstacle_;
   report.instructions = dch::name(dch::instruction_set());
   return report;

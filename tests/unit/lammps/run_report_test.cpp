@@ -86,6 +86,13 @@ TEST(RunReport, SaysInWhichOrderAtomsAre) {
   EXPECT_THAT(format_report(report), HasSubstr("in LAMMPS's order: 'atom_modify sort' is off\n"));
 }
 
+TEST(RunReport, SaysWhyThereAreGhosts) {
+  dch::lammps::RunReport report = example();
+  EXPECT_THAT(format_report(report), HasSubstr("ghosts                  none, as nothing reads them\n"));
+  report.ghosts_for = "the box changes";
+  EXPECT_THAT(format_report(report), HasSubstr("ghosts                  made: the box changes\n"));
+}
+
 TEST(RunReport, SaysWhichRuleEndsListsAndWhatItSaved) {
   dch::lammps::RunReport report = example();
   report.expiry_obstacle = "the box changes";
