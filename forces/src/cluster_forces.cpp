@@ -59,11 +59,12 @@ void LennardJones::add(const ClusterPairs& pairs, ForcePrecision precision, Span
 ClusterPairs::EntryOrder LennardJones::wanted_order(ForcePrecision precision) {
   using Order = ClusterPairs::EntryOrder;
   const detail::ForceKernels& kernels = detail::force_kernels(instruction_set());
-  const auto of = [](const auto& functions) {
+  const auto of = [](const auto& functions, Order halves) {
     if (functions.wants_lanes) return Order::joined;
-    return functions.leaves_out_halves ? Order::by_halves : Order::as_found;
+    return functions.leaves_out_halves ? halves : Order::as_found;
   };
-  return precision == ForcePrecision::mixed ? of(kernels.mixed) : of(kernels.full);
+  return precision == ForcePrecision::mixed ? of(kernels.mixed, Order::by_image_and_halves)
+                                            : of(kernels.full, Order::by_halves);
 }
 
 void LennardJones::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,

@@ -84,21 +84,43 @@ TEST_P(OrderedEntries, MasksHoldThePairsThatAreNear) {
   }
 }
 
+/// The images of a row's entries.
+std::vector<Vec3> images_of_row(const ClusterPairs& pairs, std::size_t r) {
+  std::vector<Vec3> images;
+  for (std::int64_t e = pairs.rows[r].first; e < pairs.rows[r + 1].first; ++e) {
+    const ClusterPairs::Entry& entry = pairs.entries[static_cast<std::size_t>(e)];
+    images.push_back(pairs.shift[static_cast<std::size_t>(pairs.rows[r].first_shift) + entry.shift].image);
+  }
+  return images;
+}
+
 TEST_P(OrderedEntries, StandByHalvesOfTheirPairs) {
-  const ClusterPairs before = searched(kRefreshes), pairs = ordered(EntryOrder::by_halves);
-  ASSERT_EQ(pairs.entry_order, EntryOrder::by_halves);
-  ASSERT_EQ(pairs.parts.size() + 1, pairs.rows.size());
-  EXPECT_EQ(entries_by_cluster(pairs), entries_by_cluster(before));
-  std::size_t halves = 0;
-  for (std::size_t r = 0; r < pairs.parts.size(); ++r)
-    for (std::int64_t e = pairs.rows[r].first; e < pairs.rows[r + 1].first; ++e) {
-      const int mask = pairs.entries[static_cast<std::size_t>(e)].mask;
-      const std::int64_t n = e - pairs.rows[r].first;
-      ASSERT_EQ((mask & 0x00FF) != 0, n < pairs.parts[r].lower);
-      ASSERT_EQ((mask & 0xFF00) != 0, n < pairs.parts[r].first || n >= pairs.parts[r].lower);
-      halves += n >= pairs.parts[r].first ? 1 : 0;
-    }
-  EXPECT_GT(5 * halves, pairs.entries.size()) << "a fifth of all entries, at least";
+  const ClusterPairs before = searched(kRefreshes);
+  for (const EntryOrder order : {EntryOrder::by_halves, EntryOrder::by_image_and_halves}) {
+    const ClusterPairs pairs = ordered(order);
+    ASSERT_EQ(pairs.entry_order, order);
+    ASSERT_EQ(pairs.parts.size() + 1, pairs.rows.size());
+    EXPECT_EQ(entries_by_cluster(pairs), entries_by_cluster(before));
+    std::size_t halves = 0;
+    for (std::size_t r = 0; r < pairs.parts.size(); ++r)
+      for (std::int64_t e = pairs.rows[r].first; e < pairs.rows[r + 1].first; ++e) {
+        const int mask = pairs.entries[static_cast<std::size_t>(e)].mask;
+        const std::int64_t n = e - pairs.rows[r].first;
+        ASSERT_EQ((mask & 0x00FF) != 0, n < pairs.parts[r].lower);
+        ASSERT_EQ((mask & 0xFF00) != 0, n < pairs.parts[r].first || n >= pairs.parts[r].lower);
+        halves += n >= pairs.parts[r].first ? 1 : 0;
+      }
+    EXPECT_GT(5 * halves, pairs.entries.size()) << "a fifth of all entries, at least";
+  }
+}
+
+TEST_P(OrderedEntries, OfARowAreOfOneImageIfAskedFor) {
+  for (const EntryOrder order : {EntryOrder::joined, EntryOrder::by_image_and_halves}) {
+    const ClusterPairs pairs = ordered(order);
+    for (std::size_t r = 0; r < pairs.parts.size(); ++r)
+      for (const Vec3& image : images_of_row(pairs, r)) ASSERT_EQ(image, images_of_row(pairs, r).front());
+  }
+  EXPECT_EQ(ordered(EntryOrder::by_halves).rows.size(), searched(kRefreshes).rows.size());
 }
 
 TEST_P(OrderedEntries, StandTwoByTwoWithoutABitInCommon) {
@@ -114,12 +136,6 @@ TEST_P(OrderedEntries, StandTwoByTwoWithoutABitInCommon) {
     for (std::size_t r = 0; r < pairs.parts.size(); ++r) {
       const ClusterPairs::Row& row = pairs.rows[r];
       ASSERT_LT(row.first, pairs.rows[r + 1].first);
-      const auto image = [&](std::int64_t e) {
-        const ClusterPairs::Entry& entry = pairs.entries[static_cast<std::size_t>(e)];
-        return pairs.shift[static_cast<std::size_t>(row.first_shift) + entry.shift].image;
-      };
-      for (std::int64_t e = row.first; e < pairs.rows[r + 1].first; ++e)
-        ASSERT_EQ(image(e), image(row.first)) << "row " << r;
       ASSERT_EQ((pairs.rows[r + 1].first - row.first - pairs.parts[r].first) % 2, 0);
       for (std::int64_t e = row.first + pairs.parts[r].first; e < pairs.rows[r + 1].first;
            e += 2, ++two_by_two)
@@ -138,7 +154,7 @@ TEST_P(OrderedEntries, StandTwoByTwoWithoutABitInCommon) {
 }
 
 TEST_P(OrderedEntries, AreTheSameOnAnyNumberOfThreads) {
-  for (const EntryOrder order : {EntryOrder::joined, EntryOrder::by_halves}) {
+  for (const EntryOrder order : scenes::kOrders) {
     const ClusterPairs alone = ordered(order);
     for (const int threads : {2, 5}) {
       const auto pool = make_thread_pool(threads);
@@ -160,7 +176,7 @@ TEST_P(OrderedEntries, AreTheSameOnAnyNumberOfThreads) {
 }
 
 TEST_P(OrderedEntries, AreMadeWhereListsLiveSomeSteps) {
-  for (const EntryOrder order : {EntryOrder::joined, EntryOrder::by_halves}) {
+  for (const EntryOrder order : scenes::kOrders) {
     ClusterPairs pairs = searched(ClusterPairs::steps_to_order(order) - 1);
     pairs.order_entries(order);
     EXPECT_EQ(pairs.entry_order, EntryOrder::as_found);

@@ -97,7 +97,7 @@ TEST_P(OrderedForces, GiveTheForcesOfThoseAsFound) {
     }
     LennardJones potential = each.make(types);
     const Span<const double> given = each.has_charges ? Span<const double>(charges) : Span<const double>();
-    for (const EntryOrder order : {EntryOrder::joined, EntryOrder::by_halves}) {
+    for (const EntryOrder order : scenes::kOrders) {
       ClusterPairs pairs = ordered(order), plain = searched(kRefreshes);
       scenes::Random random(5);
       std::vector<Vec3> moved = points;

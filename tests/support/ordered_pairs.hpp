@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <string>
@@ -20,6 +21,8 @@ inline constexpr double kOrderedCutoff = 1.0, kOrderedSkin = 0.3;
 inline constexpr int kOrderedTypes = 5;
 inline constexpr int kRefreshes = ClusterPairs::steps_to_order(ClusterPairs::EntryOrder::joined);
 using EntryOrder = ClusterPairs::EntryOrder;
+inline constexpr std::array kOrders{EntryOrder::joined, EntryOrder::by_halves,
+                                    EntryOrder::by_image_and_halves};
 
 /// Particles on a lattice that is shaken, 2.4 to a unit of volume; some leave the cell.
 class OrderedPairs : public ::testing::TestWithParam<NamedBox> {

@@ -95,15 +95,14 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
   const ClusterPairs::Row row = task.rows[r];
   const ClusterPairs::Entry* const entry = task.entries + row.first;
   const ClusterPairs::Entry* const end = task.entries + task.rows[r + 1].first;
+  using Order = ClusterPairs::EntryOrder;
+  using Unmoved = OneBeside<S, false>;
   if constexpr (kWantsLanes<S>) {
-    if (task.order == ClusterPairs::EntryOrder::joined) {
-      const auto& shift = task.shift[row.first_shift + entry->shift];
-      i.x[0] = S::less_shift(i.x[0], shift, 0);
-      i.y[0] = S::less_shift(i.y[0], shift, 1);
-      i.z[0] = S::less_shift(i.z[0], shift, 2);
+    if (task.order == Order::joined) {
+      subtract_shift<S>(task.shift[row.first_shift + entry->shift], i);
       const ClusterPairs::Entry* const joined = entry + task.parts[r].first;
-      add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S, false>>(
-          task, row, i, entry, joined, coefficient, charges, constants, sum);
+      add_entries<S, kParameters, kSums, Kind, Half::both, Unmoved>(task, row, i, entry, joined, coefficient,
+                                                                    charges, constants, sum);
       add_joined<S, kParameters, kSums, Kind>(task, row, i, joined, end, coefficient, charges, constants,
                                               sum);
       return;
@@ -111,11 +110,23 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
   }
   const ClusterPairs::Entry *lower = end, *upper = end;
   if constexpr (kLeavesOutHalves<S, kSums>)
-    if (task.order == ClusterPairs::EntryOrder::by_halves)
+    if (task.order == Order::by_image_and_halves || (!kShiftsByImage<S> && task.order == Order::by_halves))
       lower = entry + task.parts[r].first, upper = entry + task.parts[r].lower;
+  if constexpr (kLeavesOutHalves<S, kSums> && kShiftsByImage<S>) {
+    if (task.order == Order::by_image_and_halves) {
+      subtract_shift<S>(task.shift[row.first_shift + entry->shift], i);
+      add_entries<S, kParameters, kSums, Kind, Half::both, Unmoved>(task, row, i, entry, lower, coefficient,
+                                                                    charges, constants, sum);
+      add_entries<S, kParameters, kSums, Kind, Half::lower, Unmoved>(task, row, i, lower, upper, coefficient,
+                                                                     charges, constants, sum);
+      add_entries<S, kParameters, kSums, Kind, Half::upper, Unmoved>(task, row, i, upper, end, coefficient,
+                                                                     charges, constants, sum);
+      return;
+    }
+  }
   add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
                                                                      charges, constants, sum);
-  if constexpr (kLeavesOutHalves<S, kSums>) {
+  if constexpr (kLeavesOutHalves<S, kSums> && !kShiftsByImage<S>) {
     add_entries<S, kParameters, kSums, Kind, Half::lower, OneBeside<S>>(task, row, i, lower, upper,
                                                                         coefficient, charges, constants, sum);
     add_entries<S, kParameters, kSums, Kind, Half::upper, OneBeside<S>>(task, row, i, upper, end, coefficient,

@@ -16,6 +16,8 @@ namespace {
 /// Slices of the work for each thread, so that none waits long for the last one.
 constexpr int kOrderSlicesPerThread = 4;
 
+using EntryOrder = ClusterPairs::EntryOrder;
+
 /// An image, as one number.
 using ImageKey = std::int64_t;
 
@@ -40,33 +42,20 @@ class RowOrderer {
         image_of_shift_(image_of_shift),
         kernels_(detail::cluster_search_kernels(instruction_set())) {}
 
-  void by_halves(std::size_t r, ClusterPairs::Entry* entries) {
-    const ClusterPairs::Row& row = pairs_.rows[r];
-    ClusterPairs::Entry* const to = entries + row.first;
-    const auto count = static_cast<std::int32_t>(pairs_.rows[r + 1].first - row.first);
-    const std::size_t room = static_cast<std::size_t>(count) + detail::kEntriesAtOnce;
-    for (auto& part : {&both_, &lower_, &upper_})
-      if (part->size() < room) part->resize(room);
-    const detail::EntryHalves found = kernels_.split(to, count, {both_.data(), lower_.data(), upper_.data()});
-    std::copy_n(both_.data(), found.both, to);
-    std::copy_n(lower_.data(), found.lower, to + found.both);
-    std::copy_n(upper_.data(), found.upper, to + found.both + found.lower);
-    rows.push_back(row);
-    parts.push_back({found.both, found.both + found.lower});
-  }
-
-  void join(std::size_t r, ClusterPairs::Entry* entries) {
+  void order(std::size_t r, EntryOrder wanted, ClusterPairs::Entry* entries) {
     const ClusterPairs::Row& row = pairs_.rows[r];
     ClusterPairs::Entry* to = entries + row.first;
     ClusterPairs::Entry* const end = entries + pairs_.rows[r + 1].first;
-    if (joined_.size() < static_cast<std::size_t>(end - to) + 2)
-      joined_.resize(static_cast<std::size_t>(end - to) + 2);
-    const bool has_one_image = all_of_one_image(row.first_shift);
+    make_room(static_cast<std::size_t>(end - to) + detail::kEntriesAtOnce);
+    const bool stays_whole = wanted == EntryOrder::by_halves || all_of_one_image(row.first_shift);
     while (to != end) {
       ClusterPairs::Entry* const image_ends =
-          has_one_image ? end : bring_image_to_front(image_of_shift_.data() + row.first_shift, to, end);
+          stays_whole ? end : bring_image_to_front(image_of_shift_.data() + row.first_shift, to, end);
       rows.push_back({to - entries, row.cluster, row.first_shift});
-      join_of_image(to, image_ends);
+      if (wanted == EntryOrder::joined)
+        join(to, image_ends);
+      else
+        put_by_halves(to, image_ends);
       to = image_ends;
     }
   }
@@ -75,6 +64,11 @@ class RowOrderer {
   std::vector<ClusterPairs::RowParts> parts;
 
  private:
+  void make_room(std::size_t entries) {
+    for (auto& part : {&both_, &lower_, &upper_})
+      if (part->size() < entries) part->resize(entries);
+  }
+
   /// Whether all shifts of a node's rows lead to one image. Rows of a node stand behind each other.
   bool all_of_one_image(std::int32_t first_shift) {
     if (first_shift != asked_shift_) {
@@ -110,18 +104,27 @@ class RowOrderer {
   }
 
   /// Puts entries [begin, end) in order.
-  void join_of_image(ClusterPairs::Entry* begin, ClusterPairs::Entry* end) {
+  void put_by_halves(ClusterPairs::Entry* begin, ClusterPairs::Entry* end) {
+    const detail::EntryHalves found = kernels_.split(begin, static_cast<std::int32_t>(end - begin),
+                                                     {both_.data(), lower_.data(), upper_.data()});
+    std::copy_n(both_.data(), found.both, begin);
+    std::copy_n(lower_.data(), found.lower, begin + found.both);
+    std::copy_n(upper_.data(), found.upper, begin + found.both + found.lower);
+    parts.push_back({found.both, found.both + found.lower});
+  }
+
+  void join(ClusterPairs::Entry* begin, ClusterPairs::Entry* end) {
     const auto count = static_cast<std::int32_t>(end - begin);
     const std::int32_t turns = (count + detail::kJoinedAtOnce - 1) / detail::kJoinedAtOnce;
     ClusterPairs::Entry* alone = begin;
-    ClusterPairs::Entry* joined = joined_.data();
+    ClusterPairs::Entry* joined = both_.data();
     for (std::int32_t turn = 0; turn < turns; ++turn) {
       const std::int32_t first = share_begin(count, turn, turns), last = share_begin(count, turn + 1, turns);
       const detail::JoinedEntries found = kernels_.join(begin + first, last - first, {alone, joined});
       alone += found.alone;
       joined += found.joined;
     }
-    std::copy(joined_.data(), joined, alone);
+    std::copy(both_.data(), joined, alone);
     parts.push_back({static_cast<std::int32_t>(alone - begin), 0});
   }
 
@@ -130,7 +133,7 @@ class RowOrderer {
   const detail::ClusterSearchKernels& kernels_;
   std::int32_t asked_shift_ = -1;
   bool has_one_image_ = false;
-  std::vector<ClusterPairs::Entry> others_, joined_, both_, lower_, upper_;
+  std::vector<ClusterPairs::Entry> others_, both_, lower_, upper_;
 };
 
 }  // namespace
@@ -139,7 +142,7 @@ void ClusterPairs::order_entries(EntryOrder wanted, Executor* executor) {
   const bool is_done = wanted == EntryOrder::as_found || entry_order != EntryOrder::as_found;
   if (is_done || refreshes_before < steps_to_order(wanted) || rows.empty()) return;
   const std::vector<ImageKey> image_of_shift =
-      wanted == EntryOrder::joined ? keys_of_images(shift) : std::vector<ImageKey>();
+      wanted == EntryOrder::by_halves ? std::vector<ImageKey>() : keys_of_images(shift);
   const int slices = executor && executor->threads() > 1 ? kOrderSlicesPerThread * executor->threads() : 1;
   std::vector<RowOrderer> ordered(static_cast<std::size_t>(slices), RowOrderer(*this, image_of_shift));
   const std::size_t count = rows.size() - 1;
@@ -147,7 +150,7 @@ void ClusterPairs::order_entries(EntryOrder wanted, Executor* executor) {
     RowOrderer& own = ordered[static_cast<std::size_t>(slice)];
     const std::size_t last = share_begin(count, slice + 1, slices);
     for (std::size_t r = share_begin(count, slice, slices); r < last; ++r)
-      wanted == EntryOrder::joined ? own.join(r, entries.data()) : own.by_halves(r, entries.data());
+      own.order(r, wanted, entries.data());
   };
   if (slices == 1) {
     order(0);

@@ -95,6 +95,8 @@ struct ClusterPairs {
     /// First those with pairs of slots 0 or 1 of I and of slots 2 or 3, then those with pairs of slots 0 and
     /// 1 alone, then those with pairs of slots 2 and 3 alone.
     by_halves,
+    /// The same, and all entries of a row are of one image: in single precision no cluster J has to be moved.
+    by_image_and_halves,
     /// First those that stand alone, then two by two those that have no bit of their masks in common: a
     /// register of 16 pairs holds both. All entries of a row are of one image.
     joined

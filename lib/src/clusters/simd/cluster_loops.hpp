@@ -37,6 +37,20 @@ typename S::V in_length2(typename S::V d2, typename S::V unit2) {
   return in_length<S>(d2, unit2);
 }
 
+/// Whether rows of one image have one shift: places are integers, not relative to origins.
+template <class S>
+constexpr bool kShiftsByImage = std::is_same_v<typename S::Real, float>;
+
+/// Cluster I moved against the image of its row, so that no cluster J has to be moved.
+template <class S>
+void subtract_shift(const ClusterShift<float>& shift, Places<S>& i) {
+  for (int p = 0; p < S::kRegisters; ++p) {
+    i.x[p] = S::less_shift(i.x[p], shift.axis[0]);
+    i.y[p] = S::less_shift(i.y[p], shift.axis[1]);
+    i.z[p] = S::less_shift(i.z[p], shift.axis[2]);
+  }
+}
+
 /// Slot a of the cluster for pairs 4 a to 4 a + 3.
 template <class S>
 Places<S> spread(const ClusterPlace<typename S::Real>& cluster) {

@@ -54,14 +54,20 @@ struct Avx2Float {
   static Where spread(const std::int32_t* four, int which) {
     return _mm256_set_m128i(_mm_set1_epi32(four[2 * which + 1]), _mm_set1_epi32(four[2 * which]));
   }
+  static Where twice(const std::int32_t* four) {
+    return _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(four)));
+  }
   static V difference(Where a, Where b) { return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)); }
   static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
     const auto moved = [&](const std::int32_t* four, int axis) {
-      return _mm256_add_epi32(
-          _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(four))),
-          _mm256_set1_epi32(shift.axis[axis]));
+      return _mm256_add_epi32(twice(four), _mm256_set1_epi32(shift.axis[axis]));
     };
     return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
+  }
+  /// Of rows whose shift was taken from cluster I.
+  static Cluster load_cluster(const ClusterUnits& at) { return {twice(at.x), twice(at.y), twice(at.z)}; }
+  static Where less_shift(Where a, std::int32_t shift) {
+    return _mm256_sub_epi32(a, _mm256_set1_epi32(shift));
   }
   using Columns = const std::int32_t*;
   static Columns columns(const std::int32_t* four) { return four; }

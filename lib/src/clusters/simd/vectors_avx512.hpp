@@ -83,8 +83,8 @@ struct Avx512Float {
     return {repeat_either(first.x, of_second, second.x), repeat_either(first.y, of_second, second.y),
             repeat_either(first.z, of_second, second.z)};
   }
-  static Where less_shift(Where a, const ClusterShift<float>& shift, int axis) {
-    return _mm512_sub_epi32(a, _mm512_set1_epi32(shift.axis[axis]));
+  static Where less_shift(Where a, std::int32_t shift) {
+    return _mm512_sub_epi32(a, _mm512_set1_epi32(shift));
   }
   /// Adds products to the second numbers where bits are set, to the first elsewhere.
   static void add_either(V a, V b, float* first, std::uint32_t of_second, float* second) {

@@ -56,6 +56,11 @@ struct NeonFloat {
     };
     return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
+  /// Of rows whose shift was taken from cluster I.
+  static Cluster load_cluster(const ClusterUnits& at) {
+    return {vld1q_s32(at.x), vld1q_s32(at.y), vld1q_s32(at.z)};
+  }
+  static Where less_shift(Where a, std::int32_t shift) { return vsubq_s32(a, vdupq_n_s32(shift)); }
   using Columns = const std::int32_t*;
   static Columns columns(const std::int32_t* four) { return four; }
   static V lookup(const float* table, std::int32_t, const std::int32_t* row, Columns column, int which) {

@@ -75,6 +75,11 @@ struct PortableVector {
     return {{four[which], four[which], four[which], four[which]}};
   }
   static std::int32_t wrapped(std::uint32_t v) { return static_cast<std::int32_t>(v); }
+  static Units load_units(const std::int32_t* four) { return {{four[0], four[1], four[2], four[3]}}; }
+  static Units plus(Units a, std::uint32_t shift) {
+    for (std::int32_t& lane : a.lane) lane = wrapped(static_cast<std::uint32_t>(lane) + shift);
+    return a;
+  }
   static V difference(const V& a, const V& b) { return sub(a, b); }
   static V difference(const Units& a, const Units& b) {
     return each([&](int k) {
@@ -84,13 +89,16 @@ struct PortableVector {
   }
   static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
     const auto moved = [&](const std::int32_t* four, int axis) {
-      Units units;
-      for (int k = 0; k < 4; ++k)
-        units.lane[k] =
-            wrapped(static_cast<std::uint32_t>(four[k]) + static_cast<std::uint32_t>(shift.axis[axis]));
-      return units;
+      return plus(load_units(four), static_cast<std::uint32_t>(shift.axis[axis]));
     };
     return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
+  }
+  /// Of rows whose shift was taken from cluster I.
+  static Cluster load_cluster(const ClusterUnits& at) {
+    return {load_units(at.x), load_units(at.y), load_units(at.z)};
+  }
+  static Units less_shift(const Units& a, std::int32_t shift) {
+    return plus(a, 0u - static_cast<std::uint32_t>(shift));
   }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     const ClusterOfFour<double>& by = shift.whole;

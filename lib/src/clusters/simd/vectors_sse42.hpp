@@ -48,14 +48,19 @@ struct SseFloat {
   static V spread(const float* four, int which) { return _mm_set1_ps(four[which]); }
   static V repeat(const float* four) { return _mm_load_ps(four); }
   static Where spread(const std::int32_t* four, int which) { return _mm_set1_epi32(four[which]); }
+  static Where load(const std::int32_t* four) {
+    return _mm_load_si128(reinterpret_cast<const __m128i*>(four));
+  }
   static V difference(Where a, Where b) { return _mm_cvtepi32_ps(_mm_sub_epi32(a, b)); }
   static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
     const auto moved = [&](const std::int32_t* four, int axis) {
-      return _mm_add_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(four)),
-                           _mm_set1_epi32(shift.axis[axis]));
+      return _mm_add_epi32(load(four), _mm_set1_epi32(shift.axis[axis]));
     };
     return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
+  /// Of rows whose shift was taken from cluster I.
+  static Cluster load_cluster(const ClusterUnits& at) { return {load(at.x), load(at.y), load(at.z)}; }
+  static Where less_shift(Where a, std::int32_t shift) { return _mm_sub_epi32(a, _mm_set1_epi32(shift)); }
   using Columns = const std::int32_t*;
   static Columns columns(const std::int32_t* four) { return four; }
   static V lookup(const float* table, std::int32_t, const std::int32_t* row, Columns column, int which) {
