@@ -25,6 +25,9 @@ constexpr Most kAlone = {3.2, 7};   ///< the wider cells are, the more of few po
 constexpr Most kOthers = {2.4, 5};  ///< where shells have to be told, or wide cells meet more of finer points
 constexpr double kNarrower = 0.9;
 
+/// Rows of cells that points of another reach look through: so many of few points, one for so many of others.
+constexpr double kFewRows = 64, kPointsOfRow = 4;
+
 /// Numbers that look like random ones, a different one for each k.
 std::uint64_t mixed(std::uint64_t k) {
   k = (k + 0x9E3779B97F4A7C15u) * 0xBF58476D1CE4E5B9u;
@@ -65,16 +68,20 @@ double points_nearby(Span<const Vec3> positions, const std::vector<std::int32_t>
 /// average and k in that of a point, as much as a / m + b k for a point. So the best k is in proportion to
 /// the root of k / m, the spread.
 CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread,
-                     CellUse use) {
+                     CellUse use, double narrowest) {
   const Most& most = use == CellUse::alone ? kAlone : kOthers;
   const double wanted = kPoints * std::sqrt(spread);
-  double width = reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, most.width);
+  const double least = std::max(narrowest, kNarrowest * reach);
+  double width = std::max(least, reach * std::clamp(std::cbrt(wanted / nearby), kNarrowest, most.width));
   for (;; width *= kNarrower) {
     const CellLayout layout(positions, box, width);
-    if (width <= kNarrowest * reach ||
-        widest_in(layout, half_stencil(layout, reach)) <= most.difference * reach)
+    if (width <= least || widest_in(layout, half_stencil(layout, reach)) <= most.difference * reach)
       return layout;
   }
+}
+
+double narrowest_cells(double longer_reach, double nearby) {
+  return 2 * longer_reach / std::sqrt(std::max(kFewRows, nearby / kPointsOfRow));
 }
 
 }  // namespace dch::detail

@@ -28,7 +28,13 @@ enum class CellUse {
 /// The cells in which rows of pairs within `reach` take about the least work.
 /// @param nearby as points_nearby() has it for the reach
 /// @param spread of the points, see Occupancy
+/// @param narrowest cells that others can look through, see narrowest_cells(); 0 if there are no others
 CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread,
-                     CellUse use);
+                     CellUse use, double narrowest);
+
+/// How narrow cells may be for points of which others look for those within a longer reach: rows of cells there
+/// are then not many more than points, however short the reach of the points themselves is.
+/// @param nearby points in a cube twice as wide as the longer reach
+double narrowest_cells(double longer_reach, double nearby);
 
 }  // namespace dch::detail

@@ -81,17 +81,21 @@ double GridSearch::take_and_check(Span<const Vec3> positions, const PositionChec
 /// @param own reach of the group's points and each other; 0 if they have no pairs [length]
 std::optional<CellBins> GridSearch::start_cells(Group& group, Span<const Vec3> positions, double reach,
                                                 double own) {
-  const double nearby = group.last.reach > 0 ? group.last.density * reach * reach * reach
-                                             : points_nearby(positions, members_of(group), box_, reach);
-  const CellLayout layout = cells_for(positions, box_, reach, nearby, group.last.spread,
+  const std::size_t n = groups_.size() > 1 ? group.particle.size() : positions.size();
+  const auto nearby = [&](double width) {
+    return group.last.reach > 0 ? std::min(static_cast<double>(n), group.last.density * width * width * width)
+                                : points_nearby(positions, members_of(group), box_, width);
+  };
+  const double narrowest = groups_.size() > 1 ? narrowest_cells(radius_, nearby(2 * radius_)) : 0;
+  const CellLayout layout = cells_for(positions, box_, reach, nearby(reach), group.last.spread,
                                       groups_.size() > 1 ? CellUse::with_finer
                                       : fine_            ? CellUse::alone_with_shell
-                                                         : CellUse::alone);
+                                                         : CellUse::alone,
+                                      narrowest);
   // As GridRows rounds the first layer; others are rounded for each layer that they meet.
   CellRounding rounding;
   if (&group == groups_.data() && !positions.empty())
     rounding = {box_.wrap(positions[0]), finest_unit(widest_in(layout, half_stencil(layout, own)))};
-  const std::size_t n = groups_.size() > 1 ? group.particle.size() : positions.size();
   if (!group.layer.start(n, box_, layout, rounding)) return std::nullopt;
   return CellBins(box_, layout, rounding);
 }
