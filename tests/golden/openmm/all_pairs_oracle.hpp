@@ -106,6 +106,7 @@ Evaluation all_pairs(const Force& force, const std::vector<Vec3>& positions, con
     result.forces[j] += f;
     result.forces[i] -= f;
     result.energy += terms.energy;
+    result.size += std::abs(terms.energy);
   };
   std::set<std::pair<int, int>> excluded;
   for (int k = 0; k < force.getNumExceptions(); ++k) {

@@ -1,63 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// OpenMM's own NonbondedForce by the drop-in: against all pairs in double, and against OpenMM. With
-// DCH_DROP_IN_SCENES=190 in the environment there are 1,000 random Systems and more.
-#include <cstdlib>
-
+// OpenMM's own NonbondedForce by the drop-in: what it covers, when it acts, and what it refuses.
 #include "drop_in_case.hpp"
 
 namespace OpenMMDCH {
 namespace {
 
 DCH_ON_EACH_PLATFORM(DropInTest);
-
-/// Of each method.
-std::uint64_t count_of_scenes() {
-  const char* const asked = std::getenv("DCH_DROP_IN_SCENES");
-  return asked ? std::strtoull(asked, nullptr, 10) : 40;
-}
-
-TEST_P(DropInTest, RandomSystemsEqualAllPairs) {
-  for (const auto method :
-       {NonbondedForce::NoCutoff, NonbondedForce::CutoffNonPeriodic, NonbondedForce::CutoffPeriodic,
-        NonbondedForce::Ewald, NonbondedForce::PME, NonbondedForce::LJPME})
-    for (std::uint64_t seed = 1; seed <= count_of_scenes(); ++seed) {
-      const std::unique_ptr<RandomSystem> made = random_system(method, seed);
-      if (method == NonbondedForce::Ewald && is_skewed(*made)) continue;
-      const std::unique_ptr<Host> host = drop_in(made->system);
-      ASSERT_EQ(nonbondedStatus(**host).at(0).direct, "DCH");
-      (*host)->setPositions(made->positions);
-      const Vec3* const box = made->force->usesPeriodicBoundaryConditions() ? made->box : nullptr;
-      const Evaluation found = host->evaluate(1 << 0);
-      const Evaluation expected =
-          all_pairs(with_offsets_added(*made->force), made->positions, box, splittings_of(*host));
-      const std::string what = "method " + std::to_string(method) + ", seed " + std::to_string(seed);
-      EXPECT_LT(force_error(expected, found), tolerance()) << what;
-      expect_energy(expected, found, what);
-    }
-}
-
-TEST_P(DropInTest, InDoubleRandomSystemsEqualAllPairs) {
-  for (const auto method : {NonbondedForce::NoCutoff, NonbondedForce::CutoffNonPeriodic,
-                            NonbondedForce::CutoffPeriodic, NonbondedForce::PME, NonbondedForce::LJPME})
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      const std::unique_ptr<RandomSystem> made = random_system(method, seed);
-      enableDropIn(DropInPrecision::Double);
-      Host host(made->system, GetParam());
-      disableDropIn();
-      host->setPositions(made->positions);
-      const Vec3* const box = made->force->usesPeriodicBoundaryConditions() ? made->box : nullptr;
-      const Evaluation expected =
-          all_pairs(with_offsets_added(*made->force), made->positions, box, splittings_of(host));
-      const std::string what = "method " + std::to_string(method) + ", seed " + std::to_string(seed);
-      EXPECT_LT(force_error(expected, host.evaluate(1 << 0)), 1e-10) << what;
-      expect_near(expected.energy, host.evaluate(1 << 0).energy, 1e-9, what);
-      if (method != NonbondedForce::PME && method != NonbondedForce::LJPME) continue;
-      Host reference(made->system, "Reference");
-      reference->setPositions(made->positions);
-      EXPECT_LT(force_error(reference.evaluate(1 << 1), host.evaluate(1 << 1)), 1e-10) << what;
-    }
-}
 
 TEST_P(DropInTest, WhatIsNotCoveredIsOpenMMsAndNotSaidTwice) {
   const std::unique_ptr<RandomSystem> water = make_water(6);

@@ -54,6 +54,7 @@ inline double tolerance_of(const std::string& way) { return platform_of(way) == 
 struct Evaluation {
   double energy = 0;
   std::vector<Vec3> forces;
+  double size = 0;  ///< sum of the absolute energies of all terms, where an oracle has added them
 };
 
 /// A System of particles, with room for bonds and forces.
