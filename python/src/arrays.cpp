@@ -6,6 +6,8 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <dch/base/error.hpp>
 
@@ -61,6 +63,15 @@ double free_of_machine() {
   return std::numeric_limits<double>::infinity();
 }
 
+/// What is left of the addresses that the process may have.
+double free_of_process() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  const double used = number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(static_cast<double>(limit.rlim_cur) - used, 0.0);
+}
+
 }  // namespace
 
 Span<const Vec3> points_of(const Doubles& array) {
@@ -102,7 +113,7 @@ TypeCutoffs cutoffs_of(const Doubles& matrix) {
 }
 
 double available_memory() {
-  double free = free_of_machine();
+  double free = std::min(free_of_machine(), free_of_process());
   for (const auto& [limit, used] : {std::pair("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
                                     std::pair("/sys/fs/cgroup/memory/memory.limit_in_bytes",
                                               "/sys/fs/cgroup/memory/memory.usage_in_bytes")}) {
@@ -121,8 +132,13 @@ void check_memory(double things, double bytes_each, const char* what, const char
   std::ostringstream text;
   text << "about " << things << ' ' << what << " take " << bytes << " bytes, and " << free << " are free; "
        << remedy;
-  PyErr_SetString(PyExc_MemoryError, text.str().c_str());
-  throw py::error_already_set();
+  throw NotEnoughMemory(text.str());
+}
+
+bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair) {
+  constexpr std::size_t kFewParticles = 1000;
+  const auto n = static_cast<double>(particles);
+  return particles <= kFewParticles || bytes_per_pair * n * n <= 0.5 * available_memory();
 }
 
 double PairOutput::bytes_per_pair() const {
@@ -146,25 +162,25 @@ PairArrays::PairArrays(const PairOutput& output, std::int64_t pairs)
   for (std::size_t k = 0; k < output.quantities.size(); ++k) {
     switch (output.quantities[k]) {
       case 'i':
-        column<std::int64_t>(k, output, pairs, i_);
+        column<std::int64_t>(k, output, pairs, columns_.i);
         break;
       case 'j':
-        column<std::int64_t>(k, output, pairs, j_);
+        column<std::int64_t>(k, output, pairs, columns_.j);
         break;
       case 'd':
         if (output.is_single)
-          column<float>(k, output, pairs, single_distance_);
+          column<float>(k, output, pairs, columns_.single_distance);
         else
-          column<double>(k, output, pairs, distance_);
+          column<double>(k, output, pairs, columns_.distance);
         break;
       case 'D':
         if (output.is_single)
-          column<float>(k, output, pairs, single_displacement_);
+          column<float>(k, output, pairs, columns_.single_displacement);
         else
-          column<double>(k, output, pairs, displacement_);
+          column<double>(k, output, pairs, columns_.displacement);
         break;
       case 'S':
-        column<std::int64_t>(k, output, pairs, shift_);
+        column<std::int64_t>(k, output, pairs, columns_.shift);
         break;
       default:
         throw InvalidParameter(std::string("'") + output.quantities[k] + "' is none of i, j, d, D and S");
@@ -199,14 +215,6 @@ void PairArrays::column(std::size_t k, const PairOutput& output, std::int64_t pa
   arrays_[k] = std::move(array);
 }
 
-void PairArrays::move(std::int64_t from, std::int64_t count, std::int64_t to) {
-  const auto moved = [&](auto* elements) {
-    if (elements != nullptr) std::copy(elements + from, elements + from + count, elements + to);
-  };
-  moved(i_), moved(j_), moved(distance_), moved(displacement_), moved(shift_);
-  moved(single_distance_), moved(single_displacement_);
-}
-
 void PairArrays::shorten(std::int64_t pairs) {
   for (std::size_t k = 0; k < arrays_.size(); ++k) {
     auto array = arrays_[k].cast<py::array>();
@@ -218,40 +226,6 @@ void PairArrays::shorten(std::int64_t pairs) {
     shape[0] = pairs;
     array.resize(shape, false);  // nobody else has it
   }
-}
-
-py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const PairOutput& output,
-                     NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor) {
-  const std::size_t n = positions.size();
-  // Rows have places for all that is listed; a range of rows leaves no gap within.
-  std::vector<std::int64_t> place(n + 1, 0), end(n + 1, -1);
-  for (std::size_t i = 0; i < n; ++i)
-    place[i + 1] = place[i] + pairs.listed_in_row(static_cast<std::int32_t>(i)) +
-                   static_cast<int>(!has_self.empty() && has_self[i] != 0);
-  PairArrays arrays(output, place.back());
-  std::int64_t found = 0;
-  {
-    const py::gil_scoped_release release;
-    for_ranges(executor, static_cast<std::int32_t>(n), [&](std::int32_t from, std::int32_t to) {
-      std::int64_t at = place[static_cast<std::size_t>(from)];
-      for (std::int32_t i = from; i < to; ++i) {
-        if (!has_self.empty() && has_self[static_cast<std::size_t>(i)] != 0) arrays.put(at++, i, i, {}, {});
-        pairs.for_each_in_row(
-            i, positions,
-            [&](std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) { arrays.put(at++, i, j, s, d); },
-            within);
-      }
-      if (from < to) end[static_cast<std::size_t>(from)] = at;
-    });
-    for (std::size_t i = 0; i < n; ++i) {
-      if (end[i] < 0) continue;  // no range begins here
-      const std::int64_t count = end[i] - place[i];
-      if (found < place[i]) arrays.move(place[i], count, found);
-      found += count;
-    }
-  }
-  if (found < place.back()) arrays.shorten(found);
-  return arrays.tuple();
 }
 
 }  // namespace dch::python

@@ -8,13 +8,14 @@
 #include <optional>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <dch/base/span.hpp>
 #include <dch/base/vec3.hpp>
-#include <dch/engines/neighbor_pairs.hpp>
+#include <dch/engines/pair_columns.hpp>
 #include <dch/geometry/box.hpp>
 #include <dch/lists/exclusions.hpp>
 
@@ -52,12 +53,22 @@ py::array array_of(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
   return py::array_t<T>(std::move(shape), data, owner);
 }
 
-/// Bytes that may be taken before the machine swaps, or the container is full; a large number where nobody
-/// says.
+/// Bytes that may be taken before the machine swaps, the container is full, or the process is at its limit
+/// (ulimit -v); a large number where nobody says.
 double available_memory();
 
-/// @throws py::error_already_set, a MemoryError, if things take more than that; needs the interpreter's lock.
+/// A MemoryError of Python, before memory is taken.
+class NotEnoughMemory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws NotEnoughMemory if things take more than there is.
 void check_memory(double things, double bytes_each, const char* what, const char* remedy);
+
+/// Whether all pairs of so many particles take less than half of what is free: nobody needs to know then how
+/// many are near.
+bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair);
 
 /// Which arrays of pairs are asked for.
 struct PairOutput {
@@ -69,26 +80,14 @@ struct PairOutput {
   double bytes_per_pair() const;
 };
 
-/// Arrays of some of i, j, d, D and S, filled pair by pair.
+/// Arrays of some of i, j, d, D and S.
 class PairArrays {
  public:
-  /// @throws py::error_already_set, a MemoryError, if the machine has not that much memory; InvalidParameter
-  /// for
-  ///   given arrays of another type or with fewer rows than pairs.
+  /// @throws NotEnoughMemory if the machine has not that much memory; InvalidParameter for given arrays of
+  ///   another type or with fewer rows than pairs.
   PairArrays(const PairOutput& output, std::int64_t pairs);
 
-  void put(std::int64_t at, std::int32_t i, std::int32_t j, const NeighborPairs::Shift& s, Vec3 d) const {
-    if (i_ != nullptr) i_[at] = i;
-    if (j_ != nullptr) j_[at] = j;
-    if (distance_ != nullptr) distance_[at] = std::sqrt(norm2(d));
-    if (displacement_ != nullptr) displacement_[at] = d;
-    if (single_distance_ != nullptr) single_distance_[at] = static_cast<float>(std::sqrt(norm2(d)));
-    if (single_displacement_ != nullptr)
-      single_displacement_[at] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
-    if (shift_ != nullptr) shift_[at] = {s[0], s[1], s[2]};
-  }
-  /// Moves pairs to an earlier place.
-  void move(std::int64_t from, std::int64_t count, std::int64_t to);
+  const PairColumns& columns() const { return columns_; }
   /// Leaves out those behind. Of given arrays the beginnings stay, as views.
   void shorten(std::int64_t pairs);
   /// One for each letter.
@@ -100,17 +99,7 @@ class PairArrays {
 
   py::tuple arrays_;
   bool are_given_ = false;
-  std::int64_t *i_ = nullptr, *j_ = nullptr;
-  double* distance_ = nullptr;
-  Vec3* displacement_ = nullptr;
-  float* single_distance_ = nullptr;
-  std::array<float, 3>* single_displacement_ = nullptr;
-  std::array<std::int64_t, 3>* shift_ = nullptr;
+  PairColumns columns_;
 };
-
-/// The pairs of a NeighborPairs that are within their cutoff, or all that are listed, row after row.
-/// @param has_self by particle, whether it is paired with itself, with S = 0; empty if none is
-py::tuple fill_pairs(const NeighborPairs& pairs, Span<const Vec3> positions, const PairOutput& output,
-                     NeighborPairs::Within within, const std::vector<char>& has_self, Executor* executor);
 
 }  // namespace dch::python

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <dch/base/error.hpp>
+#include <dch/engines/neighbor_pairs.hpp>
 #include <dch/necklace/chains.hpp>
 #include <dch/necklace/contact_finder.hpp>
 #include <dch/necklace/contact_map.hpp>
@@ -65,11 +66,23 @@ py::tuple arrays_of(const std::vector<Contact>& contacts) {
                         }));
 }
 
+/// Bytes that a bead takes in the structures, and a contact while it is found and in the arrays.
+constexpr double kBeadBytes = 600, kContactBytes = 2 * sizeof(Contact) + 24;
+
+/// Radii by place, and half the gap with them, for which pairs of beads are near as far as contacts are.
+std::vector<double> reaches_of(const Necklace& necklace, double gap) {
+  std::vector<double> out;
+  out.reserve(necklace.size());
+  for (const std::int32_t bead : necklace.particle())
+    out.push_back(std::max(necklace.radius(bead) + 0.5 * gap, kMinListRadius));
+  return out;
+}
+
 /// The finder, and what it holds from frame to frame.
 class Contacts {
  public:
   Contacts(const Chains& chains, const Doubles& radii, ContactQuery query, int threads)
-      : threads_(threads), query_(query), finder_(necklace_of(chains, radii), params()) {}
+      : threads_(threads), query_(query), finder_(checked(necklace_of(chains, radii)), params()) {}
 
   py::tuple find(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
     const InUse in_use(used_, "ContactFinder");
@@ -79,6 +92,7 @@ class Contacts {
     {
       const py::gil_scoped_release release;
       finder_.update(points, box);
+      check_contacts(points, box);
       found = finder_.find_contacts(query_);
     }
     return arrays_of(found);
@@ -91,6 +105,30 @@ class Contacts {
   }
 
  private:
+  static Necklace checked(Necklace necklace) {
+    check_memory(static_cast<double>(necklace.size()), kBeadBytes, "beads", "take fewer chains");
+    return necklace;
+  }
+
+  /// Before they are found. What is too far for the box the finder refuses.
+  void check_contacts(Span<const Vec3> points, const Box& box) const {
+    const Necklace& necklace = finder_.necklace();
+    const double largest = 2 * necklace.largest_radius() + query_.gap;
+    if (largest < 0 || largest > std::min(kMaxListRadius, box.max_cutoff()) ||
+        fits_if_all_are_near(necklace.size(), 0.5 * kContactBytes))
+      return;
+    const std::vector<double> reaches = reaches_of(necklace, query_.gap);
+    NeighborPairsParams near;
+    near.kind = ListKind::half;
+    near.radii = reaches;
+    std::vector<Vec3> places;
+    places.reserve(necklace.size());
+    for (const std::int32_t bead : necklace.particle())
+      places.push_back(points[static_cast<std::size_t>(bead)]);
+    check_memory(expected_pairs(places, box, near), kContactBytes, "contacts",
+                 "take a smaller gap, or smaller radii");
+  }
+
   necklace::ContactFinderParams params() {
     necklace::ContactFinderParams params;
     params.executor = &threads_;
@@ -119,10 +157,11 @@ py::array square_of(std::size_t bins, const Entry& entry) {
 class Map {
  public:
   Map(const Chains& chains, ContactQuery query, std::int32_t max_bins)
-      : necklace_(chains, 0), map_(necklace_, query, max_bins) {}
+      : necklace_(chains, 0), map_(checked(necklace_, max_bins), query, max_bins) {}
 
   void add(const Ints& i, const Ints& j) {
     const InUse in_use(used_, "ContactMap");
+    check_memory(static_cast<double>(i.size()), sizeof(Contact), "contacts", "take a smaller gap");
     std::vector<Contact> contacts(static_cast<std::size_t>(i.size()));
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       contacts[k].i = i.data()[k];
@@ -148,6 +187,12 @@ class Map {
   }
 
  private:
+  static const Necklace& checked(const Necklace& necklace, std::int32_t max_bins) {
+    const double bins = std::min(static_cast<double>(max_bins), static_cast<double>(necklace.size()));
+    check_memory(0.5 * bins * (bins + 1), sizeof(std::int64_t), "entries", "take fewer bins");
+    return necklace;
+  }
+
   Necklace necklace_;
   ContactMap map_;
   std::atomic<bool> used_{false};

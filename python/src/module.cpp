@@ -5,6 +5,7 @@
 #include <dch/engines/neighbor_pairs.hpp>
 #include <dch/version.hpp>
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 
 namespace {
@@ -36,6 +37,8 @@ void add_errors(py::module_& m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const dch::TooManyPairs& error) {
+      PyErr_SetString(PyExc_MemoryError, error.what());
+    } catch (const dch::python::NotEnoughMemory& error) {
       PyErr_SetString(PyExc_MemoryError, error.what());
     }
   });

@@ -5,6 +5,7 @@
 
 #include <dch/base/error.hpp>
 #include <dch/engines/neighbor_pairs.hpp>
+#include <dch/engines/pair_columns.hpp>
 #include <dch/lists/stale_test.hpp>
 
 #include "arrays.hpp"
@@ -20,18 +21,39 @@ constexpr double kListBytes = 24;
 /// So many pairs no machine minds, so that its memory is not asked for.
 constexpr std::int64_t kFewPairs = 1000000;
 
-NeighborPairs find(Span<const Vec3> positions, const Box& box, NeighborPairsParams params,
-                   double bytes_per_pair) {
+/// Calls find(params) for no more pairs than there is memory for.
+template <class Find>
+void find_in_memory(NeighborPairsParams params, std::size_t particles, double bytes_per_pair,
+                    const Find& find) {
   constexpr std::size_t kFewParticles = 1000;
-  if (positions.size() <= kFewParticles) {
+  if (particles <= kFewParticles) {
     params.max_pairs = kFewPairs;
     try {
-      return neighbor_pairs(positions, box, params);
+      return find(params);
     } catch (const TooManyPairs&) {  // for the memory that every machine has
     }
   }
   params.max_pairs = static_cast<std::int64_t>(available_memory() / (kListBytes + bytes_per_pair));
-  return neighbor_pairs(positions, box, params);
+  find(params);
+}
+
+/// Has `fill` fill new arrays: fill(columns) calls columns(pairs), and returns the number of pairs. The lock
+/// of the interpreter is given up meanwhile.
+template <class Fill>
+py::tuple filled(const PairOutput& output, const Fill& fill) {
+  std::optional<PairArrays> arrays;
+  std::int64_t found = 0, room = 0;
+  {
+    const py::gil_scoped_release release;
+    found = fill([&](std::int64_t pairs) {
+      const py::gil_scoped_acquire lock;
+      arrays.emplace(output, pairs);
+      room = pairs;
+      return arrays->columns();
+    });
+  }
+  if (found < room) arrays->shorten(found);
+  return arrays->tuple();
 }
 
 py::tuple find_pairs(const std::string& quantities, const Doubles& positions, const Doubles& cell,
@@ -43,14 +65,15 @@ py::tuple find_pairs(const std::string& quantities, const Doubles& positions, co
   Threads pool(threads);
   NeighborPairsParams params = request.pairs_of(points.size(), 0);
   params.executor = pool.executor();
-  NeighborPairs pairs;
-  {
-    const py::gil_scoped_release release;
-    pairs = find(points, box, params, output.bytes_per_pair());
-  }
-  return fill_pairs(pairs, points, output, NeighborPairs::Within::cutoff_and_skin,
-                    self_interaction ? request.with_themselves(points.size()) : std::vector<char>(),
-                    params.executor);
+  const std::vector<char> with_themselves =
+      self_interaction ? request.with_themselves(points.size()) : std::vector<char>();
+  return filled(output, [&](const MakeColumns& columns) {
+    std::int64_t found = 0;
+    find_in_memory(params, points.size(), output.bytes_per_pair(), [&](const NeighborPairsParams& limited) {
+      found = neighbor_columns(points, box, limited, with_themselves, columns);
+    });
+    return found;
+  });
 }
 
 /// Pairs found with a skin, which are followed until some might be missing.
@@ -70,7 +93,9 @@ class VerletPairs {
     positions_.clear();  // until all has succeeded
     if (is_new) {
       stale_test_.forget();
-      pairs_ = find(points, box, params, 0);
+      find_in_memory(params, points.size(), 0, [&](const NeighborPairsParams& limited) {
+        neighbor_pairs(points, box, limited, pairs_);
+      });
       const double cutoff =
           params.radii.empty() ? params.cutoffs.largest() : 2 * RadiusRange(params.radii).largest;
       stale_test_.remember(points, box, cutoff + skin_);
@@ -89,10 +114,14 @@ class VerletPairs {
     if (positions_.size() != pairs_.particles() || rebuilds_ == 0)
       throw InvalidParameter(
           "this VerletList has no positions yet, or the last update failed; call update()");
-    return fill_pairs(pairs_, positions_, {quantities, single, std::move(out)},
-                      with_skin ? NeighborPairs::Within::cutoff_and_skin : NeighborPairs::Within::cutoff,
-                      self_interaction ? request_.with_themselves(positions_.size()) : std::vector<char>(),
-                      threads_.executor());
+    const std::vector<char> with_themselves =
+        self_interaction ? request_.with_themselves(positions_.size()) : std::vector<char>();
+    const PairOutput output{quantities, single, std::move(out)};
+    return filled(output, [&](const MakeColumns& columns) {
+      return columns_of(pairs_, positions_,
+                        with_skin ? NeighborPairs::Within::cutoff_and_skin : NeighborPairs::Within::cutoff,
+                        with_themselves, threads_.executor(), columns);
+    });
   }
 
   std::string text() const {

@@ -63,7 +63,8 @@ class Search {
     request_.pairs_of(points.size(), 0);  // throws if it does not fit
     search_->update(points, box);
     sampled_.clear();
-    if (!fits_if_all_are_near(points.size(), true)) sampled_.assign(points.begin(), points.end());
+    if (!fits_if_all_are_near(points.size(), bytes_per_pair(true)))
+      sampled_.assign(points.begin(), points.end());
     box_ = box;
     particles_ = static_cast<std::int64_t>(points.size());
   }
@@ -76,20 +77,15 @@ class Search {
  private:
   static constexpr double kRowBytes = 12;  // of indices, and what rows are made of
 
-  /// Whether a list of all pairs takes less than half of what is free: nobody needs to know then how many are
-  /// near.
-  static bool fits_if_all_are_near(std::size_t particles, bool full) {
-    constexpr std::size_t kFewParticles = 1000;
-    const auto n = static_cast<double>(particles);
-    return particles <= kFewParticles || kRowBytes * (full ? 1 : 0.5) * n * n <= 0.5 * available_memory();
-  }
+  static double bytes_per_pair(bool full) { return full ? kRowBytes : 0.5 * kRowBytes; }
 
-  /// @throws py::error_already_set, a MemoryError, if there is not enough for a list.
+  /// @throws NotEnoughMemory if there is not enough for a list.
   void check_list(bool full) {
     const auto n = static_cast<std::size_t>(particles_);
-    if (sampled_.empty() || fits_if_all_are_near(n, full)) return;
-    const double pairs = expected_pairs(sampled_, box_, request_.pairs_of(n, 0));
-    check_memory(full ? pairs : 0.5 * pairs, kRowBytes, "pairs", "take a smaller cutoff");
+    if (sampled_.empty() || fits_if_all_are_near(n, bytes_per_pair(full))) return;
+    NeighborPairsParams params = request_.pairs_of(n, 0);
+    params.kind = kind_of(full);
+    check_memory(expected_pairs(sampled_, box_, params), kRowBytes, "pairs", "take a smaller cutoff");
   }
 
   NeighborList list(bool full, RowOrder order) {

@@ -1,56 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include <dch/base/error.hpp>
 #include <dch/engines/neighbor_pairs.hpp>
-#include <dch/engines/pair_search.hpp>
 
-#include "engines/cell_images.hpp"
-#include "engines/ghost_points.hpp"
+#include "engines/pair_finder.hpp"
 #include "geometry/lattice.hpp"
 #include "geometry/position_check.hpp"
-#include "lists/list_check.hpp"
 
 namespace dch {
 namespace {
 
 using detail::CellImages;
 using detail::GhostPoints;
-using detail::HomeImages;
-using detail::pair_reach;
-
-/// Where the cutoff is nearer to half a height than this, two images may be in reach by rounding.
-constexpr double kOneImage = 1 - 1e-9;
-/// A grid alone makes lists of 64 points in half the time that the choice of an engine takes.
-constexpr std::size_t kFewPoints = 1000;
-/// Rows by which the number of pairs is estimated, and about how many points are looked at for each.
-constexpr std::size_t kSampledRows = 8, kSampledPoints = 8192;
-
-/// Decides near the cutoff from positions as given.
-class ByDefinition : public TieBreaker {
- public:
-  explicit ByDefinition(const GhostPoints& points) : TieBreaker(points.error()), points_(points) {}
-  bool accepts(std::int32_t i, std::int32_t j) const override { return points_.is_pair(i, j); }
-
- private:
-  const GhostPoints& points_;
-};
-
-ListParams request_of(const NeighborPairsParams& params) {
-  ListParams request;
-  request.cutoffs = params.cutoffs;
-  request.skin = params.skin;
-  request.radii = params.radii;
-  request.types = params.types;
-  request.kind = params.kind;
-  request.exclusions = params.exclusions;
-  return request;
-}
+using detail::PairFinder;
 
 /// Images of the cell around it. In reduced coordinates, wrapped particles within half the smallest height
 /// are in the same or the next one.
@@ -63,49 +28,17 @@ CellImages next_images(const Box& box) {
   return {box, low, high};
 }
 
-bool is_direct(std::size_t particles, double radius, const Box& box) {
-  return particles == 0 || radius <= kOneImage * box.max_cutoff();
-}
-
-/// About how many pairs there are of n particles and points, of which the first n are those at home.
-template <class ParticleOf>
-double expected_number(const NeighborPairsParams& params, std::size_t n, Span<const Vec3> points,
-                       const Box& box, const ParticleOf& particle_of) {
-  if (n == 0) return 0;
-  const std::size_t rows = std::min(n, kSampledRows), stride = 1 + points.size() / kSampledPoints;
-  double found = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::size_t i = n * row / rows;
-    std::int64_t asked = 0, near = 0;
-    for (std::size_t point = 0; point < points.size(); point += stride) {
-      if (point == i) continue;
-      const double reach = pair_reach(params, i, static_cast<std::size_t>(particle_of(point)));
-      near += static_cast<int>(box.distance2(points[i], points[point]) <= reach * reach);
-      ++asked;
-    }
-    if (asked > 0)
-      found +=
-          static_cast<double>(near) * static_cast<double>(points.size() - 1) / static_cast<double>(asked);
-  }
-  const double share = params.kind == ListKind::half ? 0.5 : 1;
-  return share * found * static_cast<double>(n) / static_cast<double>(rows);
-}
-
 }  // namespace
 
 /// Fills a NeighborPairs.
 class NeighborPairsMaker {
  public:
-  NeighborPairsMaker(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params)
-      : given_(positions), box_(box), params_(params), request_(request_of(params)) {
-    detail::check_list_params(request_, positions.size(), request_.list_radius());
-    const double reach = detail::check_positions(positions, box);
-    radius_ = request_.list_radius();
-    home_.emplace(positions, box);
-    if (!is_direct(positions.size(), radius_, box))
-      ghosts_.emplace(positions, box, *home_, params, radius_, reach);
-    check_expected();
-  }
+  explicit NeighborPairsMaker(PairFinder& finder)
+      : finder_(finder),
+        given_(finder.given()),
+        box_(finder.box()),
+        params_(finder.params()),
+        ghosts_(finder.ghosts()) {}
 
   NeighborPairs make() {
     NeighborPairs out;
@@ -118,59 +51,18 @@ class NeighborPairsMaker {
     for (int axis = 0; axis < 3; ++axis)
       if (box_.periodic(axis)) out.cell_[static_cast<std::size_t>(axis)] = box_.vector(axis);
     if (!given_.empty()) take_pairs(out);
-    out.home_ = std::move(home_->shifts);
-    if (out.has_skin_) out.home_positions_ = std::move(home_->positions);
+    detail::HomeImages home = finder_.take_home();
+    out.home_ = std::move(home.shifts);
+    if (out.has_skin_) out.home_positions_ = std::move(home.positions);
     return out;
   }
 
-  double expected() const {
-    return expected_number(params_, given_.size(), points(), ghosts_ ? Box::none() : box_,
-                           [&](std::size_t k) { return particle_of(static_cast<std::int32_t>(k)); });
-  }
-
  private:
-  const std::vector<Vec3>& points() const { return ghosts_ ? ghosts_->positions() : home_->positions; }
-  std::int32_t particle_of(std::int32_t point) const { return ghosts_ ? ghosts_->particle_of(point) : point; }
-
-  /// Where there might be too many.
-  void check_expected() const {
-    const auto most = static_cast<double>(params_.max_pairs);
-    if (static_cast<double>(given_.size()) * static_cast<double>(points().size()) <= most) return;
-    if (const double pairs = expected(); pairs > most)
-      detail::refuse_pairs(pairs, "pairs", params_.max_pairs);
-  }
-
-  /// Few points are listed before the other engine has chosen.
-  std::unique_ptr<PairSearch> engine(double radius) const {
-    if (points().size() <= kFewPoints) return make_grid_search(radius, params_.executor);
-    HierarchyParams by;
-    by.radius = radius;
-    by.executor = params_.executor;
-    by.size_classes = !params_.radii.empty() || !params_.types.empty();
-    return make_auto_search(by);
-  }
-
-  NeighborList find() const {
-    ListParams request = request_;
-    std::optional<ByDefinition> by_definition;
-    if (ghosts_) {
-      by_definition.emplace(*ghosts_);
-      request.tie_breaker = &*by_definition;
-      request.exclusions = nullptr;  // is_wanted() knows of which particle a point is
-      ghosts_->ask(request);
-    }
-    if (request.kind == ListKind::full) request.order = RowOrder::unsorted;
-    const std::unique_ptr<PairSearch> search = engine(radius_ + request.cutoff_error());
-    if (ghosts_)
-      search->update(ghosts_->positions(), Box::none());
-    else
-      search->update(given_, box_);
-    return search->list(request);
-  }
-
   void take_pairs(NeighborPairs& out) const {
-    const NeighborList list = find();
-    if (ghosts_) {
+    const bool is_full = ghosts_ != nullptr || params_.kind == ListKind::full;
+    const NeighborList list = finder_.find(is_full ? ListKind::full : ListKind::half,
+                                           is_full ? RowOrder::unsorted : RowOrder::by_index);
+    if (ghosts_ != nullptr) {
       out.images_ = ghosts_->images().shifts();
       count_rows(list, out);
       fill_rows(list, out, [&](std::int32_t, std::int32_t j) { return ghosts_->image_of(j); });
@@ -185,8 +77,8 @@ class NeighborPairsMaker {
 
   std::size_t nearest_image(const CellImages& images, std::size_t home_image, std::int32_t i,
                             std::int32_t j) const {
-    const Vec3 d =
-        home_->positions[static_cast<std::size_t>(j)] - home_->positions[static_cast<std::size_t>(i)];
+    const std::vector<Vec3>& home = finder_.home().positions;
+    const Vec3 d = home[static_cast<std::size_t>(j)] - home[static_cast<std::size_t>(i)];
     const Vec3 nearest = box_.nearest_image(d);
     if (nearest == d) return home_image;
     CellImages::Multiples n{};
@@ -203,7 +95,7 @@ class NeighborPairsMaker {
 
   /// Half lists are made of full ones where there are ghosts, which exclusions do not name.
   bool is_wanted(std::int32_t i, std::int32_t point, const std::vector<NeighborPairs::Shift>& images) const {
-    if (!ghosts_) return true;
+    if (ghosts_ == nullptr) return true;
     const std::int32_t j = ghosts_->particle_of(point);
     if (params_.exclusions != nullptr && params_.exclusions->excluded(i, j)) return false;
     if (params_.kind == ListKind::full) return true;
@@ -235,21 +127,21 @@ class NeighborPairsMaker {
         auto at = static_cast<std::size_t>(out.first_[static_cast<std::size_t>(i)]);
         for (const std::int32_t point : list.row(k)) {
           if (!is_wanted(i, point, out.images_)) continue;
-          out.j_[at] = particle_of(point);
+          out.j_[at] = ghosts_ != nullptr ? ghosts_->particle_of(point) : point;
           out.image_[at++] = static_cast<std::uint32_t>(image_of(i, point));
         }
       }
     });
   }
 
+  PairFinder& finder_;
   Span<const Vec3> given_;
   const Box& box_;
   const NeighborPairsParams& params_;
-  ListParams request_;
-  double radius_ = 0;
-  std::optional<HomeImages> home_;
-  std::optional<GhostPoints> ghosts_;  ///< where several images of a particle may be in reach
+  const GhostPoints* ghosts_;
 };
+
+NeighborPairs detail::pairs_of(PairFinder& finder) { return NeighborPairsMaker(finder).make(); }
 
 void NeighborPairs::follow(Span<const Vec3> positions, const Box& box) {
   if (positions.size() != home_.size())
@@ -273,7 +165,8 @@ void NeighborPairs::follow(Span<const Vec3> positions, const Box& box) {
 
 void neighbor_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params,
                     NeighborPairs& out) {
-  out = NeighborPairsMaker(positions, box, params).make();
+  PairFinder finder(positions, box, params);
+  out = detail::pairs_of(finder);
 }
 
 NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params) {
@@ -283,12 +176,7 @@ NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, const N
 }
 
 double expected_pairs(Span<const Vec3> positions, const Box& box, const NeighborPairsParams& params) {
-  const ListParams request = request_of(params);
-  detail::check_list_params(request, positions.size(), request.list_radius());
-  if (!is_direct(positions.size(), request.list_radius(), box))
-    return NeighborPairsMaker(positions, box, params).expected();
-  detail::check_positions(positions, box);
-  return expected_number(params, positions.size(), positions, box, [](std::size_t k) { return k; });
+  return detail::expected_pairs_of(positions, box, params);
 }
 
 NeighborPairs neighbor_pairs(Span<const Vec3> positions, const Box& box, double cutoff) {
