@@ -33,7 +33,7 @@ void LennardJones::run(const ClusterPairs& pairs, Span<const double> charges, co
     numbers.half_sigma = {half_sigma_.data(), half_sigma_.size()};
     numbers.root_epsilon = {root_epsilon_.data(), root_epsilon_.size()};
   }
-  const detail::ClusterKernel<Real> kernel{functions.choose(kind(), parameters(), sums != nullptr),
+  const detail::ClusterKernel<Real> kernel{functions.choose(kind(), parameters(), detail::wanted(sums)),
                                            functions.wants_lanes, types_, detail::pointers_to(tables),
                                            constants<Real>()};
   detail::ClusterRun<Real>(pairs, kernel, numbers, executor_, unresolved_, scratch).add(forces, sums);

@@ -107,6 +107,28 @@ void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, std::vector<Cl
   }
 }
 
+/// Gives particles half of what their clusters' slots have tallied, in the same way.
+inline void hand_out(const ClusterPairs& pairs, ClusterPairs::Range own, double unit,
+                     std::vector<ClusterTallies>& found, std::vector<ClusterTallies>& earlier,
+                     Span<LennardJonesSums> halves) {
+  for (auto c = static_cast<std::size_t>(own.first); c < static_cast<std::size_t>(own.last); ++c) {
+    ClusterTallies sum = found[c];
+    found[c] = {};
+    if (pairs.has_earlier_contributions[static_cast<std::size_t>(pairs.origin_of[c])] != 0) {
+      add(earlier[c], sum);
+      earlier[c] = {};
+    }
+    for (std::size_t slot = 0; slot < ClusterPairs::kSlots; ++slot) {
+      const std::int32_t i = pairs.particle[c * ClusterPairs::kSlots + slot];
+      if (i < 0) continue;
+      LennardJonesSums& to = halves[static_cast<std::size_t>(i)];
+      to.energy += 0.5 * sum.number[0][slot];
+      to.coulomb_energy += 0.5 * sum.number[kTallyOfCharges][slot];
+      for (std::size_t k = 0; k < 6; ++k) to.virial[k] += 0.5 * unit * sum.number[kTallyOfVirial + k][slot];
+    }
+  }
+}
+
 /// Numbers of particles that a kernel wants by slot; none if there are none.
 struct SlotNumbers {
   Span<const double> charges, dispersion, half_sigma, root_epsilon;
@@ -140,13 +162,14 @@ class ClusterRun {
         unresolved_(unresolved),
         scratch_(scratch) {}
 
-  /// Adds forces, and sums if there is room for them.
-  void add(Span<Vec3> forces, LennardJonesSums* sums) {
-    make_room();
-    run_parts(executor_, workers_, [&](int worker) { prepare(worker); });
+  /// Adds forces, and sums and tallies if there is room for them.
+  void add(Span<Vec3> forces, LennardJonesSums* sums, Span<LennardJonesSums> halves = {}) {
+    make_room(!halves.empty());
+    run_parts(executor_, workers_, [&](int worker) { prepare(worker, !halves.empty()); });
     Turns turns(tasks_);
     run_parts(executor_, workers_, [&](int worker) {
-      for (int task = turns.take(); task >= 0; task = turns.take()) run(worker, task, turns, forces, sums);
+      for (int task = turns.take(); task >= 0; task = turns.take())
+        run(worker, task, turns, forces, sums, halves);
     });
     unresolved_.sort();
   }
@@ -155,19 +178,24 @@ class ClusterRun {
   std::size_t clusters() const { return static_cast<std::size_t>(pairs_.clusters()); }
 
   /// But for what a worker makes room for itself.
-  void make_room() {
+  void make_room(bool tallies) {
     scratch_.force.resize(static_cast<std::size_t>(workers_));
     scratch_.lanes.resize(static_cast<std::size_t>(workers_));
     scratch_.earlier.resize(clusters());
+    if (tallies) {
+      scratch_.tallies.resize(static_cast<std::size_t>(workers_));
+      scratch_.earlier_tallies.resize(clusters());
+    }
     for (const auto& [numbers, slots] : by_slot())
       if (!numbers.empty()) slots->resize(clusters());
     for (const auto& [numbers, slots] : by_type())
       if (!numbers.empty()) slots->resize(clusters());
   }
 
-  void prepare(int worker) {
+  void prepare(int worker, bool tallies) {
     const ClusterPairs::Range own = share(pairs_.clusters(), worker, workers_);
     scratch_.force[static_cast<std::size_t>(worker)].resize(clusters());
+    if (tallies) scratch_.tallies[static_cast<std::size_t>(worker)].resize(clusters());
     if (kernel_.wants_lanes) scratch_.lanes[static_cast<std::size_t>(worker)].resize(clusters());
     const double units[] = {numbers_.charge_unit, numbers_.dispersion_unit, 1, 1};
     const double* unit = units;
@@ -202,7 +230,9 @@ class ClusterRun {
 
   static const Real* first_of(const Slots& slots) { return slots.empty() ? nullptr : slots.data()->slot; }
 
-  void run(int worker, int task, Turns& turns, Span<Vec3> forces, LennardJonesSums* sums) {
+  void run(int worker, int task, Turns& turns, Span<Vec3> forces, LennardJonesSums* sums,
+           Span<LennardJonesSums> halves) {
+    auto* const tallies = halves.empty() ? nullptr : &scratch_.tallies[static_cast<std::size_t>(worker)];
     auto& force = scratch_.force[static_cast<std::size_t>(worker)];
     auto& lanes = scratch_.lanes[static_cast<std::size_t>(worker)];
     const ClusterPairs::Task& own = pairs_.tasks[static_cast<std::size_t>(task)];
@@ -229,14 +259,19 @@ class ClusterRun {
                                    force.data(),
                                    kernel_.wants_lanes ? lanes.data()->numbers : nullptr,
                                    {own.first_cluster, next.first_cluster},
-                                   ranges};
+                                   ranges,
+                                   tallies ? tallies->data()->number[0] : nullptr};
     LjSums found;
     kernel_.function(kernel_task, found);
     turns.in_turn(task, [&] {
       add_for_later(ranges, force, scratch_.earlier);
+      if (tallies) add_for_later(ranges, *tallies, scratch_.earlier_tallies);
       if (sums) give(found, *sums);
     });
     hand_out(pairs_, {own.first_cluster, next.first_cluster}, force, scratch_.earlier, unresolved_, forces);
+    if (tallies)
+      hand_out(pairs_, {own.first_cluster, next.first_cluster}, Of::unit(pairs_), *tallies,
+               scratch_.earlier_tallies, halves);
   }
 
   const ClusterPairs& pairs_;

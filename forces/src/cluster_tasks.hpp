@@ -10,6 +10,7 @@
 #include <dch/base/executor.hpp>
 #include <dch/base/span.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
+#include <dch/forces/cluster_scratch.hpp>
 
 namespace dch::detail {
 
@@ -27,10 +28,16 @@ void add(const ClusterOfFour<Real>& force, ClusterOfFour<Real>& to) {
   }
 }
 
+inline void add(const ClusterTallies& found, ClusterTallies& to) {
+  for (int n = 0; n < 8; ++n)
+    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) to.number[n][slot] += found.number[n][slot];
+}
+
 /// Adds what a task has found for clusters of later tasks to what earlier ones have.
-template <class Real>
-void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<ClusterOfFour<Real>>& found,
-                   std::vector<ClusterOfFour<Real>>& later) {
+/// @tparam OfCluster  forces or tallies
+template <class OfCluster>
+void add_for_later(Span<const ClusterPairs::Range> ranges, std::vector<OfCluster>& found,
+                   std::vector<OfCluster>& later) {
   for (const ClusterPairs::Range& range : ranges) {
     for (auto c = static_cast<std::size_t>(range.first); c < static_cast<std::size_t>(range.last); ++c) {
       add(found[c], later[c]);

@@ -25,6 +25,20 @@ inline bool fits_in_single(double v) {
   return v == 0 || (std::abs(v) >= double{Limits::min()} && std::abs(v) <= double{Limits::max()});
 }
 
+/// What a kernel has to find.
+/// @param sums  null if nobody asks for them
+inline Wanted wanted(const LennardJonesSums* sums) { return sums ? Wanted::sums : Wanted::forces; }
+inline Wanted wanted(const LennardJonesSums* sums, Span<const LennardJonesSums> halves) {
+  return halves.empty() ? wanted(sums) : Wanted::tallies;
+}
+
+/// Tallies by particle as the kernels of pairs one by one have them; null without.
+inline double* numbers_of(Span<LennardJonesSums> halves) {
+  static_assert(sizeof(LennardJonesSums) == kTallied * sizeof(double) &&
+                offsetof(LennardJonesSums, virial) == kTallyOfVirial * sizeof(double));
+  return halves.empty() ? nullptr : &halves.data()->energy;
+}
+
 inline void give(const LjSums& found, LennardJonesSums& sums) {
   sums.energy += found.energy;
   sums.coulomb_energy += found.coulomb_energy;

@@ -16,7 +16,7 @@ void LennardJones::add(const PairList& pairs, Span<const Vec3> positions, const 
   check(pairs, forces.size(), charges.size());
   detail::PairListRun run(pairs, positions, now);
   const auto function =
-      detail::force_kernels(instruction_set()).pairs.choose(kind(), parameters(), sums != nullptr);
+      detail::force_kernels(instruction_set()).pairs.choose(kind(), parameters(), detail::wanted(sums));
   if (!function)
     throw InvalidParameter(
         "a pair list was given for a potential with a switch, a reaction field, a series or parameters of "

@@ -26,9 +26,16 @@ const auto& functions_of(const detail::FormKernels::OfStyle& style) {
 }
 
 detail::LjFunctions<detail::LjPairTask>::Function choose(
-    const detail::LjFunctions<detail::LjPairTask>::OfKind& of, int types, bool sums) {
-  const auto one = of.of_parameters[0][sums ? 1 : 0];
-  return types == 1 && one ? one : of.of_parameters[1][sums ? 1 : 0];
+    const detail::LjFunctions<detail::LjPairTask>::OfKind& of, int types, detail::Wanted wanted) {
+  const auto k = static_cast<std::size_t>(wanted);
+  const auto one = of.of_parameters[0][k];
+  return types == 1 && one ? one : of.of_parameters[1][k];
+}
+
+void check_tallies(std::size_t particles, std::size_t room) {
+  if (room != particles)
+    throw InvalidParameter("room for " + std::to_string(room) + " tallies given for " +
+                           std::to_string(particles) + " particles; give one each");
 }
 
 }  // namespace
@@ -54,13 +61,13 @@ void PairPotential::check(const Pairs& pairs, std::size_t forces, std::size_t ch
 template <class Real>
 void PairPotential::run(const ClusterPairs& pairs, const Tables<Real>& tables,
                         detail::ClusterScratch<Real>& scratch, Span<Vec3> forces, Span<const double> charges,
-                        LennardJonesSums* sums) const {
+                        LennardJonesSums* sums, Span<LennardJonesSums> halves) const {
   const auto& kernels = detail::form_kernels(instruction_set());
   const auto& of = functions_of<Real>(detail::style_of(params_));
-  const std::size_t with = sums ? 1 : 0;
+  const auto with = static_cast<std::size_t>(detail::wanted(sums, halves));
   auto function = of.of_parameters[1][with];
   if (params_.types == 1 && of.of_parameters[0][with]) function = of.of_parameters[0][with];
-  if (!half_sigma_.empty()) function = of.of_parameters[2][with];
+  if (!half_sigma_.empty() && of.of_parameters[2][with]) function = of.of_parameters[2][with];
   detail::SlotNumbers numbers;
   numbers.charges = charges;
   numbers.charge_unit = charge_unit_;
@@ -70,11 +77,11 @@ void PairPotential::run(const ClusterPairs& pairs, const Tables<Real>& tables,
       sizeof(Real) == sizeof(float) ? kernels.mixed_wants_lanes : kernels.full_wants_lanes;
   const detail::ClusterKernel<Real> kernel{function, wants_lanes, params_.types, detail::pointers_to(tables),
                                            constants<Real>()};
-  detail::ClusterRun<Real>(pairs, kernel, numbers, executor_, nullptr, scratch).add(forces, sums);
+  detail::ClusterRun<Real>(pairs, kernel, numbers, executor_, nullptr, scratch).add(forces, sums, halves);
 }
 
 void PairPotential::add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
-                        Span<const double> charges, LennardJonesSums* sums) {
+                        Span<const double> charges, LennardJonesSums* sums, Span<LennardJonesSums> halves) {
   check(pairs, forces.size(), charges.size());
   if (precision == ForcePrecision::mixed && !fits_single_)
     throw InvalidParameter(
@@ -82,14 +89,15 @@ void PairPotential::add(const ClusterPairs& pairs, ForcePrecision precision, Spa
         "80, the range of single precision; use other units or ForcePrecision::double_precision");
   if (pairs.tasks.size() < 2) return;
   if (precision == ForcePrecision::mixed) {
-    run(pairs, mixed_, scratch_float_, forces, charges, sums);
+    run(pairs, mixed_, scratch_float_, forces, charges, sums, halves);
   } else {
-    run(pairs, full_, scratch_, forces, charges, sums);
+    run(pairs, full_, scratch_, forces, charges, sums, halves);
   }
 }
 
 void PairPotential::add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
-                        Span<const double> charges, LennardJonesSums* sums) const {
+                        Span<const double> charges, LennardJonesSums* sums,
+                        Span<LennardJonesSums> halves) const {
   check(pairs, forces.size(), charges.size());
   detail::PairListRun run(pairs, positions, now);
   detail::LjPairTask task{pairs.i.data(),
@@ -105,12 +113,14 @@ void PairPotential::add(const PairList& pairs, Span<const Vec3> positions, const
                           charge_unit_,
                           constants<double>(),
                           forces.data()};
-  const auto function = choose(detail::style_of(params_).pairs, params_.types, sums != nullptr);
+  task.tallies = detail::numbers_of(halves);
+  const auto function = choose(detail::style_of(params_).pairs, params_.types, detail::wanted(sums, halves));
   run.add(task, function, sums);
 }
 
 void PairPotential::add_weighted(const WeightedPairs& pairs, Span<const Vec3> positions, Span<Vec3> forces,
-                                 Span<const double> charges, LennardJonesSums* sums) const {
+                                 Span<const double> charges, LennardJonesSums* sums,
+                                 Span<LennardJonesSums> halves) const {
   const std::size_t count = pairs.i.size();
   if (pairs.j.size() != count || pairs.at.size() != count || pairs.types.size() != count ||
       pairs.kind.size() != count)
@@ -135,8 +145,9 @@ void PairPotential::add_weighted(const WeightedPairs& pairs, Span<const Vec3> po
   task.kind = pairs.kind.data();
   task.weight = pairs.weight.data();
   task.charge_weight = pairs.charge_weight.data();
+  task.tallies = detail::numbers_of(halves);
   detail::LjSums found;
-  detail::style_of(params_).weighted[sums ? 1 : 0](task, found);
+  detail::style_of(params_).weighted[static_cast<std::size_t>(detail::wanted(sums, halves))](task, found);
   if (sums) detail::give(found, *sums);
 }
 
@@ -149,26 +160,45 @@ void PairPotential::compute(PairBatch& pairs, const std::array<double, 4>& weigh
 
 void PairPotential::add_forces(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                                Span<const double> charges) {
-  add(pairs, precision, forces, charges, nullptr);
+  add(pairs, precision, forces, charges, nullptr, {});
 }
 
 LennardJonesSums PairPotential::add_forces_and_sum(const ClusterPairs& pairs, ForcePrecision precision,
                                                    Span<Vec3> forces, Span<const double> charges) {
   LennardJonesSums sums;
-  add(pairs, precision, forces, charges, &sums);
+  add(pairs, precision, forces, charges, &sums, {});
+  return sums;
+}
+
+LennardJonesSums PairPotential::add_forces_and_tally(const ClusterPairs& pairs, ForcePrecision precision,
+                                                     Span<Vec3> forces, Span<LennardJonesSums> halves,
+                                                     Span<const double> charges) {
+  check_tallies(pairs.particles, halves.size());
+  LennardJonesSums sums;
+  add(pairs, precision, forces, charges, &sums, halves);
   return sums;
 }
 
 void PairPotential::add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now,
                                Span<Vec3> forces, Span<const double> charges) const {
-  add(pairs, positions, now, forces, charges, nullptr);
+  add(pairs, positions, now, forces, charges, nullptr, {});
 }
 
 LennardJonesSums PairPotential::add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions,
                                                    const Box& now, Span<Vec3> forces,
                                                    Span<const double> charges) const {
   LennardJonesSums sums;
-  add(pairs, positions, now, forces, charges, &sums);
+  add(pairs, positions, now, forces, charges, &sums, {});
+  return sums;
+}
+
+LennardJonesSums PairPotential::add_forces_and_tally(const PairList& pairs, Span<const Vec3> positions,
+                                                     const Box& now, Span<Vec3> forces,
+                                                     Span<LennardJonesSums> halves,
+                                                     Span<const double> charges) const {
+  check_tallies(pairs.particles, halves.size());
+  LennardJonesSums sums;
+  add(pairs, positions, now, forces, charges, &sums, halves);
   return sums;
 }
 

@@ -95,6 +95,9 @@ inline Dual energy_of_charges(const PairPotentialParams& all, const FormPair& pa
   return 0;
 }
 
+/// Of kinds of pairs, of a form and of charges.
+inline constexpr std::array<double, 4> kWeight{1, 0, 0.3, 0.7}, kChargeWeight{1, 0.2, 0, 0.5};
+
 struct Weights {
   double own = 1, charges = 1;
 };

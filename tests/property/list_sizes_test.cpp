@@ -183,7 +183,8 @@ TEST(ListSizesTest, TinyParticlesBesideLargeOnesTakeNoLonger) {
   for (const std::size_t n : {std::size_t{60}, std::size_t{3000}}) {
     const std::vector<Vec3> points = scenes::uniform_in(box, n, 17);
     std::vector<double> radii(n);
-    for (std::size_t i = 0; i < n; ++i) radii[i] = i % 5 == 0 ? 1.0 : std::pow(10, -static_cast<double>(i % 7));
+    for (std::size_t i = 0; i < n; ++i)
+      radii[i] = i % 5 == 0 ? 1.0 : std::pow(10, -static_cast<double>(i % 7));
     ListParams params;
     params.radii = radii;
     const NeighborList expected = all_pairs(points, box, params);

@@ -74,6 +74,9 @@ TEST(PairPotential, WrongArraysAreRefused) {
   PairPotential potential(one.params);
   EXPECT_THROW(potential.add_forces(pairs, mixed, few, scene.charges), InvalidParameter);
   EXPECT_THROW(potential.add_forces(pairs, mixed, forces), InvalidParameter);
+  std::vector<LennardJonesSums> few_halves(3);
+  EXPECT_THROW(potential.add_forces_and_tally(pairs, mixed, forces, few_halves, scene.charges),
+               InvalidParameter);
   EXPECT_THROW(
       potential.add_weighted({{}, {}, {}, {}, scene.types}, scene.points, forces, scene.charges, nullptr),
       InvalidParameter);

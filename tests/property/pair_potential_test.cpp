@@ -67,8 +67,6 @@ TEST(PairPotential, PairsOneByOneGiveTheForcesOfAllPairs) {
   }
 }
 
-constexpr std::array<double, 4> kWeight{1, 0, 0.3, 0.7}, kChargeWeight{1, 0.2, 0, 0.5};
-
 /// Pairs of neighbors in the order of points, whose second one is, beyond the first half, an image at a place
 /// of its own.
 struct Bonded {

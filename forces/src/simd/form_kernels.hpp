@@ -25,7 +25,7 @@ struct FormKernels {
     LjFunctions<LjTask<float>>::OfKind mixed;
     LjFunctions<LjTask<double>>::OfKind full;
     LjFunctions<LjPairTask>::OfKind pairs;
-    LjFunctions<LjPairTask>::Function weighted[2];  ///< without sums and with them
+    LjFunctions<LjPairTask>::Function weighted[kWanted];
     void (*batch)(const BatchTask& task, PairBatch& pairs);
     /// Numbers for the tables of those that the form is given; returns the largest exponent of its terms.
     double (*prepare)(const double* given, double cutoff, double* numbers);

@@ -33,21 +33,24 @@ void batch_of_pairs(const BatchTask& task, PairBatch& pairs) {
   }
 }
 
-/// Loops by table, of one type too or mixed by particle where these are asked for.
+/// Loops by table, of one type too or mixed by particle where these are asked for; tallies not of the latter,
+/// for whose types there are tables too.
 template <class S, class Kind, bool kOneType, bool kMixes>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind cluster_functions() {
   typename LjFunctions<LjTask<typename S::Real>>::OfKind all{
-      {{nullptr, nullptr},
-       {lennard_jones<S, LjParameters::by_type, false, Kind>,
-        lennard_jones<S, LjParameters::by_type, true, Kind>},
-       {nullptr, nullptr}}};
+      {{},
+       {lennard_jones<S, LjParameters::by_type, Wanted::forces, Kind>,
+        lennard_jones<S, LjParameters::by_type, Wanted::sums, Kind>,
+        lennard_jones<S, LjParameters::by_type, Wanted::tallies, Kind>},
+       {}}};
   if constexpr (kOneType) {
-    all.of_parameters[0][0] = lennard_jones<S, LjParameters::one_type, false, Kind>;
-    all.of_parameters[0][1] = lennard_jones<S, LjParameters::one_type, true, Kind>;
+    all.of_parameters[0][0] = lennard_jones<S, LjParameters::one_type, Wanted::forces, Kind>;
+    all.of_parameters[0][1] = lennard_jones<S, LjParameters::one_type, Wanted::sums, Kind>;
+    all.of_parameters[0][2] = lennard_jones<S, LjParameters::one_type, Wanted::tallies, Kind>;
   }
   if constexpr (kMixes) {
-    all.of_parameters[2][0] = lennard_jones<S, LjParameters::by_particle, false, Kind>;
-    all.of_parameters[2][1] = lennard_jones<S, LjParameters::by_particle, true, Kind>;
+    all.of_parameters[2][0] = lennard_jones<S, LjParameters::by_particle, Wanted::forces, Kind>;
+    all.of_parameters[2][1] = lennard_jones<S, LjParameters::by_particle, Wanted::sums, Kind>;
   }
   return all;
 }
@@ -55,13 +58,15 @@ constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind cluster_functio
 template <class S, class Kind, bool kOneType>
 constexpr LjFunctions<LjPairTask>::OfKind pair_functions() {
   constexpr auto kByType = LjParameters::by_type, kOne = LjParameters::one_type;
-  LjFunctions<LjPairTask>::OfKind all{
-      {{nullptr, nullptr},
-       {lennard_jones_of_pairs<S, kByType, false, Kind>, lennard_jones_of_pairs<S, kByType, true, Kind>},
-       {nullptr, nullptr}}};
+  LjFunctions<LjPairTask>::OfKind all{{{},
+                                       {lennard_jones_of_pairs<S, kByType, Wanted::forces, Kind>,
+                                        lennard_jones_of_pairs<S, kByType, Wanted::sums, Kind>,
+                                        lennard_jones_of_pairs<S, kByType, Wanted::tallies, Kind>},
+                                       {}}};
   if constexpr (kOneType) {
-    all.of_parameters[0][0] = lennard_jones_of_pairs<S, kOne, false, Kind>;
-    all.of_parameters[0][1] = lennard_jones_of_pairs<S, kOne, true, Kind>;
+    all.of_parameters[0][0] = lennard_jones_of_pairs<S, kOne, Wanted::forces, Kind>;
+    all.of_parameters[0][1] = lennard_jones_of_pairs<S, kOne, Wanted::sums, Kind>;
+    all.of_parameters[0][2] = lennard_jones_of_pairs<S, kOne, Wanted::tallies, Kind>;
   }
   return all;
 }
@@ -73,8 +78,9 @@ constexpr FormKernels::OfStyle style_kernels() {
   return {cluster_functions<Single, Kind, kOneType, kMixes>(),
           cluster_functions<Double, Kind, kOneType, kMixes>(),
           pair_functions<Double, Kind, kOneType>(),
-          {lennard_jones_of_pairs<Double, kByType, false, Kind, true>,
-           lennard_jones_of_pairs<Double, kByType, true, Kind, true>},
+          {lennard_jones_of_pairs<Double, kByType, Wanted::forces, Kind, true>,
+           lennard_jones_of_pairs<Double, kByType, Wanted::sums, Kind, true>,
+           lennard_jones_of_pairs<Double, kByType, Wanted::tallies, Kind, true>},
           batch_of_pairs<Double, Kind>,
           Form::prepare,
           Form::kGiven,

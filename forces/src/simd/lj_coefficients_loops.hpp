@@ -41,6 +41,9 @@ struct OneBeside {
     S::store(to + 16, S::madd(force, d.y[0], S::load(to + 16)));
     S::store(to + 32, S::madd(force, d.z[0], S::load(to + 32)));
   }
+  void tally(V of_i, int n, double* tallies) const {
+    S::tally_over_i(of_i, tallies + kTalliedOfCluster * entry->cluster + 4 * n);
+  }
 
   const ClusterPairs::Entry* entry;
 };
@@ -68,6 +71,10 @@ struct TwoBeside {
     S::add_either(force, d.x[0], first, of_second(), second);
     S::add_either(force, d.y[0], first + 16, of_second(), second + 16);
     S::add_either(force, d.z[0], first + 32, of_second(), second + 32);
+  }
+  void tally(V of_i, int n, double* tallies) const {
+    S::tally_either(of_i, tallies + kTalliedOfCluster * entry[0].cluster + 4 * n, of_second(),
+                    tallies + kTalliedOfCluster * entry[1].cluster + 4 * n);
   }
 
   const ClusterPairs::Entry* entry;

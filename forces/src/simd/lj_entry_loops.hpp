@@ -61,11 +61,84 @@ Separations<S> measure(const LjTask<typename S::Real>& task, const ClusterPairs:
   return found;
 }
 
-template <class S>
+/// Whether a kind of force has a number that is tallied.
+template <class Kind>
+constexpr bool has_number(int n) {
+  return n != kTallyOfCharges || Kind::kHasCharges;
+}
+
+/// What the pairs of a row add: the forces on its cluster I, and numbers by lane as they are tallied, by
+/// register too where they are.
+template <class S, Wanted kFound>
 struct RowSums {
+  static constexpr int kSets = kFound == Wanted::tallies ? S::kRegisters : 1;
+  using V = typename S::V;
+
+  void clear() {
+    for (int p = 0; p < S::kRegisters; ++p) force.x[p] = force.y[p] = force.z[p] = S::zero();
+    for (auto& of_number : number)
+      for (auto& v : of_number) v = S::zero();
+  }
+  /// Adds what is of all pairs to sums, and tallies what is of cluster I.
+  template <class Kind>
+  void give(const LjTask<typename S::Real>& task, std::int32_t cluster, LjSums& sums) const {
+    if constexpr (kFound != Wanted::forces) {
+      sums.energy += sum(0);
+      if constexpr (Kind::kHasCharges) sums.coulomb_energy += sum(kTallyOfCharges);
+      for (int k = 0; k < 6; ++k) sums.virial[k] += task.unit * sum(kTallyOfVirial + k);
+    }
+    if constexpr (kFound == Wanted::tallies)
+      for (int n = 0; n < kTallied; ++n)
+        if (has_number<Kind>(n))
+          S::tally_over_j(number[n], task.tallies + kTalliedOfCluster * cluster + 4 * n);
+  }
+
   Coordinates<S> force;
-  typename S::V energy, coulomb_energy, virial[6];
+  V number[kTallied][kSets];
+
+ private:
+  double sum(int n) const {
+    V all = number[n][0];
+    for (int p = 1; p < kSets; ++p) all = S::add(all, number[n][p]);
+    return S::sum(all);
+  }
 };
+
+/// Adds what the pairs of register p have to the row's sums and, where numbers are tallied, to what cluster J
+/// has of this entry.
+template <class S, Wanted kFound, class Kind>
+void add_numbers(const PairTerms<S>& terms, const Coordinates<S>& d, const Coordinates<S>& force, int p,
+                 const Constants<S>& constants, RowSums<S, kFound>& sum, typename S::V* of_j) {
+  using V = typename S::V;
+  const V x = in_length<S>(d.x[p], constants.unit), y = in_length<S>(d.y[p], constants.unit),
+          z = in_length<S>(d.z[p], constants.unit);
+  const V fx = force.x[p], fy = force.y[p], fz = force.z[p];
+  if constexpr (kFound == Wanted::tallies) {
+    const auto add = [&](int n, V v) {
+      sum.number[n][p] = S::add(sum.number[n][p], v);
+      of_j[n] = S::add(of_j[n], v);
+    };
+    add(0, terms.energy);
+    if constexpr (Kind::kHasCharges) add(kTallyOfCharges, terms.coulomb_energy);
+    add(kTallyOfVirial, S::mul(x, fx));
+    add(kTallyOfVirial + 1, S::mul(y, fy));
+    add(kTallyOfVirial + 2, S::mul(z, fz));
+    add(kTallyOfVirial + 3, S::mul(x, fy));
+    add(kTallyOfVirial + 4, S::mul(x, fz));
+    add(kTallyOfVirial + 5, S::mul(y, fz));
+  } else {
+    const auto add_product = [&](int n, V a, V b) { sum.number[n][0] = S::madd(a, b, sum.number[n][0]); };
+    sum.number[0][0] = S::add(sum.number[0][0], terms.energy);
+    if constexpr (Kind::kHasCharges)
+      sum.number[kTallyOfCharges][0] = S::add(sum.number[kTallyOfCharges][0], terms.coulomb_energy);
+    add_product(kTallyOfVirial, x, fx);
+    add_product(kTallyOfVirial + 1, y, fy);
+    add_product(kTallyOfVirial + 2, z, fz);
+    add_product(kTallyOfVirial + 3, x, fy);
+    add_product(kTallyOfVirial + 4, x, fz);
+    add_product(kTallyOfVirial + 5, y, fz);
+  }
+}
 
 /// Whether forces on clusters J are kept lane by lane, in memory, while rows are computed. Where one register
 /// holds all 16 pairs this takes a fused operation for each axis; to sum up over cluster I, which is put off
@@ -85,15 +158,19 @@ void add_to_lanes(typename S::V force, const Coordinates<S>& d, Coordinates<S>& 
 }
 
 /// Adds the forces of an entry to those of its cluster J, and to what the row has summed up.
-template <class S, LjParameters kParameters, bool kSums, class Kind, Half kHalf, class J>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind, Half kHalf, class J>
 void apply(const LjTask<typename S::Real>& task, const J& beside, const Separations<S>& separation,
            PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
-           const Constants<S>& constants, RowSums<S>& sum) {
+           const Constants<S>& constants, RowSums<S, kFound>& sum) {
   using V = typename S::V;
   coefficient.choose_j(beside);
   Coordinates<S> force;
   if constexpr (kHalf != Half::both)
     for (int p = 0; p < S::kRegisters; ++p) force.x[p] = force.y[p] = force.z[p] = S::zero();
+  constexpr bool kSums = kFound != Wanted::forces;
+  V of_j[kTallied];
+  if constexpr (kFound == Wanted::tallies)
+    for (V& v : of_j) v = S::zero();
   for (int p = first_register<S>(kHalf); p < end_of_registers<S>(kHalf); ++p) {
     const V dx = separation.d.x[p], dy = separation.d.y[p], dz = separation.d.z[p], s = separation.s[p];
     Products<S> products{S::zero(), S::zero()};
@@ -113,19 +190,11 @@ void apply(const LjTask<typename S::Real>& task, const J& beside, const Separati
       sum.force.y[p] = S::add(sum.force.y[p], force.y[p]);
       sum.force.z[p] = S::add(sum.force.z[p], force.z[p]);
     }
-    if constexpr (kSums) {
-      sum.energy = S::add(sum.energy, terms.energy);
-      if constexpr (Kind::kHasCharges) sum.coulomb_energy = S::add(sum.coulomb_energy, terms.coulomb_energy);
-      const V x = in_length<S>(dx, constants.unit), y = in_length<S>(dy, constants.unit),
-              z = in_length<S>(dz, constants.unit);
-      sum.virial[0] = S::madd(x, force.x[p], sum.virial[0]);
-      sum.virial[1] = S::madd(y, force.y[p], sum.virial[1]);
-      sum.virial[2] = S::madd(z, force.z[p], sum.virial[2]);
-      sum.virial[3] = S::madd(x, force.y[p], sum.virial[3]);
-      sum.virial[4] = S::madd(x, force.z[p], sum.virial[4]);
-      sum.virial[5] = S::madd(y, force.z[p], sum.virial[5]);
-    }
+    if constexpr (kSums) add_numbers<S, kFound, Kind>(terms, separation.d, force, p, constants, sum, of_j);
   }
+  if constexpr (kFound == Wanted::tallies)
+    for (int n = 0; n < kTallied; ++n)
+      if (has_number<Kind>(n)) beside.tally(of_j[n], n, task.tallies);
   if constexpr (!kWantsLanes<S>) S::add_over_i(force, task.force[beside.cluster()]);
 }
 

@@ -34,8 +34,8 @@ void fold_lanes(const LjTask<typename S::Real>& task, ClusterPairs::Range cluste
 
 /// Whether registers without pairs are left out. With eight or more registers an entry, or with sums, which
 /// few steps ask for, two more loops would only take long to compile.
-template <class S, bool kSums>
-constexpr bool kLeavesOutHalves = S::kRegisters > 1 && S::kRegisters <= 4 && !kSums;
+template <class S, Wanted kFound>
+constexpr bool kLeavesOutHalves = S::kRegisters > 1 && S::kRegisters <= 4 && kFound == Wanted::forces;
 
 /// Whether two entries at a time fit into registers. Four of each do not: spilling costs more than waiting
 /// does.
@@ -45,18 +45,18 @@ constexpr bool kMeasuresAhead = S::kRegisters <= 2;
 /// The pairs of a row with entries [entry, end). Separations are measured one entry ahead, if they take few
 /// registers: the chain of dependent operations through one entry is longer than what a processor can look
 /// ahead over.
-template <class S, LjParameters kParameters, bool kSums, class Kind, Half kHalf, class J>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind, Half kHalf, class J>
 void add_entries(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row, const Places<S>& i,
                  const ClusterPairs::Entry* entry, const ClusterPairs::Entry* end,
                  PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
-                 const Constants<S>& constants, RowSums<S>& sum) {
+                 const Constants<S>& constants, RowSums<S, kFound>& sum) {
   if (entry == end) return;
   const ClusterPairs::Entry* const last = end - 1;
   const auto measured = [&](const ClusterPairs::Entry* of) {
     return measure<S, kParameters, Kind, kHalf>(task, row, i, J{of}, coefficient, constants);
   };
   const auto apply_to = [&](const ClusterPairs::Entry* to, const Separations<S>& separation) {
-    apply<S, kParameters, kSums, Kind, kHalf>(task, J{to}, separation, coefficient, charges, constants, sum);
+    apply<S, kParameters, kFound, Kind, kHalf>(task, J{to}, separation, coefficient, charges, constants, sum);
   };
   Separations<S> separation = measured(entry);
   for (; entry != last; ++entry) {
@@ -73,25 +73,25 @@ void add_entries(const LjTask<typename S::Real>& task, const ClusterPairs::Row& 
 }
 
 /// Those that are joined two by two.
-template <class S, LjParameters kParameters, bool kSums, class Kind>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind>
 void add_joined(const LjTask<typename S::Real>& task, const ClusterPairs::Row& row, const Places<S>& i,
                 const ClusterPairs::Entry* entry, const ClusterPairs::Entry* end,
                 PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
-                const Constants<S>& constants, RowSums<S>& sum) {
+                const Constants<S>& constants, RowSums<S, kFound>& sum) {
   for (; entry != end; entry += 2) {
     const TwoBeside<S> beside{entry};
     const Separations<S> separation =
         measure<S, kParameters, Kind, Half::both>(task, row, i, beside, coefficient, constants);
-    apply<S, kParameters, kSums, Kind, Half::both>(task, beside, separation, coefficient, charges, constants,
-                                                   sum);
+    apply<S, kParameters, kFound, Kind, Half::both>(task, beside, separation, coefficient, charges, constants,
+                                                    sum);
   }
 }
 
 /// All entries of a row, in whatever order they stand. Those that are joined can be taken one by one, too.
-template <class S, LjParameters kParameters, bool kSums, class Kind>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind>
 void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
              PairCoefficients<S, kParameters>& coefficient, const RowCharges<S>& charges,
-             const Constants<S>& constants, RowSums<S>& sum) {
+             const Constants<S>& constants, RowSums<S, kFound>& sum) {
   const ClusterPairs::Row row = task.rows[r];
   const ClusterPairs::Entry* const entry = task.entries + row.first;
   const ClusterPairs::Entry* const end = task.entries + task.rows[r + 1].first;
@@ -101,40 +101,40 @@ void add_row(const LjTask<typename S::Real>& task, std::int64_t r, Places<S>& i,
     if (task.order == Order::joined) {
       subtract_shift<S>(task.shift[row.first_shift + entry->shift], i);
       const ClusterPairs::Entry* const joined = entry + task.parts[r].first;
-      add_entries<S, kParameters, kSums, Kind, Half::both, Unmoved>(task, row, i, entry, joined, coefficient,
-                                                                    charges, constants, sum);
-      add_joined<S, kParameters, kSums, Kind>(task, row, i, joined, end, coefficient, charges, constants,
-                                              sum);
+      add_entries<S, kParameters, kFound, Kind, Half::both, Unmoved>(task, row, i, entry, joined, coefficient,
+                                                                     charges, constants, sum);
+      add_joined<S, kParameters, kFound, Kind>(task, row, i, joined, end, coefficient, charges, constants,
+                                               sum);
       return;
     }
   }
   const ClusterPairs::Entry *lower = end, *upper = end;
-  if constexpr (kLeavesOutHalves<S, kSums>)
+  if constexpr (kLeavesOutHalves<S, kFound>)
     if (task.order == Order::by_image_and_halves || (!kShiftsByImage<S> && task.order == Order::by_halves))
       lower = entry + task.parts[r].first, upper = entry + task.parts[r].lower;
-  if constexpr (kLeavesOutHalves<S, kSums> && kShiftsByImage<S>) {
+  if constexpr (kLeavesOutHalves<S, kFound> && kShiftsByImage<S>) {
     if (task.order == Order::by_image_and_halves) {
       subtract_shift<S>(task.shift[row.first_shift + entry->shift], i);
-      add_entries<S, kParameters, kSums, Kind, Half::both, Unmoved>(task, row, i, entry, lower, coefficient,
-                                                                    charges, constants, sum);
-      add_entries<S, kParameters, kSums, Kind, Half::lower, Unmoved>(task, row, i, lower, upper, coefficient,
+      add_entries<S, kParameters, kFound, Kind, Half::both, Unmoved>(task, row, i, entry, lower, coefficient,
                                                                      charges, constants, sum);
-      add_entries<S, kParameters, kSums, Kind, Half::upper, Unmoved>(task, row, i, upper, end, coefficient,
-                                                                     charges, constants, sum);
+      add_entries<S, kParameters, kFound, Kind, Half::lower, Unmoved>(task, row, i, lower, upper, coefficient,
+                                                                      charges, constants, sum);
+      add_entries<S, kParameters, kFound, Kind, Half::upper, Unmoved>(task, row, i, upper, end, coefficient,
+                                                                      charges, constants, sum);
       return;
     }
   }
-  add_entries<S, kParameters, kSums, Kind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
-                                                                     charges, constants, sum);
-  if constexpr (kLeavesOutHalves<S, kSums> && !kShiftsByImage<S>) {
-    add_entries<S, kParameters, kSums, Kind, Half::lower, OneBeside<S>>(task, row, i, lower, upper,
-                                                                        coefficient, charges, constants, sum);
-    add_entries<S, kParameters, kSums, Kind, Half::upper, OneBeside<S>>(task, row, i, upper, end, coefficient,
-                                                                        charges, constants, sum);
+  add_entries<S, kParameters, kFound, Kind, Half::both, OneBeside<S>>(task, row, i, entry, lower, coefficient,
+                                                                      charges, constants, sum);
+  if constexpr (kLeavesOutHalves<S, kFound> && !kShiftsByImage<S>) {
+    add_entries<S, kParameters, kFound, Kind, Half::lower, OneBeside<S>>(
+        task, row, i, lower, upper, coefficient, charges, constants, sum);
+    add_entries<S, kParameters, kFound, Kind, Half::upper, OneBeside<S>>(
+        task, row, i, upper, end, coefficient, charges, constants, sum);
   }
 }
 
-template <class S, LjParameters kParameters, bool kSums, class Kind>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind>
 DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& sums) {
   const LjTask<typename S::Real> task = given;  // which no number that is written can be part of
   PairCoefficients<S, kParameters> coefficient(task);
@@ -149,17 +149,11 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& su
     if constexpr (Kind::kHasDispersion)
       for (int p = 0; p < S::kRegisters; ++p)
         charges.dispersion_of_i[p] = S::spread(task.dispersion + 4 * row.cluster, p);
-    RowSums<S> sum;
-    for (int p = 0; p < S::kRegisters; ++p) sum.force.x[p] = sum.force.y[p] = sum.force.z[p] = S::zero();
-    sum.energy = sum.coulomb_energy = S::zero();
-    for (auto& v : sum.virial) v = S::zero();
-    add_row<S, kParameters, kSums, Kind>(task, r, i, coefficient, charges, constants, sum);
+    RowSums<S, kFound> sum;
+    sum.clear();
+    add_row<S, kParameters, kFound, Kind>(task, r, i, coefficient, charges, constants, sum);
     S::subtract_over_j(sum.force, task.force[row.cluster]);
-    if constexpr (kSums) {
-      sums.energy += S::sum(sum.energy);
-      if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(sum.coulomb_energy);
-      for (int k = 0; k < 6; ++k) sums.virial[k] += task.unit * S::sum(sum.virial[k]);
-    }
+    sum.template give<Kind>(task, row.cluster, sums);
   }
   if constexpr (kWantsLanes<S>) {
     fold_lanes<S>(task, task.own);
@@ -169,21 +163,21 @@ DCH_FLATTEN void lennard_jones(const LjTask<typename S::Real>& given, LjSums& su
 
 template <class S, class Kind>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_of_kind{
-    {{lennard_jones<S, LjParameters::one_type, false, Kind>,
-      lennard_jones<S, LjParameters::one_type, true, Kind>},
-     {lennard_jones<S, LjParameters::by_type, false, Kind>,
-      lennard_jones<S, LjParameters::by_type, true, Kind>},
-     {nullptr, nullptr}}};
+    {{lennard_jones<S, LjParameters::one_type, Wanted::forces, Kind>,
+      lennard_jones<S, LjParameters::one_type, Wanted::sums, Kind>},
+     {lennard_jones<S, LjParameters::by_type, Wanted::forces, Kind>,
+      lennard_jones<S, LjParameters::by_type, Wanted::sums, Kind>},
+     {}}};
 
 /// With parameters by particle too.
 template <class S, class Kind>
 constexpr typename LjFunctions<LjTask<typename S::Real>>::OfKind lj_functions_that_mix{
-    {{lennard_jones<S, LjParameters::one_type, false, Kind>,
-      lennard_jones<S, LjParameters::one_type, true, Kind>},
-     {lennard_jones<S, LjParameters::by_type, false, Kind>,
-      lennard_jones<S, LjParameters::by_type, true, Kind>},
-     {lennard_jones<S, LjParameters::by_particle, false, Kind>,
-      lennard_jones<S, LjParameters::by_particle, true, Kind>}}};
+    {{lennard_jones<S, LjParameters::one_type, Wanted::forces, Kind>,
+      lennard_jones<S, LjParameters::one_type, Wanted::sums, Kind>},
+     {lennard_jones<S, LjParameters::by_type, Wanted::forces, Kind>,
+      lennard_jones<S, LjParameters::by_type, Wanted::sums, Kind>},
+     {lennard_jones<S, LjParameters::by_particle, Wanted::forces, Kind>,
+      lennard_jones<S, LjParameters::by_particle, Wanted::sums, Kind>}}};
 
 template <class S>
 constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
@@ -196,7 +190,7 @@ constexpr LjFunctions<LjTask<typename S::Real>> lj_functions_of{
      lj_functions_that_mix<S, LjKind<ForceKind::switched_ewald>>,
      lj_functions_that_mix<S, LjKind<ForceKind::ewald_dispersion>>},
     kWantsLanes<S>,
-    kLeavesOutHalves<S, false>};
+    kLeavesOutHalves<S, Wanted::forces>};
 
 }  // namespace
 }  // namespace dch::detail

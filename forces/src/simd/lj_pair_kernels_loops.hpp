@@ -52,8 +52,23 @@ struct LaneSums {
   typename S::V energy, coulomb_energy, virial[6];
 };
 
+/// Adds half of the numbers of pairs, those of `lanes` alone, to each of their two particles.
+template <class S>
+void add_halves_to_both(std::uint32_t lanes, const std::int32_t* i, const std::int32_t* j,
+                        const typename S::V* numbers, double* tallies) {
+  alignas(64) double half[kTallied][S::kLanes];
+  for (int n = 0; n < kTallied; ++n) S::store(half[n], S::mul(S::set1(0.5), numbers[n]));
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int k = __builtin_ctz(lanes);
+    double* const of_i = tallies + kTallied * static_cast<std::ptrdiff_t>(i[k]);
+    double* const of_j = tallies + kTallied * static_cast<std::ptrdiff_t>(j[k]);
+    for (int n = 0; n < kTallied; ++n) of_i[n] += half[n][k];
+    for (int n = 0; n < kTallied; ++n) of_j[n] += half[n][k];
+  }
+}
+
 /// kLanes pairs of which only those in `mask` act.
-template <class S, bool kSums, bool kWeighted, class Kind, class Coefficients>
+template <class S, Wanted kFound, bool kWeighted, class Kind, class Coefficients>
 void add_pairs(const LjPairTask& task, const LanePairs& pairs, std::uint32_t mask,
                const Coordinates<S>& shift, const Constants<S>& constants, Coefficients& coefficient,
                LaneSums<S>& sum) {
@@ -78,6 +93,7 @@ void add_pairs(const LjPairTask& task, const LanePairs& pairs, std::uint32_t mas
     charge = S::mul(S::mul(S::gather(task.charge, pairs.i), S::gather(task.charge, pairs.j)),
                     S::set1(task.charge_unit * task.charge_unit));
   const Products<S> products{charge, S::zero()};
+  constexpr bool kSums = kFound != Wanted::forces;
   PairTerms<S> terms;
   if constexpr (kWeighted)
     terms = Kind::template weighted_terms<S, kSums>(
@@ -96,6 +112,12 @@ void add_pairs(const LjPairTask& task, const LanePairs& pairs, std::uint32_t mas
     sum.virial[4] = S::madd(dx, fz, sum.virial[4]);
     sum.virial[5] = S::madd(dy, fz, sum.virial[5]);
   }
+  if constexpr (kFound == Wanted::tallies) {
+    const V coulomb_energy = Kind::kHasCharges ? terms.coulomb_energy : S::zero();
+    const V tallied[kTallied] = {terms.energy,   coulomb_energy, S::mul(dx, fx), S::mul(dy, fy),
+                                 S::mul(dz, fz), S::mul(dx, fy), S::mul(dx, fz), S::mul(dy, fz)};
+    add_halves_to_both<S>(lanes, pairs.i, pairs.j, tallied, task.tallies);
+  }
   add_to_both<S>(lanes, pairs.i, pairs.j, fx, fy, fz, task.forces);
 }
 
@@ -106,7 +128,7 @@ LanePairs lanes_from(const LjPairTask& task, std::int64_t k) {
   return {task.i + k, task.j + k, task.j + k, nullptr, nullptr};
 }
 
-template <class S, LjParameters kParameters, bool kSums, class Kind, bool kWeighted = false>
+template <class S, LjParameters kParameters, Wanted kFound, class Kind, bool kWeighted = false>
 DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   LaneCoefficients<S, kParameters> coefficient(task.coefficients);
   const Constants<S> constants(task.constants);
@@ -120,8 +142,8 @@ DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
   std::int64_t k = task.first;
   for (; k + S::kLanes <= task.last; k += S::kLanes)
-    add_pairs<S, kSums, kWeighted, Kind>(task, lanes_from<kWeighted>(task, k), kAll, shift, constants,
-                                         coefficient, sum);
+    add_pairs<S, kFound, kWeighted, Kind>(task, lanes_from<kWeighted>(task, k), kAll, shift, constants,
+                                          coefficient, sum);
   if (k < task.last) {
     // Lanes without a pair repeat the first one, whose mask bit they lack.
     std::int32_t lanes[5][S::kLanes]{};
@@ -134,9 +156,9 @@ DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
     }
     const LanePairs pairs{lanes[0], lanes[1], lanes[2], kWeighted ? lanes[3] : nullptr, lanes[4]};
     const auto mask = kAll >> (S::kLanes - (task.last - k));
-    add_pairs<S, kSums, kWeighted, Kind>(task, pairs, mask, shift, constants, coefficient, sum);
+    add_pairs<S, kFound, kWeighted, Kind>(task, pairs, mask, shift, constants, coefficient, sum);
   }
-  if constexpr (kSums) {
+  if constexpr (kFound != Wanted::forces) {
     sums.energy += S::sum(sum.energy);
     if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(sum.coulomb_energy);
     for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
@@ -145,11 +167,11 @@ DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
 
 template <class S, class Kind>
 constexpr LjFunctions<LjPairTask>::OfKind lj_pair_functions_of_kind{
-    {{lennard_jones_of_pairs<S, LjParameters::one_type, false, Kind>,
-      lennard_jones_of_pairs<S, LjParameters::one_type, true, Kind>},
-     {lennard_jones_of_pairs<S, LjParameters::by_type, false, Kind>,
-      lennard_jones_of_pairs<S, LjParameters::by_type, true, Kind>},
-     {nullptr, nullptr}}};
+    {{lennard_jones_of_pairs<S, LjParameters::one_type, Wanted::forces, Kind>,
+      lennard_jones_of_pairs<S, LjParameters::one_type, Wanted::sums, Kind>},
+     {lennard_jones_of_pairs<S, LjParameters::by_type, Wanted::forces, Kind>,
+      lennard_jones_of_pairs<S, LjParameters::by_type, Wanted::sums, Kind>},
+     {}}};
 
 template <class S>
 constexpr LjFunctions<LjPairTask> lj_pair_functions_of{

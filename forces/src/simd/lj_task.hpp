@@ -65,6 +65,16 @@ constexpr bool has_two_cutoffs(ForceKind kind) { return has_charges(kind) && !ha
 /// are mixed from those of the particles.
 enum class LjParameters { one_type, by_type, by_particle };
 
+/// What a kernel finds: forces alone, sums of energies and virials of all pairs too, or those and the same
+/// tallied by particle.
+enum class Wanted { forces, sums, tallies };
+inline constexpr int kWanted = 3;
+
+/// Numbers of a particle that are tallied: energy, that of charges, the virial's xx, yy, zz, xy, xz, yz.
+inline constexpr int kTallied = 8, kTallyOfCharges = 1, kTallyOfVirial = 2;
+/// The numbers of a cluster's four slots, side by side.
+inline constexpr std::ptrdiff_t kTalliedOfCluster = 4 * kTallied;
+
 /// How many terms of EwaldSeries a precision has.
 template <class Real>
 inline constexpr int kEwaldTerms = sizeof(Real) == 4 ? 14 : 26;
@@ -112,6 +122,8 @@ struct LjTask {
   Real* lanes;              ///< kNumbersOfLanes by cluster, aligned, 0 before and after; null unless wanted
   ClusterPairs::Range own;  ///< clusters of the rows
   Span<const ClusterPairs::Range> later;  ///< others that the rows name
+  double*
+      tallies;  ///< kTalliedOfCluster by cluster, aligned; added to, the virial in units; null unless wanted
 };
 
 /// Forces of the 16 pairs of two clusters, not yet summed up to those of a cluster's four slots: x, y, z.
@@ -134,6 +146,7 @@ struct LjPairTask {
   const std::int32_t* pair_of_types = nullptr;  ///< by pair, then: where it stands in the matrices
   const std::int32_t* kind = nullptr;           ///< by pair, then
   const double *weight = nullptr, *charge_weight = nullptr;  ///< by kind
+  double* tallies = nullptr;  ///< kTallied by particle; half of a pair is added to each; null unless wanted
 };
 
 /// Energies, and the virial sum of d f over pairs: xx, yy, zz, xy, xz, yz.
@@ -142,21 +155,22 @@ struct LjSums {
   double virial[6]{};
 };
 
-/// Which sums are made, whose parameters and which terms, is decided when this is compiled. Functions that
-/// nobody asks for are null: an Ewald sum by formula with parameters by particle, and for pairs one by one
-/// a reaction field, a switch, a series and parameters by particle.
+/// What is wanted, whose parameters and which terms, is decided when this is compiled. Functions that
+/// nobody asks for are null: tallies of LennardJones, an Ewald sum by formula with parameters by particle,
+/// and for pairs one by one a reaction field, a switch, a series and parameters by particle.
 template <class Task>
 struct LjFunctions {
   using Function = void (*)(const Task&, LjSums&);
   struct OfKind {
-    Function of_parameters[3][2];  ///< without sums and with them
+    Function of_parameters[3][kWanted];
   };
   OfKind of_kind[kForceKinds];
   bool wants_lanes = false;        ///< whether they use LjTask::lanes, and gain by entries that are joined
   bool leaves_out_halves = false;  ///< whether they gain by entries by halves
 
-  Function choose(ForceKind kind, LjParameters parameters, bool sums) const {
-    return of_kind[static_cast<int>(kind)].of_parameters[static_cast<int>(parameters)][sums ? 1 : 0];
+  Function choose(ForceKind kind, LjParameters parameters, Wanted wanted) const {
+    return of_kind[static_cast<int>(kind)]
+        .of_parameters[static_cast<int>(parameters)][static_cast<int>(wanted)];
   }
 };
 

@@ -198,7 +198,7 @@ void PairDCH::init_style() {
   clusters_.reset();
   pairs_of_types_.clear();
   kernel_.reset();
-  computed_ = by_atom_ = 0;
+  computed_ = pair_by_pair_ = 0;
   has_lists_of_plain_ = may_have_levels();
   // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
   // this style's name, to compare with.
@@ -242,10 +242,9 @@ dch::lammps::StyleNote PairDCH::explain() const {
     return {name, "plain style on a neighbor list, " + obstacle_.reason + "; give " + obstacle_.remedy};
   if (computed_ == 0) return {name, "no run yet"};
   std::string how = way();
-  if (by_atom_ > 0)
-    how += "; of " + std::to_string(computed_) + " times " + std::to_string(by_atom_) +
-           " pair by pair, for energies or virials by atom" +
-           (force->newton_pair ? "" : ", or for sums with newton off");
+  if (pair_by_pair_ > 0)
+    how += "; of " + std::to_string(computed_) + " times " + std::to_string(pair_by_pair_) +
+           " pair by pair, for computes that ask for each pair";
   return {name, how};
 }
 

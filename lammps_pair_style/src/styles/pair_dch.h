@@ -22,11 +22,12 @@ namespace LAMMPS_NS {
 ///
 /// With r-RESPA that splits the forces of pairs into levels the plain style computes, on its own lists.
 ///
-/// Pairs go through a SIMD kernel, weighted ones of bonded atoms too; a style says what it is made of. At
-/// steps that want energies by atom or other tallies, and sums with newton off and ghosts, they are added up
-/// pair by pair. Where
-/// cluster pairs cannot be had (settings that dch stats names) the plain style computes, on a neighbor list.
-/// Wherever it computes, it does so without its tables of Coulomb forces, as the kernels do.
+/// Pairs go through a SIMD kernel, weighted ones of bonded atoms too; a style says what it is made of. The
+/// kernel tallies energies and virials by atom at steps that want these, and where newton is off and there
+/// are ghosts, of whose pairs only the owned atoms' halves belong into sums. Computes that ask for each pair
+/// have them computed one by one. Where cluster pairs cannot be had (settings that dch stats names) the plain
+/// style computes, on a neighbor list. Wherever it computes, it does so without its tables of Coulomb forces,
+/// as the kernels do.
 class PairDCH : public Pair, public Explained {
  public:
   /// What a style is made of.
@@ -91,8 +92,10 @@ class PairDCH : public Pair, public Explained {
   void take_coefficients();
   void refresh();
   void take_sums_of_plain();
-  void compute_clusters(bool with_sums);
-  void compute_by_atom();
+  void compute_clusters();
+  void give_tallies();
+  dch::LennardJonesSums sums_of_tallies() const;
+  void compute_pair_by_pair();
   void add_self_energies(bool by_atom);
   void finish(Batch& batch);
   void make_kernel();
@@ -106,13 +109,14 @@ class PairDCH : public Pair, public Explained {
   std::string plain_name_;
   bool is_chosen_ = false;  ///< by `dch on`, not by the script
   std::unique_ptr<Pair> plain_;
-  std::shared_ptr<ClusterList> clusters_;    ///< null if the plain style computes
-  dch::lammps::Obstacle obstacle_;           ///< why it does
-  bool has_lists_of_plain_ = false;          ///< those that the plain style has asked for
-  std::int64_t computed_ = 0, by_atom_ = 0;  ///< in this run: how often, and how often atom by atom
+  std::shared_ptr<ClusterList> clusters_;         ///< null if the plain style computes
+  dch::lammps::Obstacle obstacle_;                ///< why it does
+  bool has_lists_of_plain_ = false;               ///< those that the plain style has asked for
+  std::int64_t computed_ = 0, pair_by_pair_ = 0;  ///< in this run: how often, and how often pair by pair
   std::vector<PairOfTypes> pairs_of_types_;
   std::unique_ptr<dch::PairPotential> kernel_;  ///< null unless for the coefficients as they are
   std::vector<dch::Vec3> of_ghosts_;            ///< forces on ghosts before ours
+  std::vector<dch::LennardJonesSums> tallies_;  ///< by point; none unless wanted
 };
 
 }  // namespace LAMMPS_NS

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The forces of the pair styles of this package: over clusters, atom by atom, or by the plain style.
+// The forces of the pair styles of this package: over clusters, pair by pair, or by the plain style.
 #include <algorithm>
 #include <atom.h>
 #include <domain.h>
@@ -26,20 +26,17 @@ void PairDCH::compute(int eflag, int vflag) {
     return;
   }
   ++computed_;
-  const bool by_atom = eflag_atom || vflag_atom || cvflag_atom || num_tally_compute > 0;
-  const bool wants_sums = eflag_either || vflag_either;
-  // With newton off each of two processes has half of a pair with a ghost, which the sums do not know.
-  const bool has_halves = wants_sums && !clusters_->in_box && !force->newton_pair;
+  const bool asks_each_pair = evflag && (cvflag_atom || num_tally_compute > 0);
   try {
     if (!kernel_) make_kernel();
     refresh();
-    if (by_atom || has_halves) {
-      ++by_atom_;
-      compute_by_atom();
+    if (asks_each_pair) {
+      ++pair_by_pair_;
+      compute_pair_by_pair();
     } else {
-      compute_clusters(wants_sums);
+      compute_clusters();
     }
-    if (eflag_either) add_self_energies(by_atom || has_halves);
+    if (eflag_either) add_self_energies(asks_each_pair || eflag_atom);
   } catch (const dch::Error& e) {
     error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
   } catch (const std::bad_alloc&) {
@@ -123,7 +120,7 @@ void PairDCH::make_kernel() {
 
 /// With newton off for pairs each process computes its own half of a pair with a ghost. Kernels add to both;
 /// LAMMPS would send the other half home where newton is on for bonds.
-void PairDCH::compute_clusters(bool with_sums) {
+void PairDCH::compute_clusters() {
   const ClusterList& wanted = *clusters_;
   const std::size_t points = wanted.points();
   const dch::Span<dch::Vec3> f{points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr, points};
@@ -131,13 +128,21 @@ void PairDCH::compute_clusters(bool with_sums) {
   if (keeps_ghosts) of_ghosts_.assign(f.begin() + atom->nlocal, f.end());
   const dch::ForcePrecision precision = NeighborDCH::install(lmp)->precision();
   kernel_->set_executor(NeighborDCH::install(lmp)->executor());
+  const bool with_sums = eflag_either || vflag_either;
+  // With newton off each of two processes has half of a pair with a ghost, which sums over pairs do not know.
+  const bool has_halves = with_sums && !wanted.in_box && !force->newton_pair;
+  tallies_.assign(has_halves || eflag_atom || vflag_atom ? points : 0, {});
   dch::LennardJonesSums sums;
   if (wanted.one_by_one) {
-    if (with_sums) {
+    if (!tallies_.empty()) {
+      sums = kernel_->add_forces_and_tally(wanted.pair_list, positions(), box(), f, tallies_, charges());
+    } else if (with_sums) {
       sums = kernel_->add_forces_and_sum(wanted.pair_list, positions(), box(), f, charges());
     } else {
       kernel_->add_forces(wanted.pair_list, positions(), box(), f, charges());
     }
+  } else if (!tallies_.empty()) {
+    sums = kernel_->add_forces_and_tally(wanted.pairs, precision, f, tallies_, charges());
   } else if (with_sums) {
     sums = kernel_->add_forces_and_sum(wanted.pairs, precision, f, charges());
   } else {
@@ -146,11 +151,35 @@ void PairDCH::compute_clusters(bool with_sums) {
   const ClusterList::Special& special = wanted.special;
   kernel_->add_weighted({special.i, special.j, special.at, special.types, special.kind,
                          weights(force->special_lj), weights(force->special_coul)},
-                        positions(), f, charges(), with_sums ? &sums : nullptr);
+                        positions(), f, charges(), with_sums ? &sums : nullptr, tallies_);
   if (keeps_ghosts) std::copy(of_ghosts_.begin(), of_ghosts_.end(), f.begin() + atom->nlocal);
+  give_tallies();
+  if (has_halves) sums = sums_of_tallies();
   eng_vdwl += sums.energy;
   eng_coul += sums.coulomb_energy;
   for (int k = 0; k < 6; ++k) virial[k] += sums.virial[static_cast<std::size_t>(k)];
+}
+
+/// To the energies and virials by atom that LAMMPS asks for.
+void PairDCH::give_tallies() {
+  const std::size_t atoms = force->newton_pair ? tallies_.size() : static_cast<std::size_t>(atom->nlocal);
+  for (std::size_t i = 0; i < std::min(atoms, tallies_.size()); ++i) {
+    const dch::LennardJonesSums& of_atom = tallies_[i];
+    if (eflag_atom) eatom[i] += of_atom.energy + of_atom.coulomb_energy;
+    if (!vflag_atom) continue;
+    for (std::size_t k = 0; k < 6; ++k) vatom[i][k] += of_atom.virial[k];
+  }
+}
+
+/// Over owned atoms: of a pair with a ghost, the half that is this process's.
+dch::LennardJonesSums PairDCH::sums_of_tallies() const {
+  dch::LennardJonesSums sums;
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(atom->nlocal), tallies_.size()); ++i) {
+    sums.energy += tallies_[i].energy;
+    sums.coulomb_energy += tallies_[i].coulomb_energy;
+    for (std::size_t k = 0; k < 6; ++k) sums.virial[k] += tallies_[i].virial[k];
+  }
+  return sums;
 }
 
 /// Of charges that know their own image.
@@ -166,7 +195,7 @@ void PairDCH::add_self_energies(bool by_atom) {
   }
 }
 
-/// Pairs on their way to be computed and added up atom by atom.
+/// Pairs on their way to be computed one by one and shown to who asks for each of them.
 struct PairDCH::Batch {
   int count = 0;
   int i[dch::PairBatch::kSize], j[dch::PairBatch::kSize];
@@ -196,7 +225,7 @@ void PairDCH::finish(Batch& batch) {
   batch = {};
 }
 
-void PairDCH::compute_by_atom() {
+void PairDCH::compute_pair_by_pair() {
   const int types = atom->ntypes;
   Batch batch;
   const auto add = [&](int i, int j, dch::Vec3 from_j_to_i, int kind) {

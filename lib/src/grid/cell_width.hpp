@@ -32,8 +32,8 @@ enum class CellUse {
 CellLayout cells_for(Span<const Vec3> positions, const Box& box, double reach, double nearby, double spread,
                      CellUse use, double narrowest);
 
-/// How narrow cells may be for points of which others look for those within a longer reach: rows of cells there
-/// are then not many more than points, however short the reach of the points themselves is.
+/// How narrow cells may be for points of which others look for those within a longer reach: rows of cells
+/// there are then not many more than points, however short the reach of the points themselves is.
 /// @param nearby points in a cube twice as wide as the longer reach
 double narrowest_cells(double longer_reach, double nearby);
 

@@ -208,6 +208,27 @@ run 10
         self.assertNotEqual(code, 0)
         self.assertIn("Illegal pair_style command", output)
 
+    def test_computes_that_ask_for_each_pair(self):
+        """lmp_tally has one, as LAMMPS's package TALLY."""
+        each = "compute each all each/pair\nthermo_style custom step temp epair press c_each c_each[*]\nrun 20\n"
+        few = MELT.replace("lj/cut 2.5", "lj/cut 1.2")
+        damped = salt_with("lj/cut/coul/dsf", *STYLES[2][1:])  # whose charges have an energy of their own
+        for name, script in (("cluster pairs", MELT), ("pairs one by one", few), ("charges", damped)):
+            for newton, ranks in (("on", 1), ("on", 2), ("off", 2)):
+                with self.subTest(name, newton=newton, ranks=ranks):
+                    tables = []
+                    for suffix in ("", "suffix dch\n"):
+                        output = run(f"newton {newton}\n{suffix}{script}{each}" + ("dch explain\n" if suffix else ""),
+                                     ranks=ranks, executable=host.tools / "lmp_tally")
+                        tables.append(thermo_tables(output)[-1])
+                    self.assertIn("of 21 times 2 pair by pair, for computes that ask for each pair", output)
+                    for plain, ours in zip(*tables):
+                        shear = ("c_each[4]", "c_each[5]", "c_each[6]")  # which a lattice has none of
+                        for name in shear:
+                            self.assertLess(abs(plain.pop(name) - ours.pop(name)), 1e-9 * abs(plain["c_each[1]"]))
+                        self.assertLess(largest_relative_difference(plain, ours), 1e-9)
+                        self.assertLess(abs(ours["c_each"] - ours["E_pair"]), 1e-9 * abs(ours["E_pair"]))
+
     def test_single_precision_cannot_hold_si_units(self):
         script = """
 include ${load}

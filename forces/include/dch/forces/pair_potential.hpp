@@ -88,6 +88,8 @@ struct alignas(64) PairBatch {
 
 /// A pair potential on cluster pairs, with SIMD kernels for the instruction set in use: of a form, and of a
 /// way in which charges act. As to masks, threads, precision and repeated results it is as LennardJones.
+/// Tallies by particle take 256 bytes a cluster more for each thread and once more; in mixed precision those
+/// of a pair are computed in single precision, and summed up in it within a row of clusters.
 class PairPotential {
  public:
   /// @throws InvalidParameter for numbers that are not finite, negative or asymmetric cutoffs, a form that
@@ -106,15 +108,26 @@ class PairPotential {
                   Span<const double> charges = {});
   LennardJonesSums add_forces_and_sum(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces,
                                       Span<const double> charges = {});
+  /// The same, and for each particle the sums over its pairs, half of each, as LAMMPS divides them.
+  /// @param halves  by particle, added to
+  /// @throws InvalidParameter also if there is not room for one per particle
+  LennardJonesSums add_forces_and_tally(const ClusterPairs& pairs, ForcePrecision precision,
+                                        Span<Vec3> forces, Span<LennardJonesSums> halves,
+                                        Span<const double> charges = {});
   void add_forces(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
                   Span<const double> charges = {}) const;
   LennardJonesSums add_forces_and_sum(const PairList& pairs, Span<const Vec3> positions, const Box& now,
                                       Span<Vec3> forces, Span<const double> charges = {}) const;
+  LennardJonesSums add_forces_and_tally(const PairList& pairs, Span<const Vec3> positions, const Box& now,
+                                        Span<Vec3> forces, Span<LennardJonesSums> halves,
+                                        Span<const double> charges = {}) const;
   /// Pairs with weights, in double precision. Positions, forces and charges are by particle, as many as pairs
   /// name.
   /// @param sums  added to; null if not wanted
+  /// @param halves  by particle, as above; none if not wanted
   void add_weighted(const WeightedPairs& pairs, Span<const Vec3> positions, Span<Vec3> forces,
-                    Span<const double> charges, LennardJonesSums* sums) const;
+                    Span<const double> charges, LennardJonesSums* sums,
+                    Span<LennardJonesSums> halves = {}) const;
   /// Computes the pairs of a batch.
   void compute(PairBatch& pairs, const std::array<double, 4>& weight,
                const std::array<double, 4>& charge_weight) const;
@@ -135,11 +148,12 @@ class PairPotential {
   void check(const Pairs& pairs, std::size_t forces, std::size_t charges) const;
   template <class Real>
   void run(const ClusterPairs& pairs, const Tables<Real>& tables, detail::ClusterScratch<Real>& scratch,
-           Span<Vec3> forces, Span<const double> charges, LennardJonesSums* sums) const;
+           Span<Vec3> forces, Span<const double> charges, LennardJonesSums* sums,
+           Span<LennardJonesSums> halves) const;
   void add(const ClusterPairs& pairs, ForcePrecision precision, Span<Vec3> forces, Span<const double> charges,
-           LennardJonesSums* sums);
+           LennardJonesSums* sums, Span<LennardJonesSums> halves);
   void add(const PairList& pairs, Span<const Vec3> positions, const Box& now, Span<Vec3> forces,
-           Span<const double> charges, LennardJonesSums* sums) const;
+           Span<const double> charges, LennardJonesSums* sums, Span<LennardJonesSums> halves) const;
   template <class Real>
   detail::LjConstants<Real> constants() const;
 

@@ -101,6 +101,14 @@ struct Avx2Float {
     _mm_store_ps(to.y, _mm_sub_ps(_mm_load_ps(to.y), over_j(force.y)));
     _mm_store_ps(to.z, _mm_sub_ps(_mm_load_ps(to.z), over_j(force.z)));
   }
+  /// Sums over slots of I, of registers summed up, are added in double.
+  static void tally_over_i(V a, double* to) {
+    add_in_double(_mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)), to);
+  }
+  static void tally_over_j(const V* registers, double* to) { add_in_double(over_j(registers), to); }
+  static void add_in_double(__m128 a, double* to) {
+    _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_cvtps_pd(a)));
+  }
   static double sum(V a) {
     const __m256d four = _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)),
                                        _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
@@ -182,6 +190,8 @@ struct Avx2Double {
     _mm256_store_pd(to.y, sub(_mm256_load_pd(to.y), over_j(force.y)));
     _mm256_store_pd(to.z, sub(_mm256_load_pd(to.z), over_j(force.z)));
   }
+  static void tally_over_i(V a, double* to) { _mm256_store_pd(to, add(_mm256_load_pd(to), a)); }
+  static void tally_over_j(const V* registers, double* to) { tally_over_i(over_j(registers), to); }
   static double sum(V a) {
     const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));

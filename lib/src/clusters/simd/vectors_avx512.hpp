@@ -130,6 +130,20 @@ struct Avx512Float {
     _mm_store_ps(to.y, _mm_sub_ps(_mm_load_ps(to.y), over_j(force.y[0])));
     _mm_store_ps(to.z, _mm_sub_ps(_mm_load_ps(to.z), over_j(force.z[0])));
   }
+  /// Sums over slots of I, of registers summed up, are added in double.
+  static void tally_over_i(V a, double* to) {
+    const __m256 two = _mm256_add_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1));
+    add_in_double(_mm_add_ps(_mm256_castps256_ps128(two), _mm256_extractf128_ps(two, 1)), to);
+  }
+  static void tally_either(V a, double* first, std::uint32_t of_second, double* second) {
+    const auto bits = static_cast<__mmask16>(of_second);
+    tally_over_i(keep(_knot_mask16(bits), a), first);
+    tally_over_i(keep(bits, a), second);
+  }
+  static void tally_over_j(const V* registers, double* to) { add_in_double(over_j(registers[0]), to); }
+  static void add_in_double(__m128 a, double* to) {
+    _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_cvtps_pd(a)));
+  }
   static double sum(V a) {
     return _mm512_reduce_add_pd(_mm512_add_pd(_mm512_cvtps_pd(_mm512_castps512_ps256(a)),
                                               _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1))));
@@ -214,6 +228,11 @@ struct Avx512Double {
     _mm256_store_pd(to.y, _mm256_sub_pd(_mm256_load_pd(to.y), over_j(force.y)));
     _mm256_store_pd(to.z, _mm256_sub_pd(_mm256_load_pd(to.z), over_j(force.z)));
   }
+  static void add_four(__m256d a, double* to) { _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), a)); }
+  static void tally_over_i(V a, double* to) {
+    add_four(_mm256_add_pd(_mm512_castpd512_pd256(a), _mm512_extractf64x4_pd(a, 1)), to);
+  }
+  static void tally_over_j(const V* registers, double* to) { add_four(over_j(registers), to); }
   static double sum(V a) { return _mm512_reduce_add_pd(a); }
   static std::uint32_t bits(__mmask8 lanes) { return lanes; }
   static void store(double* p, V a) { _mm512_store_pd(p, a); }

@@ -83,6 +83,12 @@ struct NeonFloat {
     store(to.y, sub(load(to.y), over_j(force.y)));
     store(to.z, sub(load(to.z), over_j(force.z)));
   }
+  /// Sums over slots of I, of registers summed up, are added in double.
+  static void tally_over_i(V a, double* to) {
+    vst1q_f64(to, vaddq_f64(vld1q_f64(to), vcvt_f64_f32(vget_low_f32(a))));
+    vst1q_f64(to + 2, vaddq_f64(vld1q_f64(to + 2), vcvt_high_f64_f32(a)));
+  }
+  static void tally_over_j(const V* registers, double* to) { tally_over_i(over_j(registers), to); }
   static double sum(V a) {
     return vaddvq_f64(vaddq_f64(vcvt_f64_f32(vget_low_f32(a)), vcvt_high_f64_f32(a)));
   }
@@ -171,6 +177,8 @@ struct NeonDouble {
     store(to.y, sub(load(to.y), over_j(force.y)));
     store(to.z, sub(load(to.z), over_j(force.z)));
   }
+  static void tally_over_i(V a, double* to) { store(to, add(load(to), a)); }
+  static void tally_over_j(const V* registers, double* to) { tally_over_i(over_j(registers), to); }
   static double sum(V a) { return vaddvq_f64(vaddq_f64(a.low, a.high)); }
   static std::uint32_t bits(Lanes lanes) {
     const uint64x2_t first = {1, 2}, second = {4, 8};

@@ -127,6 +127,13 @@ struct PortableVector {
       to.z[p] -= lanes_sum(force.z[p]);
     }
   }
+  /// Sums over slots of I, of registers summed up, are added in double.
+  static void tally_over_i(const V& a, double* to) {
+    for (int k = 0; k < 4; ++k) to[k] += double{a.lane[k]};
+  }
+  static void tally_over_j(const V* registers, double* to) {
+    for (int p = 0; p < 4; ++p) to[p] += double{lanes_sum(registers[p])};
+  }
   static double sum(const V& a) {
     return (double{a.lane[0]} + double{a.lane[1]}) + (double{a.lane[2]} + double{a.lane[3]});
   }

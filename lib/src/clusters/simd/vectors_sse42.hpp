@@ -83,6 +83,12 @@ struct SseFloat {
     _mm_store_ps(to.y, sub(_mm_load_ps(to.y), over_j(force.y)));
     _mm_store_ps(to.z, sub(_mm_load_ps(to.z), over_j(force.z)));
   }
+  /// Sums over slots of I, of registers summed up, are added in double.
+  static void tally_over_i(V a, double* to) {
+    _mm_store_pd(to, _mm_add_pd(_mm_load_pd(to), _mm_cvtps_pd(a)));
+    _mm_store_pd(to + 2, _mm_add_pd(_mm_load_pd(to + 2), _mm_cvtps_pd(_mm_movehl_ps(a, a))));
+  }
+  static void tally_over_j(const V* registers, double* to) { tally_over_i(over_j(registers), to); }
   static double sum(V a) {
     const __m128d two = _mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a)));
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
@@ -165,6 +171,8 @@ struct SseDouble {
     store(to.y, sub(load(to.y), over_j(force.y)));
     store(to.z, sub(load(to.z), over_j(force.z)));
   }
+  static void tally_over_i(V a, double* to) { store(to, add(load(to), a)); }
+  static void tally_over_j(const V* registers, double* to) { tally_over_i(over_j(registers), to); }
   static double sum(V a) {
     const __m128d two = _mm_add_pd(a.low, a.high);
     return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
