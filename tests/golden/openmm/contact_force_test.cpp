@@ -76,7 +76,7 @@ TEST_P(ContactForceTest, IsTheSlopeOfTheEnergy) {
   for (const auto function : kEnergyFunctions) {
     tangle.force->setEnergyFunction(function);
     Host host(tangle.system, GetParam());
-    const auto [energy, forces] = host.evaluate(tangle.positions);
+    const Evaluation found = host.evaluate(tangle.positions);
     std::vector<Vec3> moved = tangle.positions;
     for (std::size_t i = 0; i < moved.size(); i += 3)
       for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +87,8 @@ TEST_P(ContactForceTest, IsTheSlopeOfTheEnergy) {
         const double slope = (ahead - host.evaluate(moved).energy) / (2 * kStep);
         moved[i][axis] = at;
         // The last term is the rounding of the energy over the step.
-        EXPECT_NEAR(forces[i][axis], -slope, 1e-5 * std::max(1.0, std::abs(slope)) + 1e-15 / kStep * energy)
+        EXPECT_NEAR(found.forces[i][axis], -slope,
+                    1e-5 * std::max(1.0, std::abs(slope)) + 1e-15 / kStep * found.energy)
             << "function " << function << ", particle " << i << ", axis " << axis;
       }
   }
