@@ -87,7 +87,7 @@ TEST(PairTallies, OfClusterPairsAreHalvesOfAllPairs) {
     PairPotential potential(one.params);
     for (const ClusterPairs::EntryOrder order :
          {ClusterPairs::EntryOrder::as_found, ClusterPairs::EntryOrder::by_halves,
-          ClusterPairs::EntryOrder::joined}) {
+          ClusterPairs::EntryOrder::by_image_and_halves, ClusterPairs::EntryOrder::joined}) {
       ClusterPairs pairs;
       hierarchy.cluster_pairs(request_of(one, scene), pairs);
       pairs.refreshes_before = 100;
