@@ -21,6 +21,7 @@ namespace {
 
 // Of the largest cutoff. LAMMPS warns of a cutoff of ghosts that is 0.
 constexpr double kHardlyAny = 1e-9;
+
 }  // namespace
 
 std::string NeighborDCH::reader_of_ghosts() const {

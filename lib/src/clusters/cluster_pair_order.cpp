@@ -103,7 +103,7 @@ class RowOrderer {
     return same;
   }
 
-  /// Puts entries [begin, end) in order.
+  /// Puts entries [begin, end), of one image if rows are cut by image, in order; so does the next.
   void put_by_halves(ClusterPairs::Entry* begin, ClusterPairs::Entry* end) {
     const detail::EntryHalves found = kernels_.split(begin, static_cast<std::int32_t>(end - begin),
                                                      {both_.data(), lower_.data(), upper_.data()});

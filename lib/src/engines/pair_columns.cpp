@@ -23,7 +23,8 @@ bool wants_geometry(const PairColumns& c) {
          c.single_distance != nullptr || c.single_displacement != nullptr;
 }
 
-/// Particles in a part, so that places for each of them in each part are not more than pairs.
+/// How many parts rows are cut into: so few that places for each particle in each part are not more than
+/// pairs.
 int parts_for(Executor* executor, std::int64_t pairs, std::size_t particles) {
   const int threads = executor != nullptr ? executor->threads() : 1;
   const std::int64_t most = 1 + pairs / static_cast<std::int64_t>(1 + particles);
