@@ -82,8 +82,8 @@ struct WaveLoops {
     }
   };
 
-  static V times(V a, V b, V c, V d) { return S::madd(a, b, S::mul(c, d)); }
-  static void add(double* to, V what) { S::store(to, S::add(S::load(to), what)); }
+  static V times(const V& a, const V& b, const V& c, const V& d) { return S::madd(a, b, S::mul(c, d)); }
+  static void add(double* to, const V& what) { S::store(to, S::add(S::load(to), what)); }
 
   DCH_FLATTEN static void slopes(const WaveTask& task, const double* factors, const double length[2],
                                  double (*slope)[kWaveBlock]) {

@@ -1,23 +1,49 @@
 // SPDX-License-Identifier: MIT
 //
-// Vectors as arrays, for any processor. See cluster_loops.hpp.
+// Vectors of the compiler's own, for any processor. See cluster_loops.hpp.
 #pragma once
+
+#include <cstring>
 
 #include "clusters/simd/cluster_loops.hpp"
 
 namespace dch::detail {
 namespace {
 
-/// Four lanes in an array: the slots of cluster J, with slot p of cluster I.
+template <class Number>
+struct FourLanes;
+template <>
+struct FourLanes<float> {
+  float lane __attribute__((vector_size(16)));
+};
+template <>
+struct FourLanes<double> {
+  double lane __attribute__((vector_size(32)));
+};
+template <>
+struct FourLanes<std::int32_t> {
+  std::int32_t lane __attribute__((vector_size(16)));
+};
+template <>
+struct FourLanes<std::int64_t> {
+  std::int64_t lane __attribute__((vector_size(32)));
+};
+template <>
+struct FourLanes<std::uint32_t> {
+  std::uint32_t lane __attribute__((vector_size(16)));  // which wrap
+};
+
+template <class Integer>
+constexpr FourLanes<Integer> kBits{{1, 2, 4, 8}};
+
+/// Four lanes: the slots of cluster J, with slot p of cluster I.
 template <class Real_>
 struct PortableVector {
   using Real = Real_;
-  struct V {
-    Real lane[4];
-  };
-  struct Units {
-    std::int32_t lane[4];
-  };
+  using V = FourLanes<Real>;
+  using Units = FourLanes<std::uint32_t>;
+  using Integer = std::conditional_t<std::is_same_v<Real, float>, std::int32_t, std::int64_t>;
+  using Lanes = FourLanes<Integer>;  // -1 where something acts
   using Where = std::conditional_t<std::is_same_v<Real, float>, Units, V>;
   struct Cluster {
     Where x, y, z;
@@ -26,28 +52,18 @@ struct PortableVector {
 
   template <class F>
   static V each(const F& f) {
-    return {{f(0), f(1), f(2), f(3)}};
+    return V{{f(0), f(1), f(2), f(3)}};
   }
-  static V zero() { return {}; }
-  static V set1(Real v) { return {{v, v, v, v}}; }
-  static V load(const Real* p) { return {{p[0], p[1], p[2], p[3]}}; }
-  static V add(const V& a, const V& b) {
-    return each([&](int k) { return a.lane[k] + b.lane[k]; });
-  }
-  static V sub(const V& a, const V& b) {
-    return each([&](int k) { return a.lane[k] - b.lane[k]; });
-  }
-  static V mul(const V& a, const V& b) {
-    return each([&](int k) { return a.lane[k] * b.lane[k]; });
-  }
-  static V max(const V& a, const V& b) {
-    return each([&](int k) { return a.lane[k] > b.lane[k] ? a.lane[k] : b.lane[k]; });
-  }
-  static V madd(const V& a, const V& b, const V& c) { return add(mul(a, b), c); }
-  static V msub(const V& a, const V& b, const V& c) { return sub(mul(a, b), c); }
-  static V inverse(const V& a) {
-    return each([&](int k) { return 1 / a.lane[k]; });
-  }
+  static V zero() { return V{}; }
+  static V set1(Real v) { return V{{v, v, v, v}}; }
+  static V load(const Real* p) { return V{{p[0], p[1], p[2], p[3]}}; }
+  static V add(const V& a, const V& b) { return V{a.lane + b.lane}; }
+  static V sub(const V& a, const V& b) { return V{a.lane - b.lane}; }
+  static V mul(const V& a, const V& b) { return V{a.lane * b.lane}; }
+  static V max(const V& a, const V& b) { return V{a.lane > b.lane ? a.lane : b.lane}; }
+  static V madd(const V& a, const V& b, const V& c) { return V{a.lane * b.lane + c.lane}; }
+  static V msub(const V& a, const V& b, const V& c) { return V{a.lane * b.lane - c.lane}; }
+  static V inverse(const V& a) { return V{1 / a.lane}; }
   static float root(float a) { return __builtin_sqrtf(a); }
   static double root(double a) { return __builtin_sqrt(a); }
   static V over_root(const V&, const V& s) {
@@ -61,35 +77,29 @@ struct PortableVector {
     for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] <= b.lane[k]) << k;
     return bits;
   }
-  static std::uint32_t less(const V& a, const V& b, std::uint32_t mask, int which) {
-    std::uint32_t bits = 0;
-    for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(a.lane[k] < b.lane[k]) << k;
-    return bits & mask >> (4 * which);
+  static Lanes less(const V& a, const V& b, std::uint32_t mask, int which) {
+    const Integer of_register = static_cast<Integer>(mask >> (4 * which));
+    return Lanes{(a.lane < b.lane) & ((kBits<Integer>.lane & of_register) != 0)};
   }
-  static V keep(std::uint32_t lanes, const V& a) {
-    return each([&](int k) { return (lanes >> k & 1) != 0 ? a.lane[k] : Real{0}; });
-  }
+  static V keep(const Lanes& lanes, const V& a) { return V{lanes.lane ? a.lane : zero().lane}; }
   static V spread(const Real* four, int which) { return set1(four[which]); }
   static V repeat(const Real* four) { return load(four); }
   static Units spread(const std::int32_t* four, int which) {
-    return {{four[which], four[which], four[which], four[which]}};
+    return Units{Units{}.lane + static_cast<std::uint32_t>(four[which])};
   }
-  static std::int32_t wrapped(std::uint32_t v) { return static_cast<std::int32_t>(v); }
-  static Units load_units(const std::int32_t* four) { return {{four[0], four[1], four[2], four[3]}}; }
-  static Units plus(Units a, std::uint32_t shift) {
-    for (std::int32_t& lane : a.lane) lane = wrapped(static_cast<std::uint32_t>(lane) + shift);
-    return a;
+  static Units load_units(const std::int32_t* four) {
+    Units units;
+    std::memcpy(&units, four, sizeof units);
+    return units;
   }
   static V difference(const V& a, const V& b) { return sub(a, b); }
   static V difference(const Units& a, const Units& b) {
-    return each([&](int k) {
-      return static_cast<Real>(
-          wrapped(static_cast<std::uint32_t>(a.lane[k]) - static_cast<std::uint32_t>(b.lane[k])));
-    });
+    const Units d{a.lane - b.lane};
+    return each([&](int k) { return static_cast<Real>(static_cast<std::int32_t>(d.lane[k])); });
   }
   static Cluster load_cluster(const ClusterUnits& at, const ClusterShift<float>& shift) {
     const auto moved = [&](const std::int32_t* four, int axis) {
-      return plus(load_units(four), static_cast<std::uint32_t>(shift.axis[axis]));
+      return Units{load_units(four).lane + static_cast<std::uint32_t>(shift.axis[axis])};
     };
     return {moved(at.x, 0), moved(at.y, 1), moved(at.z, 2)};
   }
@@ -98,7 +108,7 @@ struct PortableVector {
     return {load_units(at.x), load_units(at.y), load_units(at.z)};
   }
   static Units less_shift(const Units& a, std::int32_t shift) {
-    return plus(a, 0u - static_cast<std::uint32_t>(shift));
+    return Units{a.lane - static_cast<std::uint32_t>(shift)};
   }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {
     const ClusterOfFour<double>& by = shift.whole;
@@ -137,7 +147,11 @@ struct PortableVector {
   static double sum(const V& a) {
     return (double{a.lane[0]} + double{a.lane[1]}) + (double{a.lane[2]} + double{a.lane[3]});
   }
-  static std::uint32_t bits(std::uint32_t lanes) { return lanes; }
+  static std::uint32_t bits(const Lanes& lanes) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 4; ++k) bits |= static_cast<std::uint32_t>(lanes.lane[k] & 1) << k;
+    return bits;
+  }
   static void store(Real* p, const V& a) {
     for (int k = 0; k < 4; ++k) p[k] = a.lane[k];
   }
