@@ -5,6 +5,7 @@ chains of two types with bonds and angles, command lines as they are but for few
 
 import re
 import shlex
+import shutil
 import unittest
 from pathlib import Path
 
@@ -84,19 +85,33 @@ class Manual(unittest.TestCase):
         write_chains(host.work / "chains.data")
         self.check(*host.run_text(CHAINS + block + RUN, executable=program), plain)
 
+    def write_scripts(self):
+        """Those that command lines name, with the systems that they read."""
+        for name in ("in.melt", "in.crossing"):
+            (host.work / name).write_text(f"include {host.loader}\n" + (EXAMPLES / name).read_text())
+        for name in ("in.chain", "in.colloid", "in.granular"):
+            shutil.copy(EXAMPLES / name, host.work)
+        peptide = host.variables["examples"] / "peptide"
+        shutil.copy(peptide / "data.peptide", host.work)
+        script, shortened = re.subn(r"^run\s+300$", "run 4", (peptide / "in.peptide").read_text(), flags=re.MULTILINE)
+        self.assertEqual(shortened, 1)
+        (host.work / "in.peptide").write_text(script.replace("multi\n", "one\n"))  # a table for thermo_tables
+        for name in ("data.chain", "chain.data"):
+            write_chains(host.work / name, types=1, has_angles=False)
+
     def run_line(self, line):
         words = shlex.split(line, comments=True)
         while words[0] == "mpirun":
             ranks, words = words[2], words[3:]
             words = [host.mpirun, "--allow-run-as-root", "--oversubscribe", "-np", ranks, *words]
-        programs = {"lmp": host.lmp, "lmp-dch": host.lmp_dch}
+        programs = {"lmp": host.lmp, "lmp-dch": host.lmp_dch, "/usr/local/share/dch/lammps/dch.lmp": host.loader}
         words = [str(programs.get(word, word)) for word in words]
         if "steps" in words:
             words[words.index("steps") + 1] = "4"
-        more = [] if "in.crossing" in words else ["-var", "cells", "6", "-var", "steps", "4"]
-        for name in ("in.melt", "in.crossing"):
-            (host.work / name).write_text(f"include {host.loader}\n" + (EXAMPLES / name).read_text())
-        write_chains(host.work / "data.chain", types=1, has_angles=False)
+        more = [] if "in.crossing" in words else ["-var", "steps", "4"]
+        if "in.melt" in words:
+            more += ["-var", "cells", "6"]
+        self.write_scripts()
         self.check(*host.run(1, [*words, *more]), line)
 
 
