@@ -6,8 +6,8 @@
 #include "simd/lj_entry_loops.hpp"
 
 /// Forces inlining: a call inside of a loop would spill every register, and compilers make calls of functions
-/// that have two callers. Sanitizers, SSE4.2, which few processors are left with, and the portable set, with
-/// arrays for registers, do without: inlining would take them minutes to compile.
+/// that have two callers. Sanitizers do without, and so do SSE4.2, which few processors are left with, and
+/// the portable set: inlining would take them minutes to compile.
 #if (defined(__AVX2__) || defined(DCH_NEON_SET)) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define DCH_FLATTEN [[gnu::flatten]]

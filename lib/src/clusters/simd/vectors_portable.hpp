@@ -10,6 +10,7 @@
 namespace dch::detail {
 namespace {
 
+/// Four numbers in a vector. A template has to name the type that it returns: GCC 12 refuses braces alone.
 template <class Number>
 struct FourLanes;
 template <>
@@ -33,6 +34,7 @@ struct FourLanes<std::uint32_t> {
   std::uint32_t lane __attribute__((vector_size(16)));  // which wrap
 };
 
+/// The bit of each lane in a mask.
 template <class Integer>
 constexpr FourLanes<Integer> kBits{{1, 2, 4, 8}};
 
