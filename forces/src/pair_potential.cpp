@@ -29,12 +29,26 @@ void check_cutoff(const std::string& what, double cutoff) {
   if (!(std::isfinite(cutoff) && cutoff >= 0)) refuse(what, cutoff, "finite and not negative");
 }
 
-/// The numbers of CharmmForm: of a switch between two distances.
-std::array<double, 4> way_between(double from, double to) {
+/// The numbers of a switch between two distances: of CharmmForm, and of SwitchedCharges.
+std::array<double, 3> way_between(double from, double to) {
   if (!(from >= 0 && from < to))
     refuse("switch's beginning", from, "at least 0 and below the cutoff " + detail::describe(to));
   const double width = to * to - from * from;
-  return {from * from, to * to, 1 / (width * width * width), 0};
+  return {from * from, to * to, 1 / (width * width * width)};
+}
+
+/// The same, and those that CharmmForceForm has besides.
+std::array<double, 7> ways_between(double from, double to) {
+  const std::array<double, 3> way = way_between(from, to);
+  const double from3 = from * from * from, to3 = to * to * to, ratio3 = from3 / to3;
+  // Of pairs within a switch that begins so near 0 the last number would not show, and it could overflow.
+  return {way[0],
+          way[1],
+          way[2],
+          1 / to3,
+          1 / (1 - ratio3 * ratio3),
+          1 / (1 - ratio3),
+          from > 1e-6 * to ? 1 / (from3 * to3) : 0};
 }
 
 }  // namespace
@@ -69,13 +83,13 @@ PairPotential::PairPotential(const PairPotentialParams& params) : params_(params
 void PairPotential::take_way() {
   if (!std::isfinite(params_.of_all)) refuse("number for all pairs", params_.of_all, "finite");
   of_form_[0] = params_.of_all;
-  if (params_.form != PairForm::charmm) return;
+  if (params_.form != PairForm::charmm && params_.form != PairForm::charmm_force) return;
   double cutoff = 0;
   for (const FormPair& pair : params_.pairs) cutoff = std::max(cutoff, pair.cutoff);
   for (const FormPair& pair : params_.pairs)
     if (pair.cutoff != 0 && pair.cutoff != cutoff)
       refuse("cutoff", pair.cutoff, "0 or the same for all pairs where they are switched off");
-  if (cutoff > 0) of_form_ = way_between(params_.of_all, cutoff);
+  if (cutoff > 0) of_form_ = ways_between(params_.of_all, cutoff);
 }
 
 void PairPotential::take_charges() {
@@ -99,7 +113,7 @@ void PairPotential::take_charges() {
   const double force =
       -(std::erfc(x) / (cutoff * cutoff) + 2 / root_pi * params_.splitting * std::exp(-x * x) / cutoff);
   const double energy = std::erfc(x) / cutoff - force * cutoff;
-  of_charges_ = {force, energy, 0, 0};
+  of_charges_ = {force, energy, 0};
   self_energy_ = -(energy / 2 + params_.splitting / root_pi) * params_.constant;
 }
 
@@ -181,10 +195,8 @@ template <class Real>
 detail::LjConstants<Real> PairPotential::constants() const {
   detail::LjConstants<Real> all;
   all.splitting = static_cast<Real>(params_.splitting);
-  for (std::size_t n = 0; n < 4; ++n) {
-    all.of_form[n] = static_cast<Real>(of_form_[n]);
-    all.of_charges[n] = static_cast<Real>(of_charges_[n]);
-  }
+  for (std::size_t n = 0; n < of_form_.size(); ++n) all.of_form[n] = static_cast<Real>(of_form_[n]);
+  for (std::size_t n = 0; n < of_charges_.size(); ++n) all.of_charges[n] = static_cast<Real>(of_charges_[n]);
   return all;
 }
 

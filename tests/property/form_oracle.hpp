@@ -40,12 +40,27 @@ inline Dual lennard_jones(const std::array<double, 3>& n, Dual r) {
   return 4 * n[0] * (s6 * s6 - s6);
 }
 
+constexpr bool is_switched(PairForm form) {
+  return form == PairForm::charmm || form == PairForm::charmm_force;
+}
+
 /// 1 up to `from`, 0 at `to`.
 inline Dual switched(Dual r, double from, double to) {
   if (r.value < from) return 1;
   const double f = from * from, t = to * to;
   const Dual x = r * r, left = t - x;
   return left * left * (t + 2 * x - 3 * f) / ((t - f) * (t - f) * (t - f));
+}
+
+/// Energy of Lennard-Jones whose terms 1/r^2n, n = 6 and 3, end at `to` with slope 0.
+inline double force_switched(const std::array<double, 3>& n, double r, double from, double to) {
+  const auto term = [&](int power) {
+    const double at_r = std::pow(r, -power), end = std::pow(to, -power);
+    if (r < from) return at_r * at_r - std::pow(from, -power) * end;
+    return (at_r - end) * (at_r - end) / (1 - std::pow(from / to, power));
+  };
+  const double sigma6 = std::pow(n[1], 6);
+  return 4 * n[0] * sigma6 * (sigma6 * term(6) - term(3));
 }
 
 inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair, Dual r) {
@@ -56,6 +71,9 @@ inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair,
       return lennard_jones(n, r);
     case PairForm::charmm:
       return lennard_jones(n, r) * switched(r, all.of_all, pair.cutoff);
+    case PairForm::charmm_force:
+      return {force_switched(n, r.value, all.of_all, pair.cutoff),
+              lennard_jones(n, r).slope * switched(r, all.of_all, pair.cutoff).value};
     case PairForm::expanded:
       return lennard_jones(n, r - n[2]);
     case PairForm::buckingham:
@@ -138,7 +156,7 @@ inline void add(const PairPotentialParams& all, const Scene& scene, std::size_t 
   Dual own = 0, charged = 0;
   if (r.value < pair.cutoff) {
     own = energy_of_form(all, pair, r);
-    if (all.shifted && all.form != PairForm::charmm && all.form != PairForm::soft)
+    if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft)
       own = own - energy_of_form(all, pair, {pair.cutoff, 1}).value;
     own = weights.own * own;
   }
@@ -182,8 +200,8 @@ inline PairPotentialParams params(PairForm form, ChargeForm charges, int types, 
     for (int b = 0; b < types; ++b) {
       FormPair pair = first;
       pair.numbers[0] *= std::sqrt((1 + 0.1 * a) * (1 + 0.1 * b));
-      if (form == PairForm::lennard_jones || form == PairForm::charmm) pair.numbers[1] -= 0.01 * (a + b);
-      if (form != PairForm::charmm) pair.cutoff -= 0.05 * (a + b);
+      if (form == PairForm::lennard_jones || is_switched(form)) pair.numbers[1] -= 0.01 * (a + b);
+      if (!is_switched(form)) pair.cutoff -= 0.05 * (a + b);
       all.pairs.push_back(pair);
     }
   return all;
@@ -209,6 +227,14 @@ inline std::vector<Case> cases() {
   take("CHARMM, mixed by particle", F::charmm, C::ewald, 6, {{1, 1, 0}, 2.4, 2.2}, 1.7);
   take("CHARMM, switched charges", F::charmm, C::switched, 2, {{1, 1, 0}, 2.2, 2.4}, 1.7);
   take("CHARMM, switched charges, mixed", F::charmm, C::switched, 6, {{1, 1, 0}, 2.2, 2.4}, 1.7);
+  take("CHARMM, forces switched", F::charmm_force, C::ewald, 2, {{1, 1, 0}, 2.2, 2.4}, 1.7);
+  take("CHARMM, forces switched, mixed", F::charmm_force, C::ewald, 6, {{1, 1, 0}, 2.4, 2.2}, 1.7);
+  take("CHARMM, forces switched from 0 on", F::charmm_force, C::ewald, 2, {{1, 1, 0}, 2.2, 2.4}, 0);
+  for (const int types : {2, 6}) {
+    take("CHARMM, forces switched, no charges act", F::charmm_force, C::ewald, types, {{1, 1, 0}, 2.2, 0},
+         1.7);
+    all.back().limit = kExact;
+  }
   take("expanded", F::expanded, C::none, 2, {{1, 0.8, 0.2}, 2.4, 0});
   take("Buckingham", F::buckingham, C::none, 2, {{400, 0.2, 1}, 2.4, 0});
   take("Buckingham, Ewald", F::buckingham, C::ewald, 2, {{400, 0.2, 1}, 2.3, 2.4});

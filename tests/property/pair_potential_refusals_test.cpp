@@ -54,6 +54,10 @@ TEST(PairPotential, WrongNumbersAreRefused) {
   expect_refused(changed(F::charmm, C::ewald, [](auto& p) { p.pairs[3].cutoff = 2; }),
                  "the same for all pairs");
   expect_refused(changed(F::charmm, C::ewald, [](auto& p) { p.of_all = 2.2; }), "switch's beginning");
+  expect_refused(changed(F::charmm_force, C::ewald, [](auto& p) { p.of_all = 2.2; }), "switch's beginning");
+  expect_refused(changed(F::charmm_force, C::ewald, [](auto& p) { p.pairs[3].cutoff = 2; }),
+                 "the same for all pairs");
+  expect_refused(changed(F::charmm_force, C::none, [](auto&) {}), "do not go together");
   expect_refused(changed(F::charmm, C::switched, [](auto& p) { p.switch_from = 2.4; }), "switch's beginning");
   expect_refused(changed(F::charmm, C::switched, [](auto& p) { p.pairs[3].charge_cutoff = 2; }),
                  "for charges that end so");

@@ -89,27 +89,29 @@ constexpr FormKernels::OfStyle style_kernels() {
 
 /// In the order of PairForm and ChargeForm.
 template <class F, class D>
-constexpr FormKernels form_kernels_of{{{style_kernels<F, D, LennardJonesForm, NoCharges, true>(),
-                                        style_kernels<F, D, LennardJonesForm, BareCharges>(),
-                                        style_kernels<F, D, LennardJonesForm, EwaldCharges>(),
-                                        style_kernels<F, D, LennardJonesForm, DampedShiftedCharges>(),
-                                        {}},
-                                       {{},
-                                        {},
-                                        style_kernels<F, D, CharmmForm, EwaldCharges, false, true>(),
-                                        {},
-                                        style_kernels<F, D, CharmmForm, SwitchedCharges, false, true>()},
-                                       {style_kernels<F, D, ExpandedForm, NoCharges>(), {}, {}, {}, {}},
-                                       {style_kernels<F, D, BuckinghamForm, NoCharges>(),
-                                        {},
-                                        style_kernels<F, D, BuckinghamForm, EwaldCharges>(),
-                                        {},
-                                        {}},
-                                       {style_kernels<F, D, MorseForm, NoCharges>(), {}, {}, {}, {}},
-                                       {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
-                                       {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}}},
-                                      kWantsLanes<F>,
-                                      kWantsLanes<D>};
+constexpr FormKernels form_kernels_of{
+    {{style_kernels<F, D, LennardJonesForm, NoCharges, true>(),
+      style_kernels<F, D, LennardJonesForm, BareCharges>(),
+      style_kernels<F, D, LennardJonesForm, EwaldCharges>(),
+      style_kernels<F, D, LennardJonesForm, DampedShiftedCharges>(),
+      {}},
+     {{},
+      {},
+      style_kernels<F, D, CharmmForm, EwaldCharges, false, true>(),
+      {},
+      style_kernels<F, D, CharmmForm, SwitchedCharges, false, true>()},
+     {{}, {}, style_kernels<F, D, CharmmForceForm, EwaldCharges, false, true>(), {}, {}},
+     {style_kernels<F, D, ExpandedForm, NoCharges>(), {}, {}, {}, {}},
+     {style_kernels<F, D, BuckinghamForm, NoCharges>(),
+      {},
+      style_kernels<F, D, BuckinghamForm, EwaldCharges>(),
+      {},
+      {}},
+     {style_kernels<F, D, MorseForm, NoCharges>(), {}, {}, {}, {}},
+     {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
+     {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}}},
+    kWantsLanes<F>,
+    kWantsLanes<D>};
 
 }  // namespace
 }  // namespace dch::detail

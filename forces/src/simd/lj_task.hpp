@@ -79,8 +79,8 @@ inline constexpr std::ptrdiff_t kTalliedOfCluster = 4 * kTallied;
 template <class Real>
 inline constexpr int kEwaldTerms = sizeof(Real) == 4 ? 14 : 26;
 
-/// How many numbers a form of PairPotential, or of its charges, may have for all pairs.
-inline constexpr int kNumbersOfForm = 4;
+/// How many numbers a form of PairPotential, and its charges, may have for all pairs.
+inline constexpr int kNumbersOfForm = 7, kNumbersOfCharges = 3;
 /// Squared distances below this are taken for it, where pairs at no distance act: its inverse is finite.
 template <class Real>
 inline constexpr Real kNearZero = sizeof(Real) == 4 ? Real(0x1p-100) : Real(0x1p-900);
@@ -93,10 +93,11 @@ struct LjConstants {
   Real switch_from = 0, over_width = 0;  ///< where the switch begins; 1 / (cutoff - that)
   Real series_scale = 0;                 ///< EwaldSeries has powers of r^2 times this, less 1 [1/length^2]
   Real ewald_force[kEwaldTerms<Real>]{}, ewald_energy[kEwaldTerms<Real>]{};
-  Real dispersion_force[kEwaldTerms<Real>]{};                    ///< a DispersionSeries
-  Real dispersion_energy[kEwaldTerms<Real>]{};                   ///< the same, less its value at the cutoff
-  Real over_cutoff2 = 0;                                         ///< with dispersion [1/length^2]
-  Real of_form[kNumbersOfForm]{}, of_charges[kNumbersOfForm]{};  ///< what PairPotential's forms make of them
+  Real dispersion_force[kEwaldTerms<Real>]{};   ///< a DispersionSeries
+  Real dispersion_energy[kEwaldTerms<Real>]{};  ///< the same, less its value at the cutoff
+  Real over_cutoff2 = 0;                        ///< with dispersion [1/length^2]
+  /// Of a form of PairPotential, and of its charges.
+  Real of_form[kNumbersOfForm]{}, of_charges[kNumbersOfCharges]{};
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.

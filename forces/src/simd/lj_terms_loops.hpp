@@ -73,13 +73,11 @@ struct Constants {
         series_scale(S::set1(c.series_scale)),
         over_cutoff2(S::set1(c.over_cutoff2)),
         series(&c) {
-    for (int k = 0; k < kNumbersOfForm; ++k) {
-      of_form[k] = S::set1(c.of_form[k]);
-      of_charges[k] = S::set1(c.of_charges[k]);
-    }
+    for (int k = 0; k < kNumbersOfForm; ++k) of_form[k] = S::set1(c.of_form[k]);
+    for (int k = 0; k < kNumbersOfCharges; ++k) of_charges[k] = S::set1(c.of_charges[k]);
   }
   typename S::V unit, unit2, splitting, quadratic, offset, switch_from, over_width, series_scale,
-      over_cutoff2, of_form[kNumbersOfForm], of_charges[kNumbersOfForm];
+      over_cutoff2, of_form[kNumbersOfForm], of_charges[kNumbersOfCharges];
   const LjConstants<typename S::Real>* series;
 };
 

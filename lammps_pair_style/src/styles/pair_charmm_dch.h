@@ -3,6 +3,7 @@
 // clang-format off
 PairStyle(lj/charmm/coul/long/dch,PairLJCharmmCoulLongDCH);
 PairStyle(lj/charmm/coul/charmm/dch,PairLJCharmmCoulCharmmDCH);
+PairStyle(lj/charmmfsw/coul/long/dch,PairLJCharmmfswCoulLongDCH);
 // clang-format on
 #elif !defined(LMP_PAIR_CHARMM_DCH_H)
 #define LMP_PAIR_CHARMM_DCH_H
@@ -16,7 +17,11 @@ namespace LAMMPS_NS {
 class PairLJCharmmCoulLongDCH : public PairDCH {
  public:
   explicit PairLJCharmmCoulLongDCH(LAMMPS* lammps)
-      : PairDCH(lammps, {"lj/charmm/coul/long", dch::PairForm::charmm, dch::ChargeForm::ewald, 4}) {}
+      : PairLJCharmmCoulLongDCH(lammps, "lj/charmm/coul/long", dch::PairForm::charmm) {}
+
+ protected:
+  PairLJCharmmCoulLongDCH(LAMMPS* lammps, const char* plain, dch::PairForm form)
+      : PairDCH(lammps, {plain, form, dch::ChargeForm::ewald, 4}) {}
 
  private:
   void take_all(const double* all, dch::PairPotentialParams& params) const override {
@@ -27,6 +32,13 @@ class PairLJCharmmCoulLongDCH : public PairDCH {
     pair.cutoff = all[1];
     pair.charge_cutoff = all[2];
   }
+};
+
+/// lj/charmmfsw/coul/long/dch, with the same numbers
+class PairLJCharmmfswCoulLongDCH : public PairLJCharmmCoulLongDCH {
+ public:
+  explicit PairLJCharmmfswCoulLongDCH(LAMMPS* lammps)
+      : PairLJCharmmCoulLongDCH(lammps, "lj/charmmfsw/coul/long", dch::PairForm::charmm_force) {}
 };
 
 /// lj/charmm/coul/charmm/dch

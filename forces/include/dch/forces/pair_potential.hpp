@@ -29,6 +29,8 @@ enum class PairForm {
   lennard_jones,  ///< 4 epsilon ((sigma/r)^12 - (sigma/r)^6): epsilon, sigma
   charmm,         ///< the same times (c^2 - r^2)^2 (c^2 + 2 r^2 - 3 f^2) / (c^2 - f^2)^3 where r exceeds f:
                   ///< epsilon, sigma; for all f; c is the cutoff, the same for all
+  charmm_force,   ///< lennard_jones whose force is multiplied by that factor, and another energy, of which it
+                  ///< is not the slope, as in LAMMPS's lj/charmmfsw: epsilon, sigma; for all f
   expanded,       ///< lennard_jones at r - delta: epsilon, sigma, delta
   buckingham,     ///< a e^(-r/rho) - c / r^6: a, rho, c
   morse,          ///< d (e^(-2 alpha (r - r0)) - 2 e^(-alpha (r - r0))): d, alpha, r0
@@ -160,7 +162,8 @@ class PairPotential {
   PairPotentialParams params_;
   double largest_cutoff_ = 0, self_energy_ = 0, charge_unit_ = 1;
   bool fits_single_ = true;
-  std::array<double, 4> of_form_{}, of_charges_{};
+  std::array<double, 7> of_form_{};
+  std::array<double, 3> of_charges_{};
   /// Numbers of types of which pairs are mixed (LennardJonesParticle); empty unless they are, and tables
   /// would not fit into registers.
   std::vector<double> half_sigma_, root_epsilon_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// 4 epsilon ((sigma/r)^12 - (sigma/r)^6), plain, at a distance from a surface, and switched off; see
-// style.hpp.
+// 4 epsilon ((sigma/r)^12 - (sigma/r)^6), plain, at a distance from a surface, and switched off in two ways;
+// see style.hpp.
 #pragma once
 
 #include "simd/forms/style.hpp"
@@ -96,7 +96,7 @@ struct CharmmForm {
     return S::mul(S::mul(S::set1(typename S::Real(12)), rest), S::sub(r2, way[0]));
   }
 
- private:
+ protected:
   template <class S, class Coefficients>
   static FormTerms<S> plain(const Coefficients& coefficient, int p, const PairDistance<S>& at) {
     using V = typename S::V;
@@ -111,6 +111,37 @@ struct CharmmForm {
       const V slope = S::msub(S::set1(Real(12)), repulsion, S::mul(S::set1(Real(6)), attraction));
       return {S::mul(S::mul(s3, at.s), slope), S::mul(s3, S::sub(repulsion, attraction))};
     }
+  }
+};
+
+/// The same two. As in LAMMPS the force is that of Lennard-Jones times the factor, and the energy that of
+/// another way to switch forces off, of which it is not the slope: beyond f, where that begins, the term
+/// 1/r^2n is (1/r^n - 1/c^n)^2 / (1 - (f/c)^n), which ends at the cutoff c with slope 0, and within f it is
+/// 1/r^2n - 1/(f c)^n (Steinbach and Brooks, J. Comput. Chem. 15:667, 1994). Of the form's numbers there are
+/// four more: 1/c^3, 1 / (1 - (f/c)^6), 1 / (1 - (f/c)^3) and 1/(f c)^3.
+struct CharmmForceForm : CharmmForm {
+  template <class S, class Coefficients>
+  static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
+                            const Constants<S>& constants) {
+    using V = typename S::V;
+    const V* const way = constants.of_form;
+    const FormTerms<S> whole = plain<S>(coefficient, p, at);
+    V repulsion, attraction;
+    if constexpr (Coefficients::kMixes) {
+      const V sigma = coefficient.sigma(p), sigma2 = S::mul(sigma, sigma);
+      const V sigma6 = S::mul(S::mul(sigma2, sigma2), sigma2);
+      attraction = S::mul(coefficient.four_epsilon(p), sigma6);
+      repulsion = S::mul(attraction, sigma6);
+    } else {
+      repulsion = form_number<S>(coefficient, 0, p);
+      attraction = form_number<S>(coefficient, 1, p);
+    }
+    const V near = S::sub(whole.energy, S::mul(way[6], S::msub(repulsion, way[6], attraction)));
+    const V over_r3 = S::mul(at.s, at.over_r), less = S::sub(over_r3, way[3]), more = S::add(over_r3, way[3]);
+    const V of_both = S::msub(S::mul(repulsion, way[4]), S::mul(more, more), S::mul(attraction, way[5]));
+    const V far = S::mul(S::mul(less, less), of_both);
+    const auto is_far = S::less(way[0], at.r2, 0xFFFF, 0);
+    return {S::mul(factor<S>(at, way), whole.force), S::add(near, S::keep(is_far, S::sub(far, near)))};
   }
 };
 
