@@ -58,7 +58,7 @@ void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList
   excluded_.clear();
   for (int i = 0; i < points.owned(); ++i) {
     for (int k = 0; k < atom->nspecial[i][2]; ++k) {
-      for (int j = atom->map(atom->special[i][k]); j >= 0; j = atom->sametag[j]) {
+      for (int j = atom_with(*atom, atom->special[i][k]); j >= 0; j = atom->sametag[j]) {
         const double *xi = atom->x[i], *xj = atom->x[j];
         if (domain->minimum_image_check(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2])) continue;
         if (const int kind = special_.kind(i, j); kind != 0) take_special_pair(points, i, j, kind, list);

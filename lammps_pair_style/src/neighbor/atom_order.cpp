@@ -29,6 +29,7 @@ class CoordinatesAreRanks {
   CoordinatesAreRanks(Atom& atom, Domain& domain, double** coordinates)
       : atom_(atom), domain_(domain), heads_(static_cast<std::size_t>(atom.nlocal)) {
     atom.x = coordinates;
+    atom.sortfreq = 1;  // by which it divides, and which is 0 once a script has turned sorting off
     atom.*(&Bins::nbins) = atom.*(&Bins::nbinx) = atom.nlocal;
     atom.*(&Bins::nbiny) = atom.*(&Bins::nbinz) = 1;
     atom.*(&Bins::bininvx) = atom.*(&Bins::bininvy) = atom.*(&Bins::bininvz) = 1;
@@ -39,6 +40,7 @@ class CoordinatesAreRanks {
   }
   ~CoordinatesAreRanks() {
     atom_.x = x_;
+    atom_.sortfreq = frequency_;
     atom_.*(&Bins::nbins) = bins_;
     atom_.*(&Bins::nbinx) = x_bins_;
     atom_.*(&Bins::nbiny) = y_bins_;
@@ -71,6 +73,7 @@ class CoordinatesAreRanks {
   Atom& atom_;
   Domain& domain_;
   double** x_ = atom_.x;
+  int frequency_ = atom_.sortfreq;
   int bins_ = atom_.*(&Bins::nbins), x_bins_ = atom_.*(&Bins::nbinx), y_bins_ = atom_.*(&Bins::nbiny),
       z_bins_ = atom_.*(&Bins::nbinz);
   double per_x_ = atom_.*(&Bins::bininvx), per_y_ = atom_.*(&Bins::bininvy), per_z_ = atom_.*(&Bins::bininvz);
@@ -140,10 +143,11 @@ void AtomOrder::follow_lammps() {
   if (lammps_order_.empty()) lammps_order_.assign(atom->tag, atom->tag + atom->nlocal);
 }
 
-void AtomOrder::restore() {
+bool AtomOrder::restore() {
   const std::vector<tagint> ids = std::exchange(lammps_order_, {});
   const auto n = static_cast<std::size_t>(atom->nlocal);
-  if (ids.size() != n || !can_sort()) return;  // atoms have come or gone, so the order is another one anyway
+  if (ids.size() != n || !can_sort())
+    return false;  // atoms have come or gone, so the order is another one anyway
   std::unordered_map<tagint, std::int32_t> index;
   index.reserve(n);
   for (std::int32_t i = 0; i < atom->nlocal; ++i) index.emplace(atom->tag[i], i);
@@ -151,10 +155,11 @@ void AtomOrder::restore() {
   indices.reserve(n);
   for (const tagint id : ids) {
     const auto found = index.find(id);
-    if (found == index.end()) return;
+    if (found == index.end()) return false;
     indices.push_back(found->second);
   }
   put(indices);
+  return true;
 }
 
 std::vector<int> AtomOrder::put(const std::vector<std::int32_t>& indices) {

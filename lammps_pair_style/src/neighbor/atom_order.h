@@ -39,7 +39,8 @@ class AtomOrder : protected Pointers {
   /// Puts atoms back in the order in which LAMMPS would have them, if that is known: on one process, unless
   /// atoms have come or gone. Fixes that draw random numbers may come before the next run. To be called as
   /// apply().
-  void restore();
+  /// @return whether they have been moved
+  bool restore();
 
  private:
   bool can_sort() const;

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <comm.h>
 #include <cstdio>
-#include <cstring>
 #include <error.h>
-#include <input.h>
 #include <neigh_list.h>
 #include <new>
 #include <typeinfo>
@@ -19,6 +17,7 @@
 
 #include "fix_dch_order.h"
 #include "neighbor_dch_only.h"
+#include "ordered_commands.h"
 
 namespace LAMMPS_NS {
 
@@ -31,11 +30,6 @@ constexpr double kRadiusMargin = 1.0 + 1e-6;
 
 // A pair of clusters' pairs takes less time than one by one, by these factors: see docs/lammps/measured.md.
 constexpr double kMostPairsDouble = 2.7, kMostPairsMixed = 4.2;
-
-/// Names of protected members.
-struct Words : Input {
-  using Input::command;
-};
 
 std::string short_number(double value) {
   char text[32];
@@ -89,7 +83,17 @@ NeighborDCH* NeighborDCH::install(LAMMPS* lammps, const NeighborParts& parts) {
   }
   auto* ours = new NeighborDCH(lammps->neighbor, parts);
   lammps->neighbor = ours;
+  restore_order_before_commands(*lammps);
   return ours;
+}
+
+void NeighborDCH::restore_order_between_runs() {
+  if (!order_.restore()) return;
+  // The place of the first ghost was needed, and IDs are in other places.
+  atom->nghost = 0;
+  if (atom->map_style == Atom::MAP_NONE) return;
+  atom->map_init();
+  atom->map_set();
 }
 
 void NeighborDCH::enable(const std::string& engine) {
@@ -115,9 +119,6 @@ void NeighborDCH::init() {
   show_bins();
   show_cutoff();
   ghosts_for_ = "no DCH list is in use";
-  // The order decides which atoms this command deletes; it makes ghosts and lists anew.
-  const char* const word = input->*(&Words::command);
-  if (word && std::strcmp(word, "delete_atoms") == 0) order_.restore();
   Neighbor::init();
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};

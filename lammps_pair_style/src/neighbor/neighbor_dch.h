@@ -99,6 +99,8 @@ class NeighborDCH : public Neighbor {
   void set_order(dch::lammps::OrderAtoms when) { order_.set_when(when); }
   /// Puts them back in LAMMPS's order, from the same place of the setup of a run.
   void restore_order() { order_.restore(); }
+  /// The same between two runs, for what makes ghosts and lists anew.
+  void restore_order_between_runs();
   /// Does so, if it is time, from between the decision to build lists and the exchange of atoms.
   void order_atoms();
   /// Has LAMMPS make no ghosts in runs where nothing reads them, from the same place.

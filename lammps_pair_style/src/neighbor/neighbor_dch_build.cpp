@@ -111,7 +111,8 @@ bool NeighborDCH::may_use_box() const {
       fills_lists() &&
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
   const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
-  return !any_ghost_rows && is_exact && points_.may_use_box(params_.radius);
+  // LAMMPS tells bonded atoms by image, and in a skewed box the nearest one may be a stranger to it.
+  return !any_ghost_rows && is_exact && special_.are_near_ones() && points_.may_use_box(params_.radius);
 }
 
 dch::ListParams NeighborDCH::list_params(const ServedList& served) {

@@ -78,7 +78,7 @@ const dch::Exclusions* SpecialPairs::never_seen(int count) {
       const int* last = atom->nspecial[i];
       for (int k = 0; k < last[2]; ++k) {
         if (flag[k < last[0] ? 1 : k < last[1] ? 2 : 3] != 0) continue;
-        const int j = atom->map(atom->special[i][k]);
+        const int j = atom_with(*atom, atom->special[i][k]);
         if (j > i && j < count) pairs.push_back({i, j});
       }
     }

@@ -11,6 +11,13 @@
 
 namespace LAMMPS_NS {
 
+/// The atom with this ID, owned or a ghost, from which `sametag` leads to its other images; -1 if this
+/// process has none. LAMMPS's own map goes on to name atoms that were deleted, where no higher IDs are left.
+inline int atom_with(const Atom& atom, tagint id) {
+  const int i = const_cast<Atom&>(atom).map(id);
+  return i >= 0 && i < atom.nlocal + atom.nghost && atom.tag[i] == id ? i : -1;
+}
+
 /// What `special_bonds` does to pairs of bonded atoms: those with weights of 0 are in no list, those with
 /// others than 0 and 1 are marked in it.
 class SpecialPairs : protected Pointers {

@@ -136,6 +136,21 @@ class Order(unittest.TestCase):
     def test_deleted_atoms(self):
         self.check(SORTED + "run 63\ndelete_atoms overlap 0.98 all all\nrun 1\n")
 
+    def test_ids_after_deletion(self):
+        """LAMMPS numbers what is left in the order of memory."""
+        pushed = "group low id <= 100\nvelocity low set 1.0 0.0 0.0\nrun 3\n"
+        for what in ("region part", "group part"):
+            script = SORTED + "region part block 0 2 EDGE EDGE EDGE EDGE\ngroup part region part\nrun 63\n"
+            self.check(script + f"delete_atoms {what}\n{pushed}")
+
+    def test_sorting_is_turned_off(self):
+        self.check(SORTED + "run 63\natom_modify sort 0 0\nrun 5\n")
+
+    def test_random_numbers_after_new_atoms(self):
+        new = "create_atoms 1 single 0.25 0.25 0.25\nfix 3 all nve/limit 0.01\nunfix 1\n"
+        for words in ("dch on\n", "dch styles no\ndch on\n"):
+            self.check(SORTED + f"run 63\n{new}fix 2 all langevin 1.0 1.0 1.0 4711\nrun 30\n", words)
+
     def test_grains_keep_theirs(self):
         output = run(LOADED + "atom_modify sort 40 0\ninclude ${here}/in.granular\n",
                      variables={"lists": "dch", "steps": 200})

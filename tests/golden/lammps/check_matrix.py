@@ -14,12 +14,12 @@ import re
 import sys
 from collections import Counter
 
+from batches import Runner, error_in
 from lammps_run import Host, largest_relative_difference, thermo_tables
 
 STEP_0_TOLERANCE = 1e-12
 LAST_STEP_TOLERANCE = 1e-9
 STEPS, EVERY = 12, 3
-RUNS_A_PROCESS = 100
 
 FACTORS = {
     "processes": (1, 2, 3, 4),
@@ -188,34 +188,6 @@ def modes_of(scene):
             for name, (before, after) in MODES.items() if scene["pair"] != "granular" or name.startswith("lists")}
 
 
-class Runner:
-    """Many runs in one process; where one ends it, the rest go on in another."""
-
-    def __init__(self, host):
-        self.host = host
-        self.processes = 0
-
-    def run(self, runs, ranks, load):
-        """runs: {key: script}. Returns {key: output}, and {key: output} of those that ended with an error."""
-        done, failed = {}, {}
-        left = list(runs.items())
-        while left:
-            batch = left[:RUNS_A_PROCESS]
-            text = "".join(f'clear\nprint "=== {k}"\n{script}' for k, (_, script) in enumerate(batch))
-            code, output = self.host.run_text(load + text + 'clear\nprint "=== end"\n', ranks=ranks)
-            self.processes += 1
-            parts = re.split(r"^=== .*\n", output, flags=re.MULTILINE)[1:]
-            if not parts:
-                sys.exit(f"FAILED: no run began\n{output}")
-            keys = [key for key, _ in batch[:len(parts)]]
-            ended = parts[:-1] if code != 0 else parts
-            done.update(zip(keys, ended))
-            if code != 0:
-                failed[keys[-1]] = parts[-1]
-            left = left[len(keys):]
-        return done, failed
-
-
 def wrong(scene, mode, stock, output):
     """What is not as it should be in a run of ours; empty if nothing is."""
     native, ours = thermo_tables(stock)[-1], thermo_tables(output)[-1]
@@ -234,11 +206,6 @@ def wrong(scene, mode, stock, output):
     if bool(served) == scene["ghosts"].startswith("group"):
         return "lists that should be ours are not" if not served else "lists are ours that should be native"
     return ""
-
-
-def error_in(output):
-    error = re.search(r"^ERROR.*", output, re.MULTILINE)
-    return error[0] if error else output[-600:]
 
 
 def check(host, scenes, ranks, runner):

@@ -39,7 +39,10 @@ class Host:
         self.environment = dict(os.environ, LAMMPS_POTENTIALS=str(arguments.potentials), OMP_NUM_THREADS="1")
 
     def run(self, ranks, command, variables=(), log="none", timeout=280):
-        """Runs command (a list) on `ranks` processes with LAMMPS variables; returns exit code and all output."""
+        """Runs command (a list) on `ranks` processes with LAMMPS variables; returns exit code and all output.
+
+        A run that has not ended after `timeout` seconds is ended, and its output says so.
+        """
         words = [str(word) for word in command]
         if ranks > 1:
             words = [self.mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)] + words
@@ -49,9 +52,14 @@ class Host:
         # Processes that run alone share one folder of Open MPI's, which each of them removes at its end.
         with tempfile.TemporaryDirectory(prefix="dch-mpi-") as sessions:
             environment = {**self.environment, "OMPI_MCA_orte_tmpdir_base": sessions}
-            done = subprocess.run(words, cwd=self.work, env=environment, timeout=timeout, check=False,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        return done.returncode, done.stdout
+            run = subprocess.Popen(words, cwd=self.work, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, text=True)
+            try:
+                output = run.communicate(timeout=timeout)[0]
+                return run.returncode, output
+            except subprocess.TimeoutExpired:
+                run.terminate()  # mpirun then ends its processes
+                return 1, run.communicate()[0] + f"\nERROR: no end within {timeout} s\n"
 
     def run_text(self, text, ranks=1, executable=None, variables=()):
         """Runs the lines as a script, by default in stock LAMMPS with the loader's path in `load`.
