@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "fix_dch_order.h"
+#include "fix_dch_work.h"
 
 namespace LAMMPS_NS {
 namespace {
@@ -58,7 +59,8 @@ constexpr const char* kWithoutRandomNumbers[] = {"nve",
                                                  kHistoryFix,
                                                  "DUMMY",
                                                  "GROUP",
-                                                 FixDCHOrder::kStyle};
+                                                 FixDCHOrder::kStyle,
+                                                 FixDCHWork::kStyle};
 
 // By their whole names: a style with a slash may do more.
 constexpr const char* kFixesWithoutGhosts[] = {"nve",
@@ -89,9 +91,11 @@ constexpr const char* kFixesWithoutGhosts[] = {"nve",
                                                "dt/reset",
                                                "halt",
                                                "print",
-                                               FixDCHOrder::kStyle};
-constexpr const char* kComputesWithoutGhosts[] = {
-    "temp", "temp/com", "temp/partial", "pressure", "pe", "ke", "com", "gyration", "msd", "vacf", "reduce"};
+                                               FixDCHOrder::kStyle,
+                                               FixDCHWork::kStyle};
+constexpr const char* kComputesWithoutGhosts[] = {"temp", "temp/com", "temp/partial", "pressure",
+                                                  "pe",   "ke",       "com",          "gyration",
+                                                  "msd",  "vacf",     "reduce",       "dch/work"};
 
 template <class Names>
 bool has_name(const Names& names, const char* style) {

@@ -16,6 +16,7 @@
 #include <dch/engines/pair_search.hpp>
 
 #include "fix_dch_order.h"
+#include "fix_dch_work.h"
 #include "neighbor_dch_only.h"
 #include "ordered_commands.h"
 
@@ -120,6 +121,7 @@ void NeighborDCH::init() {
   show_cutoff();
   ghosts_for_ = "no DCH list is in use";
   Neighbor::init();
+  FixDCHWork::note_current(lmp);
   const std::vector<dch::lammps::ListNote> before = std::exchange(notes_, {});
   run_ = {};
   before_run_ = {};

@@ -116,6 +116,11 @@ class NeighborDCH : public Neighbor {
   /// What the lists of the last run did, over all processes. Every process has to call it.
   dch::lammps::RunReport report() const;
 
+  /// Adds, to the number of each owned atom, the pairs of the lists just built that pair styles go through
+  /// for it: neighbors in rows, LAMMPS's own lists included, and pairs of slots of cluster pairs. Both atoms
+  /// of a pair have half of it; with a ghost the owned one has the whole.
+  void count_work(double* work) const;
+
   void init() override;
   void build(int topoflag) override;
   int check_distance() override;

@@ -12,6 +12,7 @@
 #include "angle_harmonic_dch.h"
 #include "bond_fene_dch.h"
 #include "bond_harmonic_dch.h"
+#include "compute_dch_work.h"
 #include "compute_necklace_contact.h"
 #include "explained.h"
 #include "fix_langevin_philox.h"
@@ -90,6 +91,7 @@ std::vector<StyleEntry<Compute, int, char**>> compute_styles_dch() {
 #define COMPUTE_CLASS
 #define ComputeStyle(key, Made) \
   styles.push_back({#key, &create<Compute, Made, int, char**>, &create_chosen<Compute, Made, int, char**>})
+#include "compute_dch_work.h"
 #include "compute_necklace_contact.h"
 #include "explained.h"
 #undef ComputeStyle

@@ -44,6 +44,7 @@ class Loading(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertRegex(output, r"entered command dch\n(entered pair .*\n)*entered pair lj/cut/dch\n")
         self.assertIn("entered compute necklace/contact\n", output)
+        self.assertIn("entered compute dch/work\n", output)
         self.assertIn("entered fix necklace/crossing\n", output)
         self.assertIn("pair lj/cut/dch, cluster pairs: DCH", output)
         stock = thermo_tables(run(MELT + "run 20\n"))

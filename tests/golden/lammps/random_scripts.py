@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Random input scripts: a small system, then commands that change it in turns with runs.
 
-Random numbers are drawn at the begin of a script alone: LAMMPS makes them from the bits of coordinates. Lines that begin with `dch` are for runs of ours alone. Numbers of atoms and steps are small, so that a script takes a
-few hundredths of a second and rounding has no time to grow.
+Random numbers are drawn at the beginning of a script alone: LAMMPS makes them from the bits of coordinates. Lines that
+begin with `dch` are for runs of ours alone. Numbers of atoms and steps are small, so that a script takes a few hundredths
+of a second and rounding has no time to grow.
 """
 
 import random

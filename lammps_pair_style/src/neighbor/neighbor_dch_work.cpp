@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the last lists cost, as a count: weights for LAMMPS's balance.
+#include <algorithm>
+#include <array>
+#include <atom.h>
+#include <bitset>
+#include <lmptype.h>
+#include <neigh_list.h>
+
+#include "neighbor_dch.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+/// Half of a pair's work to each of two owned atoms: which of them holds the pair says nothing of where the
+/// work is. A ghost's owner does none of it.
+void share_pair(int i, int j, int owned, double* work) {
+  if (i < owned && j < owned) {
+    work[i] += 0.5;
+    work[j] += 0.5;
+  } else {
+    work[std::min(i, j)] += 1;  // owned atoms come before ghosts
+  }
+}
+
+/// Builders of copies and of parts take lists of either kind.
+const NeighList& origin(const NeighList& list) {
+  if (list.listfull) return list;
+  if (list.listcopy) return origin(*list.listcopy);
+  return list.listskip ? origin(*list.listskip) : list;
+}
+
+void add_rows(const NeighList& list, bool full, int owned, double* work) {
+  for (int k = 0; k < list.inum; ++k) {
+    const int i = list.ilist[k], n = list.numneigh[i];
+    if (full) work[i] += n;
+    for (int m = 0; m < n && !full; ++m) share_pair(i, list.firstneigh[i][m] & NEIGHMASK, owned, work);
+  }
+}
+
+/// Pairs of slots of each entry, shared evenly among the owned atoms of its clusters.
+void add_clusters(const dch::ClusterPairs& pairs, const AtomPoints& points, double* work) {
+  constexpr int kSlots = dch::ClusterPairs::kSlots;
+  std::array<std::int32_t, 2 * std::size_t{kSlots}> owned{};
+  for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
+    const std::int32_t row = pairs.rows[r].cluster;
+    for (std::int64_t k = pairs.rows[r].first; k < pairs.rows[r + 1].first; ++k) {
+      const dch::ClusterPairs::Entry& entry = pairs.entries[static_cast<std::size_t>(k)];
+      std::size_t count = 0;
+      const auto take = [&](std::int32_t cluster) {
+        for (int slot = 0; slot < kSlots; ++slot) {
+          const std::int32_t point = pairs.particle[static_cast<std::size_t>(kSlots * cluster + slot)];
+          if (point >= 0 && point < points.owned()) owned[count++] = point;
+        }
+      };
+      take(row);
+      if (entry.cluster != row) take(entry.cluster);
+      const double share =
+          static_cast<double>(std::bitset<16>(entry.mask).count()) / static_cast<double>(count);
+      for (std::size_t n = 0; n < count; ++n) work[points.atom_of(owned[n])] += share;
+    }
+  }
+}
+
+}  // namespace
+
+void NeighborDCH::count_work(double* work) const {
+  for (const ServedClusters& clusters : clusters_) {
+    if (!clusters.list->one_by_one) {
+      add_clusters(clusters.list->pairs, points_, work);
+      continue;
+    }
+    const dch::PairList& pairs = clusters.list->pair_list;
+    for (std::size_t k = 0; k < pairs.i.size(); ++k)
+      share_pair(points_.atom_of(pairs.i[k]), points_.atom_of(pairs.j[k]), atom->nlocal, work);
+  }
+  for (int m = 0; m < nlist; ++m) {
+    const NeighList& list = *lists[m];
+    const bool is_for_verify = !clusters_.empty() && !is_needed(m);
+    if (list.requestor_type != NeighList::PAIR || list.occasional || is_for_verify) continue;
+    const NeighList& made = origin(list);
+    const bool full = !made.listfull && (pairmasks[made.pair_method - 1] & NeighConst::NP_FULL) != 0;
+    add_rows(list, full, atom->nlocal, work);
+  }
+}
+
+}  // namespace LAMMPS_NS
