@@ -63,7 +63,7 @@ def main():
     parser.add_argument("--show", action="store_true", help="print the script of --first, and end")
     arguments = parser.parse_args()
     if arguments.show:
-        print(Script(arguments.first).text(True, "dch"))
+        print(Script(arguments.first).text("dch", "dch on\n"))
         return
     host = Host(arguments)
     (host.work / "random.sw").write_text(SW)
@@ -72,12 +72,12 @@ def main():
     scripts = {seed: Script(seed) for seed in range(arguments.first, arguments.first + arguments.scripts)}
     for ranks in arguments.processes:
         mine = {seed: script for seed, script in scripts.items() if script.ranks == ranks}
-        stock, refused = runner.run({seed: script.text(False, "off") for seed, script in mine.items()}, ranks, "")
+        stock, refused = runner.run({seed: script.text("off") for seed, script in mine.items()}, ranks, "")
         runs = {}
         for seed, script in mine.items():
             for mode in random.Random(seed).sample(sorted(MODES), 2):
                 suffix, before = MODES[mode]
-                runs[seed, mode] = f"dch precision double\n{before}dch on\n" + script.text(True, suffix) + "dch stats\n"
+                runs[seed, mode] = script.text(suffix, f"dch precision double\n{before}dch on\n") + "dch stats\n"
         done, failed = runner.run(runs, ranks, "include ${load}\n")
         for seed, mode in runs:
             message = ""

@@ -19,6 +19,8 @@ class PairStyles:
                   "gromacs", "sw"]
         if self.style == "charge":
             styles += ["dsf"] * 4
+        if self.style == "sphere":
+            styles += ["gran/hooke/history", "gran/hertz/history"] * 8
         style = "soft" if self.soft else self.random.choice(styles)
         if style == "sw" and (self.newton != "on" or self.style == "bond" or self.dimension == 2):
             style = "lj/cut"
@@ -55,6 +57,8 @@ class PairStyles:
                      f"pair_coeff * * yukawa 2.0 {self.between(1.1, 2.4)}")
         elif style == "gromacs":
             self.add("pair_style lj/gromacs 0.9 2.5", *(f"pair_coeff {t} {depth} {s:.3f}" for t, s, c in pairs))
+        elif style.startswith("gran"):
+            self.add(f"pair_style {style} 200.0 NULL 5.0 NULL 0.5 {self.random.choice((0, 1))}", "pair_coeff * *")
         elif style == "sw":
             self.add("pair_style sw", f"pair_coeff * * random.sw {' '.join('A' * self.types)}")
         else:

@@ -8,13 +8,14 @@ of a second and rounding has no time to grow.
 
 import random
 
+from random_bonds import WEIGHTS, BondActs
 from random_pairs import PairStyles
 
 FACES = {"p": 8, "f": 1, "s": 2, "m": 1}
 LATTICES = {3: (("sc", 1), ("fcc", 4), ("bcc", 2)), 2: (("sq", 1), ("hex", 2))}
 
 
-class Script(PairStyles):
+class Script(PairStyles, BondActs):
     """One script. `lines` holds it, `ranks` the number of processes that it wants."""
 
     def __init__(self, seed):
@@ -25,7 +26,7 @@ class Script(PairStyles):
         self.ranks = choose((1, 2, 3, 4))
         self.dimension = choose((3, 3, 3, 3, 2))
         self.types = choose((1, 2, 2, 3))
-        self.style = choose(("atomic", "atomic", "bond", "charge"))
+        self.style = choose(("atomic", "atomic", "bond", "bond", "charge", "sphere"))
         self.newton = choose(("on", "on", "off", "on off" if self.style == "bond" else "off"))
         self.layout = choose(("brick", "brick", "tiled"))
         self.unequal = self.types > 1 and choose((True, False))
@@ -42,10 +43,12 @@ class Script(PairStyles):
                 act(self)
             self.run()
 
-    def text(self, ours, suffix):
-        """The script; for a run of ours, or else without the lines of `dch`. A grid makes no cluster pairs for forces."""
-        lines = [line for line in self.lines if ours or not line.startswith("dch ")]
-        text = "".join(line + "\n" for line in [f"suffix {suffix}", *lines])
+    def text(self, suffix, dch=""):
+        """The script; with lines of `dch` that turn ours on, or else without any. A grid makes no cluster pairs for
+        forces."""
+        lines = [line for line in self.lines if dch or not line.startswith("dch ")]
+        text = dch + "".join(line + "\n" for line in [f"suffix {suffix}", *lines])
+        text = text.replace("dch again\n", dch)
         return text.replace("engine grid", "engine auto") if suffix == "dch" else text
 
     def add(self, *lines):
@@ -94,12 +97,16 @@ class Script(PairStyles):
             self.add(f"region box prism {extent} {' '.join(tilt)}")
         else:
             self.add(f"region box block {extent}")
-        self.add(f"create_box {self.types} box {room}", "create_atoms 1 box", "mass * 1.0")
+        grains = self.style == "sphere"
+        self.add(f"create_box {self.types} box {room}", "create_atoms 1 box",
+                 *(["set group all density 1.0", "comm_modify vel yes"] if grains else ["mass * 1.0"]))
         shift = f"{0.06 * spacing:.4f}"
         self.add(f"displace_atoms all random {shift} {shift} {0 if flat else shift} {self.seed()}")
         for kind in range(2, self.types + 1):
             self.add(f"set group all type/fraction {kind} {self.between(0.02, 0.5)} {self.seed()}",
-                     f"mass {kind} {self.between(1, 5)}")
+                     *[] if grains else [f"mass {kind} {self.between(1, 5)}"])
+        if grains:
+            self.add(*(f"set type {kind + 1} diameter {size:.4f}" for kind, size in enumerate(self.sizes)))
         self.add("group odd id 1:100000:2", "group few id 1:20", f"neighbor {self.between(0.1, 0.6)} bin")
         if self.style == "charge":
             self.add("set group all charge 0.5", "set group odd charge -0.5")
@@ -108,12 +115,17 @@ class Script(PairStyles):
         self.pair()
         if self.style == "bond":
             self.add(f"create_bonds many all all 1 0.1 {min(2.0, spacing):.4f}",
-                     f"special_bonds lj {choose(('0 0 0', '0 1 1', '0.3 0.6 1.0', '1 1 1'))}")
+                     f"special_bonds lj {choose(WEIGHTS)}")
         self.add(f"velocity all create {self.between(0.1, 2)} {self.seed()} loop geom")
         self.settings()
-        self.add("timestep 0.002", "fix move all nve", *(["fix flat all enforce2d"] if flat else []))
+        self.add("timestep 0.002")
+        self.move()
         self.seen()
         self.run()
+
+    def move(self):
+        self.add("fix move all nve" + "/sphere" * (self.style == "sphere" and self.dimension == 3),
+                 *["fix flat all enforce2d"] * (self.dimension == 2))
 
     def run(self):
         steps = self.random.choice((0, 3, 5, 8, 12))
@@ -233,7 +245,8 @@ class Script(PairStyles):
         if len(self.periodic()) == self.dimension:
             self.add("unfix move")
             self.fix_for_a_run(f"all nph {self.random.choice(('iso', 'aniso'))} 1.0 1.0 1.0")
-            self.add("fix move all nve", *["unfix flat", "fix flat all enforce2d"] * (self.dimension == 2))
+            self.add(*["unfix flat"] * (self.dimension == 2))
+            self.move()
 
     def thermostat(self):
         """The random numbers of `fix langevin` go to the atoms in their order, which is LAMMPS's own on one process if no
@@ -273,4 +286,5 @@ ACTS = [Script.engine, Script.engine, Script.scale, Script.tilt, Script.kind_of_
         Script.take_away, Script.put_in, Script.displace, Script.other_types, Script.other_skin, Script.exclude,
         Script.velocities, Script.pair, Script.balance, Script.deform, Script.shear, Script.barostat,
         Script.thermostat, Script.other_fix, Script.walls, Script.minimize, Script.clock, Script.more_copies,
-        Script.groups]
+        Script.groups, Script.weights, Script.cut_bonds, Script.tie_bonds, Script.break_bonds, Script.molecules,
+        Script.levels, Script.restart]
