@@ -177,6 +177,9 @@ class Script(PairStyles, BondActs):
             self.add(f"change_box all boundary {' '.join(self.faces)}")
 
     def take_away(self):
+        """Contacts of grains would be looked for among the atoms that stood there before, by LAMMPS too."""
+        if self.style == "sphere":
+            self.pair()
         where = self.random.choice(("group few", "group odd", f"region part{len(self.lines)}"))
         if where.startswith("region"):
             axis = self.axis()
