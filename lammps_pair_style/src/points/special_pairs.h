@@ -13,8 +13,8 @@ namespace LAMMPS_NS {
 
 /// The atom with this ID, owned or a ghost, from which `sametag` leads to its other images; -1 if this
 /// process has none. LAMMPS's own map goes on to name atoms that were deleted, where no higher IDs are left.
-inline int atom_with(const Atom& atom, tagint id) {
-  const int i = const_cast<Atom&>(atom).map(id);
+inline int atom_with(Atom& atom, tagint id) {
+  const int i = atom.map(id);
   return i >= 0 && i < atom.nlocal + atom.nghost && atom.tag[i] == id ? i : -1;
 }
 

@@ -80,7 +80,7 @@ def main():
                 runs[seed, mode] = script.text(suffix, f"dch precision double\n{before}dch on\n") + "dch stats\n"
         done, failed = runner.run(runs, ranks, "include ${load}\n")
         for seed, mode in runs:
-            message = ""
+            message = output = ""
             if seed in refused and "neighbor bins" in refused[seed]:
                 counts["hot"] += 1  # lists of ours need no bins
             elif seed in refused:
@@ -109,8 +109,8 @@ def main():
     for message in messages:
         print(message)
     print(f"{len(scripts)} scripts, {counts['runs']} runs in {runner.processes} processes, {counts['refused']} of them of "
-          f"scripts that LAMMPS refuses, {counts['hot']} of atoms that fly apart, {counts['builds']} builds and {counts['pairs']} pairs verified, {len(messages)} "
-          "wrong")
+          f"scripts that LAMMPS refuses, {counts['hot']} of atoms that fly apart, "
+          f"{counts['builds']} builds and {counts['pairs']} pairs verified, {len(messages)} wrong")
     sys.exit(1 if messages else 0)
 
 
