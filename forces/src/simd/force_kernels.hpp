@@ -9,6 +9,7 @@
 #include "simd/all_pairs_task.hpp"
 #include "simd/angle_task.hpp"
 #include "simd/born_task.hpp"
+#include "simd/dissipative_task.hpp"
 #include "simd/lj_task.hpp"
 #include "simd/mesh_task.hpp"
 #include "simd/motion_task.hpp"
@@ -48,6 +49,7 @@ struct ForceKernels {
   BondKernels bonds;
   AngleKernels angles;
   WaveKernels waves;
+  DissipativeKernels dissipative;
 };
 
 /// The kernels of a set that is supported.

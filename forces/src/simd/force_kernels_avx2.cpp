@@ -4,6 +4,7 @@
 #include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
+#include "simd/dissipative_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -19,7 +20,7 @@ const ForceKernels& force_kernels_avx2() {
                                          born_kernels<Avx2Float>,          motion_kernels,
                                          all_pairs_kernels<Avx2Float>,     noise_kernels,
                                          bond_kernels<Avx2Double>,         angle_kernels<Avx2Double>,
-                                         wave_kernels<Avx2Double>};
+                                         wave_kernels<Avx2Double>,         dissipative_kernels<Avx2Double>};
   return kKernels;
 }
 

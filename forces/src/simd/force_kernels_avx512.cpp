@@ -4,6 +4,7 @@
 #include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
+#include "simd/dissipative_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -14,12 +15,13 @@
 namespace dch::detail {
 
 const ForceKernels& force_kernels_avx512() {
-  static constexpr ForceKernels kKernels{lj_functions_of<Avx512Float>,       lj_functions_of<Avx512Double>,
-                                         lj_pair_functions_of<Avx512Double>, mesh_kernels,
-                                         born_kernels<Avx512Float>,          motion_kernels,
-                                         all_pairs_kernels<Avx512Float>,     noise_kernels,
-                                         bond_kernels<Avx512Double>,         angle_kernels<Avx512Double>,
-                                         wave_kernels<Avx512Double>};
+  static constexpr ForceKernels kKernels{
+      lj_functions_of<Avx512Float>,       lj_functions_of<Avx512Double>,
+      lj_pair_functions_of<Avx512Double>, mesh_kernels,
+      born_kernels<Avx512Float>,          motion_kernels,
+      all_pairs_kernels<Avx512Float>,     noise_kernels,
+      bond_kernels<Avx512Double>,         angle_kernels<Avx512Double>,
+      wave_kernels<Avx512Double>,         dissipative_kernels<Avx512Double>};
   return kKernels;
 }
 

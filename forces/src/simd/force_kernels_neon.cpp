@@ -4,6 +4,7 @@
 #include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
+#include "simd/dissipative_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -19,7 +20,7 @@ const ForceKernels& force_kernels_neon() {
                                          born_kernels<NeonFloat>,          motion_kernels,
                                          all_pairs_kernels<NeonFloat>,     noise_kernels,
                                          bond_kernels<NeonDouble>,         angle_kernels<NeonDouble>,
-                                         wave_kernels<NeonDouble>};
+                                         wave_kernels<NeonDouble>,         dissipative_kernels<NeonDouble>};
   return kKernels;
 }
 

@@ -4,6 +4,7 @@
 #include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
+#include "simd/dissipative_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -20,7 +21,7 @@ const ForceKernels& force_kernels_portable() {
       born_kernels<PortableVector<float>>,          motion_kernels,
       all_pairs_kernels<PortableVector<float>>,     noise_kernels,
       bond_kernels<PortableVector<double>>,         angle_kernels<PortableVector<double>>,
-      wave_kernels<PortableVector<double>>};
+      wave_kernels<PortableVector<double>>,         dissipative_kernels<PortableVector<double>>};
   return kKernels;
 }
 

@@ -4,6 +4,7 @@
 #include "simd/angle_kernels_loops.hpp"
 #include "simd/bond_kernels_loops.hpp"
 #include "simd/born_loops.hpp"
+#include "simd/dissipative_loops.hpp"
 #include "simd/force_kernels_sets.hpp"
 #include "simd/lj_pair_kernels_loops.hpp"
 #include "simd/mesh_loops.hpp"
@@ -19,7 +20,7 @@ const ForceKernels& force_kernels_sse42() {
                                          born_kernels<SseFloat>,          motion_kernels,
                                          all_pairs_kernels<SseFloat>,     noise_kernels,
                                          bond_kernels<SseDouble>,         angle_kernels<SseDouble>,
-                                         wave_kernels<SseDouble>};
+                                         wave_kernels<SseDouble>,         dissipative_kernels<SseDouble>};
   return kKernels;
 }
 

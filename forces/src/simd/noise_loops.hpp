@@ -32,7 +32,21 @@ struct PhiloxBlock {
       word[3][k] = static_cast<std::uint32_t>(even);
     }
   }
+
+  /// All rounds.
+  void mix(std::uint32_t key0, std::uint32_t key1) {
+    for (int round = 0; round < kPhiloxRounds; ++round) {
+      turn(key0, key1);
+      key0 += kPhiloxSteps[0];
+      key1 += kPhiloxSteps[1];
+    }
+  }
 };
+
+/// A word less 2^31, which converts faster than a number without a sign.
+inline std::int32_t with_sign(std::uint32_t word) { return static_cast<std::int32_t>(word ^ 0x80000000u); }
+/// Such a word as a number in (-1/2, 1/2).
+inline double uniform_of(std::int32_t word) { return (word + 0.5) * 0x1p-32; }
 
 /// The block of the IDs from `first` on; counters behind the last one are those of ID 0.
 inline PhiloxBlock philox_block(const NoiseTask& task, std::size_t first, std::size_t count) {
@@ -43,12 +57,7 @@ inline PhiloxBlock philox_block(const NoiseTask& task, std::size_t first, std::s
     block.word[2][k] = static_cast<std::uint32_t>(task.step >> 32);
     block.word[3][k] = 0;
   }
-  std::uint32_t key0 = task.seed, key1 = 0;
-  for (int round = 0; round < kPhiloxRounds; ++round) {
-    block.turn(key0, key1);
-    key0 += kPhiloxSteps[0];
-    key1 += kPhiloxSteps[1];
-  }
+  block.mix(task.seed, 0);
   return block;
 }
 
@@ -57,12 +66,10 @@ inline void noise_uniform(const NoiseTask& task) {
   for (std::size_t first = 0; first < task.count; first += PhiloxBlock::kCount) {
     const std::size_t count = std::min(PhiloxBlock::kCount, task.count - first);
     const PhiloxBlock block = philox_block(task, first, count);
-    // word - 2^31, which converts faster than a number without a sign.
     std::int32_t signed_word[3 * PhiloxBlock::kCount];
     for (std::size_t k = 0; k < PhiloxBlock::kCount; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        signed_word[3 * k + axis] = static_cast<std::int32_t>(block.word[axis][k] ^ 0x80000000u);
-    for (std::size_t k = 0; k < 3 * count; ++k) to[3 * first + k] = (signed_word[k] + 0.5) * 0x1p-32;
+      for (std::size_t axis = 0; axis < 3; ++axis) signed_word[3 * k + axis] = with_sign(block.word[axis][k]);
+    for (std::size_t k = 0; k < 3 * count; ++k) to[3 * first + k] = uniform_of(signed_word[k]);
   }
 }
 
