@@ -61,6 +61,8 @@ class PairDPDPhilox : public Pair, public Explained {
   double temperature() const;
   void take_coefficients();
   void check_box() const;
+  template <bool kOneType>
+  int find_near(int i);
   void add_row(int i, Batch& batch);
   void finish(Batch& batch);
 

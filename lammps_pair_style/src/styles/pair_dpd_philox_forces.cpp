@@ -77,59 +77,67 @@ void PairDPDPhilox::compute(int eflag, int vflag) {
 }
 
 /// Neighbors within the cutoff are found first, without a branch for each; about half of all are.
-void PairDPDPhilox::add_row(int i, Batch& batch) {
+template <bool kOneType>
+int PairDPDPhilox::find_near(int i) {
   const int* const row = list->firstneigh[i];
   const int count = list->numneigh[i];
   if (near_.size() < static_cast<std::size_t>(count)) near_.resize(static_cast<std::size_t>(count));
-  const double* const xi = atom->x[i];
-  const double* const vi = atom->v[i];
-  const double* const reach2 = cutsq[atom->type[i]];
+  int* const near = near_.data();
+  const dch::Vec3* const x = reinterpret_cast<const dch::Vec3*>(atom->x[0]);
+  const int* const type = atom->type;
+  const double* const reach2 = cutsq[type[i]];
+  const dch::Vec3 own = x[i];
   int found = 0;
   for (int k = 0; k < count; ++k) {
     const int j = row[k] & NEIGHMASK;
-    const double* const xj = atom->x[j];
-    const double dx = xi[0] - xj[0], dy = xi[1] - xj[1], dz = xi[2] - xj[2];
-    near_[static_cast<std::size_t>(found)] = row[k];
-    found += dx * dx + dy * dy + dz * dz < reach2[atom->type[j]] ? 1 : 0;
+    near[found] = row[k];
+    found += norm2(own - x[j]) < reach2[kOneType ? 1 : type[j]] ? 1 : 0;
   }
-  const int first_type = (atom->type[i] - 1) * atom->ntypes - 1;
+  return found;
+}
+
+void PairDPDPhilox::add_row(int i, Batch& batch) {
+  const bool has_one_type = atom->ntypes == 1;
+  const int found = has_one_type ? find_near<true>(i) : find_near<false>(i);
+  const dch::Vec3* const x = reinterpret_cast<const dch::Vec3*>(atom->x[0]);
+  const dch::Vec3* const v = reinterpret_cast<const dch::Vec3*>(atom->v[0]);
+  const int* const type = atom->type;
+  const tagint* const tag = atom->tag;
+  const dch::Vec3 own = x[i], own_velocity = v[i];
+  const int first_type = (type[i] - 1) * atom->ntypes - 1, own_tag = tag[i];
+  dch::DissipativeBatch& pairs = batch.pairs;
   for (int k = 0; k < found; ++k) {
     const int marked = near_[static_cast<std::size_t>(k)], j = marked & NEIGHMASK;
-    const double *const xj = atom->x[j], *const vj = atom->v[j];
-    dch::DissipativeBatch& pairs = batch.pairs;
-    const int at = pairs.count++;
+    const dch::Vec3 apart = own - x[j], velocity = own_velocity - v[j];
+    const int at = pairs.count;
     batch.i[at] = i;
     batch.j[at] = j;
-    pairs.x[at] = xi[0] - xj[0];
-    pairs.y[at] = xi[1] - xj[1];
-    pairs.z[at] = xi[2] - xj[2];
-    pairs.vx[at] = vi[0] - vj[0];
-    pairs.vy[at] = vi[1] - vj[1];
-    pairs.vz[at] = vi[2] - vj[2];
-    pairs.first_id[at] = atom->tag[i];
-    pairs.second_id[at] = atom->tag[j];
-    pairs.types[at] = first_type + atom->type[j];
+    pairs.x[at] = apart.x;
+    pairs.y[at] = apart.y;
+    pairs.z[at] = apart.z;
+    pairs.vx[at] = velocity.x;
+    pairs.vy[at] = velocity.y;
+    pairs.vz[at] = velocity.z;
+    pairs.first_id[at] = own_tag;
+    pairs.second_id[at] = tag[j];
+    pairs.types[at] = has_one_type ? 0 : first_type + type[j];
     pairs.kind[at] = sbmask(marked);
-    if (pairs.count == dch::DissipativeBatch::kSize) finish(batch);
+    if (++pairs.count == dch::DissipativeBatch::kSize) finish(batch);
   }
 }
 
 void PairDPDPhilox::finish(Batch& batch) {
   dch::DissipativeBatch& pairs = batch.pairs;
+  if (pairs.count == 0) return;
   forces_->compute(batch.step, pairs);
+  dch::Vec3* const f = reinterpret_cast<dch::Vec3*>(atom->f[0]);
+  const int with_forces = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   for (int k = 0; k < pairs.count; ++k) {
     const int i = batch.i[k], j = batch.j[k];
     const double over_r = pairs.force_over_r[k];
-    const double fx = over_r * pairs.x[k], fy = over_r * pairs.y[k], fz = over_r * pairs.z[k];
-    double *const of_i = atom->f[i], *const of_j = atom->f[j];
-    of_i[0] += fx;
-    of_i[1] += fy;
-    of_i[2] += fz;
-    if (force->newton_pair || j < atom->nlocal) {
-      of_j[0] -= fx;
-      of_j[1] -= fy;
-      of_j[2] -= fz;
-    }
+    const dch::Vec3 pull = over_r * dch::Vec3{pairs.x[k], pairs.y[k], pairs.z[k]};
+    f[i] = f[i] + pull;
+    if (j < with_forces) f[j] = f[j] - pull;
     if (evflag)
       ev_tally(i, j, atom->nlocal, force->newton_pair, pairs.energy[k], 0, over_r, pairs.x[k], pairs.y[k],
                pairs.z[k]);
