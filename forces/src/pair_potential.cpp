@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include <dch/base/error.hpp>
 #include <dch/forces/pair_potential.hpp>
@@ -67,6 +68,7 @@ PairPotential::PairPotential(const PairPotentialParams& params) : params_(params
   }
   take_way();
   if (has_charges()) take_charges();
+  if (params.form == PairForm::table) take_tables();
   for (auto& table : full_)
     table.resize(std::max(side * side, std::size_t{detail::kFewTypes * detail::kFewTypes}));
   for (std::size_t a = 0; a < side; ++a)
@@ -77,6 +79,7 @@ PairPotential::PairPotential(const PairPotentialParams& params) : params_(params
       mixed_[k].push_back(static_cast<float>(number));
     }
   find_mixing();
+  params_.tables.clear();  // which stand in knots_ now
 }
 
 /// What the form has for all pairs.
@@ -132,7 +135,8 @@ void PairPotential::take_pair(std::size_t a, std::size_t b) {
   full_.back()[k] = pair.charge_cutoff * pair.charge_cutoff;
   if (pair.cutoff == 0) return;
   double numbers[4]{};
-  const double exponent = style.prepare(pair.numbers.data(), pair.cutoff, numbers);
+  const std::array<double, 3> given = given_to_form(pair);
+  const double exponent = style.prepare(given.data(), pair.cutoff, numbers);
   for (std::size_t n = 0; n < 4; ++n) {
     if (!std::isfinite(numbers[n]))
       throw InvalidParameter("the numbers" + types_text(a, b) +
@@ -197,6 +201,14 @@ detail::LjConstants<Real> PairPotential::constants() const {
   all.splitting = static_cast<Real>(params_.splitting);
   for (std::size_t n = 0; n < of_form_.size(); ++n) all.of_form[n] = static_cast<Real>(of_form_[n]);
   for (std::size_t n = 0; n < of_charges_.size(); ++n) all.of_charges[n] = static_cast<Real>(of_charges_[n]);
+  const auto take = [&](const auto& knots) {
+    all.table_force = knots.force.data();
+    all.table_energy = knots.energy.data();
+  };
+  if constexpr (std::is_same_v<Real, float>)
+    take(knots_float_);
+  else
+    take(knots_);
   return all;
 }
 

@@ -12,28 +12,12 @@
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 
+#include "dual.hpp"
 #include "list_params.hpp"
 #include "lj_oracle.hpp"
 #include "scenes.hpp"
 
 namespace dch::forms {
-
-/// A number and its derivative with respect to the distance.
-struct Dual {
-  double value, slope;
-  Dual(double v, double s = 0) : value(v), slope(s) {}
-};
-inline Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.slope}; }
-inline Dual operator-(Dual a, Dual b) { return {a.value - b.value, a.slope - b.slope}; }
-inline Dual operator*(Dual a, Dual b) { return {a.value * b.value, a.slope * b.value + a.value * b.slope}; }
-inline Dual operator/(Dual a, Dual b) {
-  return {a.value / b.value, (a.slope * b.value - a.value * b.slope) / (b.value * b.value)};
-}
-inline Dual exp(Dual a) { return {std::exp(a.value), std::exp(a.value) * a.slope}; }
-inline Dual cos(Dual a) { return {std::cos(a.value), -std::sin(a.value) * a.slope}; }
-inline Dual erfc(Dual a) {
-  return {std::erfc(a.value), -2 / std::sqrt(std::acos(-1.0)) * std::exp(-a.value * a.value) * a.slope};
-}
 
 inline Dual lennard_jones(const std::array<double, 3>& n, Dual r) {
   const Dual s = n[1] / r, s6 = s * s * s * s * s * s;
@@ -63,6 +47,18 @@ inline double force_switched(const std::array<double, 3>& n, double r, double fr
   return 4 * n[0] * sigma6 * (sigma6 * term(6) - term(3));
 }
 
+/// Between the knots of a table; the force is a number of its own.
+inline Dual tabulated(const PairTable& table, Dual r) {
+  const std::size_t n = table.energy.size();
+  const double first = table.inner * table.inner, square = r.value * r.value;
+  const double apart = (table.outer * table.outer - first) / static_cast<double>(n - 1);
+  std::size_t k = 1;
+  while (k + 1 < n && square > first + static_cast<double>(k) * apart) ++k;
+  const double of_first = (first + static_cast<double>(k) * apart - square) / apart;
+  const auto mean = [&](const std::vector<double>& v) { return of_first * v[k - 1] + (1 - of_first) * v[k]; };
+  return {mean(table.energy), -mean(table.force_over_r) * r.value};
+}
+
 inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair, Dual r) {
   const auto& n = pair.numbers;
   const Dual r6 = r * r * r * r * r * r;
@@ -86,6 +82,8 @@ inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair,
       return n[0] * (1 + cos(std::acos(-1.0) / pair.cutoff * r));
     case PairForm::yukawa:
       return n[0] * exp(-all.of_all * r) / r;
+    case PairForm::table:
+      return tabulated(all.tables[static_cast<std::size_t>(n[0])], r);
   }
   return 0;
 }
@@ -156,7 +154,7 @@ inline void add(const PairPotentialParams& all, const Scene& scene, std::size_t 
   Dual own = 0, charged = 0;
   if (r.value < pair.cutoff) {
     own = energy_of_form(all, pair, r);
-    if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft)
+    if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft && all.form != PairForm::table)
       own = own - energy_of_form(all, pair, {pair.cutoff, 1}).value;
     own = weights.own * own;
   }
@@ -207,6 +205,27 @@ inline PairPotentialParams params(PairForm form, ChargeForm charges, int types, 
   return all;
 }
 
+/// Three tables, in turns for the pairs of types.
+inline PairPotentialParams params_with_tables(int types) {
+  PairPotentialParams all = params(PairForm::table, ChargeForm::none, types, {{0, 0, 0}, 2.4, 0});
+  for (const int length : {150, 2, 97}) {
+    PairTable table;
+    table.inner = 0.8 - 1e-3 * length;
+    table.outer = 2.4 + 1e-3 * length;
+    for (int k = 0; k < length; ++k) {
+      const double first = table.inner * table.inner, last = table.outer * table.outer;
+      const double s = 1 / (first + (last - first) * k / (length - 1)), s3 = s * s * s;
+      table.energy.push_back((s3 - 1) * s3 + 0.01 * length);
+      table.force_over_r.push_back((11 * s3 - 5) * s3 * s - 0.002 * length);
+    }
+    all.tables.push_back(table);
+  }
+  for (int a = 0; a < types; ++a)
+    for (int b = 0; b < types; ++b)
+      all.pairs[static_cast<std::size_t>(a * types + b)].numbers[0] = (a + b) % 3;
+  return all;
+}
+
 inline std::vector<Case> cases() {
   constexpr double kExact = 2e-13, kFormula = 1e-6;
   using F = PairForm;
@@ -241,6 +260,7 @@ inline std::vector<Case> cases() {
   take("Morse", F::morse, C::none, 2, {{1, 5, 1.1}, 2.4, 0});
   take("soft", F::soft, C::none, 2, {{20, 0, 0}, 2.4, 0});
   take("Yukawa", F::yukawa, C::none, 2, {{10, 0, 0}, 2.4, 0}, 1.2);
+  for (const int types : {1, 2, 6}) all.push_back({"tables", params_with_tables(types), kExact});
   return all;
 }
 

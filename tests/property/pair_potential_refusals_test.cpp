@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What PairPotential refuses.
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <limits>
 #include <string>
 
 #include <dch/base/error.hpp>
@@ -65,6 +67,35 @@ TEST(PairPotential, WrongNumbersAreRefused) {
                  "constant of charges");
   expect_refused(changed(F::lennard_jones, C::ewald, [](auto& p) { p.splitting = -1; }),
                  "splitting parameter");
+}
+
+TEST(PairPotential, WrongTablesAreRefused) {
+  const auto refuse = [](const std::string& words, const std::function<void(PairPotentialParams&)>& change) {
+    PairPotentialParams all = params_with_tables(2);
+    change(all);
+    expect_refused(all, words);
+  };
+  refuse("none is number 3", [](auto& p) { p.pairs[0].numbers[0] = 3; });
+  refuse("none is number -1", [](auto& p) { p.pairs[0].numbers[0] = -1; });
+  refuse("none is number 0.5", [](auto& p) { p.pairs[0].numbers[0] = 0.5; });
+  refuse("beyond the end of its table", [](auto& p) { p.pairs[0].cutoff = 2.6; });
+  refuse("must begin at 0 or more", [](auto& p) { p.tables[1].inner = -0.1; });
+  refuse("must begin at 0 or more", [](auto& p) { p.tables[1].inner = std::nan(""); });
+  refuse("must begin at 0 or more", [](auto& p) { p.tables[1].outer = p.tables[1].inner; });
+  refuse("must begin at 0 or more",
+         [](auto& p) { p.tables[1].outer = std::numeric_limits<double>::infinity(); });
+  refuse("as many of each, two or more", [](auto& p) { p.tables[1].energy.pop_back(); });
+  refuse("as many of each, two or more",
+         [](auto& p) { p.tables[1].energy = p.tables[1].force_over_r = {1}; });
+  refuse("give finite ones", [](auto& p) { p.tables[1].energy[1] = std::nan(""); });
+  refuse("give finite ones", [](auto& p) { p.tables[2].force_over_r[96] = std::nan(""); });
+  refuse("too near to its end", [](auto& p) { p.tables[1].inner = std::nextafter(p.tables[1].outer, 0); });
+  PairPotentialParams of_all = params_with_tables(2);
+  EXPECT_TRUE(PairPotential(of_all).fits_single());
+  of_all.tables[2].energy[3] = 1e-60;
+  EXPECT_TRUE(PairPotential(of_all).fits_single());
+  of_all.tables[2].energy[3] = -1e39;
+  EXPECT_FALSE(PairPotential(of_all).fits_single());
 }
 
 TEST(PairPotential, WrongArraysAreRefused) {

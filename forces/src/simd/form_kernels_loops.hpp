@@ -7,6 +7,7 @@
 #include "simd/forms/charges.hpp"
 #include "simd/forms/exponentials.hpp"
 #include "simd/forms/soft.hpp"
+#include "simd/forms/table.hpp"
 
 namespace dch::detail {
 namespace {
@@ -109,7 +110,8 @@ constexpr FormKernels form_kernels_of{
       {}},
      {style_kernels<F, D, MorseForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
-     {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}}},
+     {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}},
+     {style_kernels<F, D, TableForm, NoCharges>(), {}, {}, {}, {}}},
     kWantsLanes<F>,
     kWantsLanes<D>};
 

@@ -98,6 +98,8 @@ struct LjConstants {
   Real over_cutoff2 = 0;                        ///< with dispersion [1/length^2]
   /// Of a form of PairPotential, and of its charges.
   Real of_form[kNumbersOfForm]{}, of_charges[kNumbersOfCharges]{};
+  const Real *table_force = nullptr,
+             *table_energy = nullptr;  ///< of TableForm, whose tables stand side by side
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.

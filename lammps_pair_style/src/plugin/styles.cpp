@@ -24,6 +24,7 @@
 #include "pair_lj_dch.h"
 #include "pair_morse_dch.h"
 #include "pair_soft_dch.h"
+#include "pair_table_dch.h"
 #include "pair_yukawa_dch.h"
 
 namespace LAMMPS_NS {
@@ -60,6 +61,7 @@ std::vector<StyleEntry<Pair>> pair_styles_dch() {
 #include "pair_lj_dch.h"
 #include "pair_morse_dch.h"
 #include "pair_soft_dch.h"
+#include "pair_table_dch.h"
 #include "pair_yukawa_dch.h"
 #undef PairStyle
 #undef PAIR_CLASS

@@ -58,10 +58,13 @@ PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : Pair(lammps), style_(styl
 }
 
 PairDCH::~PairDCH() {
-  if (allocated && !copymode) {
-    memory->destroy(setflag);
-    memory->destroy(cutsq);
-  }
+  if (!copymode) give_up_arrays();
+}
+
+void PairDCH::give_up_arrays() {
+  if (!std::exchange(allocated, 0)) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -98,7 +101,10 @@ void PairDCH::take_flags() {
 /// LAMMPS looks at which pairs of types have been given.
 void PairDCH::take_coefficients() {
   kernel_.reset();
-  if (!plain_->allocated) return;
+  if (!plain_->allocated) {
+    give_up_arrays();
+    return;
+  }
   const int n = atom->ntypes;
   if (!allocated) {
     allocated = 1;
@@ -207,6 +213,7 @@ void PairDCH::init_style() {
   if (!has_lists_of_plain_) withdraw_requests(*neighbor, requests);
   NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
   obstacle_ = reason_for_plain();
+  if (obstacle_.empty()) obstacle_ = obstacle_of_settings();
   if (is_chosen_ && obstacle_.empty()) obstacle_ = neighbor_dch->obstacle_to_styles();
   const Pair& asker = has_lists_of_plain_ ? *plain_ : *this;
   clusters_ = neighbor_dch->request_clusters(asker, plain_name_ + "/dch", obstacle_);

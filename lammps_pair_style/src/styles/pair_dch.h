@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <lammps_host.h>
 #include <memory>
 #include <pair.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <dch/base/span.hpp>
@@ -69,12 +71,27 @@ class PairDCH : public Pair, public Explained {
   void choose() override { is_chosen_ = true; }
 
  protected:
+  using PairsOfTypes = std::vector<std::pair<int, int>>;  ///< from 1
+
+  Pair& plain() const { return *plain_; }
+  /// After what the script says of the plain style has changed.
+  void take_coefficients();
+  /// Why the plain style has to compute, as far as its settings say; asked at the beginning of each run.
+  virtual dch::lammps::Obstacle obstacle_of_settings() { return {}; }
+  /// The form's numbers of these pairs of types, from the plain style's restart data by the next two.
+  virtual void take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& params) const;
   /// What the plain style writes to restart files before pairs of types says of the potential; charges that
   /// act by an Ewald sum know their splitting.
   virtual void take_all(const double*, dch::PairPotentialParams&) const {}
   /// The same of a pair of types.
   /// @param all  what take_all() gets
-  virtual void take_pair(const double* all, const double* own, dch::FormPair& pair) const = 0;
+  virtual void take_pair(const double* all, const double* own, dch::FormPair& pair) const;
+  /// Called when forces have been added.
+  virtual void check_forces() {}
+  /// Owned atom, the other, vector from the latter, kind of bonded pair or 0.
+  using PairVisitor = std::function<void(int, int, dch::Vec3, int)>;
+  /// Visits each pair within its cutoff.
+  void for_each_pair(const PairVisitor& visit) const;
 
  private:
   /// Pairs of types, from 1, that this style computes with coefficients as they are now.
@@ -88,8 +105,8 @@ class PairDCH : public Pair, public Explained {
   bool may_have_levels() const;
   Pair& plain_of_levels() const;
   std::string way() const;
+  void give_up_arrays();
   void take_flags();
-  void take_coefficients();
   void refresh();
   void take_sums_of_plain();
   void compute_clusters();

@@ -36,6 +36,7 @@ void PairDCH::compute(int eflag, int vflag) {
     } else {
       compute_clusters();
     }
+    check_forces();
     if (eflag_either) add_self_energies(asks_each_pair || eflag_atom);
   } catch (const dch::Error& e) {
     error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
@@ -95,10 +96,23 @@ void PairDCH::refresh() {
     clusters_->pairs.refresh(positions(), box(), NeighborDCH::install(lmp)->executor());
 }
 
-void PairDCH::make_kernel() {
-  std::vector<std::pair<int, int>> given;
-  for (const PairOfTypes& p : pairs_of_types_) given.emplace_back(p.a, p.b);
+void PairDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& params) const {
   const RestartNumbers of_plain(*plain_, plain_name_, atom->ntypes, style_.numbers, given, *error);
+  take_all(of_plain.all(), params);
+  const auto n = static_cast<std::size_t>(atom->ntypes);
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const auto a = static_cast<std::size_t>(given[k].first - 1),
+               b = static_cast<std::size_t>(given[k].second - 1);
+    take_pair(of_plain.all(), of_plain.of_pair(k), params.pairs[a * n + b]);
+    params.pairs[b * n + a] = params.pairs[a * n + b];
+  }
+}
+
+void PairDCH::take_pair(const double*, const double*, dch::FormPair&) const {}
+
+void PairDCH::make_kernel() {
+  PairsOfTypes given;
+  for (const PairOfTypes& p : pairs_of_types_) given.emplace_back(p.a, p.b);
   const auto n = static_cast<std::size_t>(atom->ntypes);
   dch::PairPotentialParams params;
   params.form = style_.form;
@@ -108,13 +122,7 @@ void PairDCH::make_kernel() {
   params.constant = force->qqrd2e;
   params.shifted = offset_flag != 0;
   if (style_.charges == dch::ChargeForm::ewald) params.splitting = force->kspace->g_ewald;
-  take_all(of_plain.all(), params);
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    const auto a = static_cast<std::size_t>(given[k].first - 1),
-               b = static_cast<std::size_t>(given[k].second - 1);
-    take_pair(of_plain.all(), of_plain.of_pair(k), params.pairs[a * n + b]);
-    params.pairs[b * n + a] = params.pairs[a * n + b];
-  }
+  take_numbers(given, params);
   kernel_ = std::make_unique<dch::PairPotential>(params);
 }
 
@@ -225,40 +233,42 @@ void PairDCH::finish(Batch& batch) {
   batch = {};
 }
 
-void PairDCH::compute_pair_by_pair() {
-  const int types = atom->ntypes;
-  Batch batch;
-  const auto add = [&](int i, int j, dch::Vec3 from_j_to_i, int kind) {
-    const int a = atom->type[i], b = atom->type[j];
-    const double r2 = norm2(from_j_to_i);
-    if (r2 >= cutsq[a][b]) return;
-    const int k = batch.count++;
-    batch.i[k] = i;
-    batch.j[k] = j;
-    batch.from_j_to_i[k] = from_j_to_i;
-    batch.pairs.r2[k] = r2;
-    batch.pairs.types[k] = (a - 1) * types + b - 1;
-    batch.pairs.kind[k] = kind;
-    if (has_charges()) batch.pairs.charges[k] = atom->q[i] * atom->q[j];
-    if (batch.count == dch::PairBatch::kSize) finish(batch);
+void PairDCH::for_each_pair(const PairVisitor& visit) const {
+  const auto take = [&](int i, int j, dch::Vec3 from_j_to_i, int kind) {
+    if (norm2(from_j_to_i) < cutsq[atom->type[i]][atom->type[j]]) visit(i, j, from_j_to_i, kind);
   };
-  const auto add_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
+  const auto take_pair = [&](std::int32_t i, std::int32_t j, dch::Vec3 from_i_to_j) {
     if (i < atom->nlocal) {
-      add(i, j, -1.0 * from_i_to_j, 0);
+      take(i, j, -1.0 * from_i_to_j, 0);
     } else {
-      add(j, i, from_i_to_j, 0);
+      take(j, i, from_i_to_j, 0);
     }
   };
   if (clusters_->one_by_one) {
-    clusters_->pair_list.for_each(positions(), box(), add_pair);
+    clusters_->pair_list.for_each(positions(), box(), take_pair);
   } else {
-    clusters_->pairs.for_each(add_pair);
+    clusters_->pairs.for_each(take_pair);
   }
   const ClusterList::Special& special = clusters_->special;
   for (std::size_t k = 0; k < special.size(); ++k) {
     const double *xi = atom->x[special.i[k]], *xj = atom->x[special.at[k]];
-    add(special.i[k], special.j[k], {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, special.kind[k]);
+    take(special.i[k], special.j[k], {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, special.kind[k]);
   }
+}
+
+void PairDCH::compute_pair_by_pair() {
+  Batch batch;
+  for_each_pair([&](int i, int j, dch::Vec3 from_j_to_i, int kind) {
+    const int k = batch.count++;
+    batch.i[k] = i;
+    batch.j[k] = j;
+    batch.from_j_to_i[k] = from_j_to_i;
+    batch.pairs.r2[k] = norm2(from_j_to_i);
+    batch.pairs.types[k] = (atom->type[i] - 1) * atom->ntypes + atom->type[j] - 1;
+    batch.pairs.kind[k] = kind;
+    if (has_charges()) batch.pairs.charges[k] = atom->q[i] * atom->q[j];
+    if (batch.count == dch::PairBatch::kSize) finish(batch);
+  });
   finish(batch);
 }
 

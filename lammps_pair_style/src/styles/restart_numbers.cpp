@@ -54,9 +54,13 @@ class AsIfGiven {
 
 }  // namespace
 
+std::string restart_settings(Pair& style) {
+  return written([&](std::FILE* file) { style.write_restart_settings(file); });
+}
+
 RestartNumbers::RestartNumbers(Pair& style, const std::string& name, int types, int own,
                                const std::vector<std::pair<int, int>>& pairs, Error& error) {
-  const std::string settings = written([&](std::FILE* file) { style.write_restart_settings(file); });
+  const std::string settings = restart_settings(style);
   all_.resize(settings.size() / sizeof(double));
   std::memcpy(all_.data(), settings.data(), all_.size() * sizeof(double));
   std::string whole;

@@ -9,6 +9,9 @@
 
 namespace LAMMPS_NS {
 
+/// What a style writes to restart files before pairs of types.
+std::string restart_settings(Pair& style);
+
 /// What a pair style keeps to itself but writes to restart files: numbers for all pairs, then those of each
 /// pair of types that has some.
 class RestartNumbers {

@@ -7,6 +7,7 @@ import math
 import sys
 
 from lammps_run import SCRIPTS, Host, thermo_tables
+from table_files import write_tables
 
 PRESSURES = ("Press", "Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")
 STEPS = 40  # with lists every 5; the second of three frames is compared, the last one says how large forces are
@@ -71,9 +72,12 @@ def main():
     parser.add_argument("--ranks", type=int, required=True)
     parser.add_argument("--tolerance", type=float, default=1e-10, help="for what differs at the first step")
     parser.add_argument("--expect", action="append", default=[], help="line that the output has to contain")
+    parser.add_argument("--tables", action="store_true", help="the case reads pair.table")
     parser.add_argument("--var", nargs=2, action="append", default=[])
     arguments = parser.parse_args()
     host = Host(arguments)
+    if arguments.tables:
+        write_tables(host.work / "pair.table")
     case = SCRIPTS / f"in.{arguments.case}"
     tables, frames = [], []
     for lists, load in (("stock", "/dev/null"), ("suffix", host.loader)):

@@ -12,7 +12,7 @@ from collections import Counter
 
 from batches import Runner, error_in
 from lammps_run import Host, thermo_tables
-from random_pairs import SW
+from random_pairs import SW, TABLES
 from random_scripts import Script
 
 TOLERANCE = 1e-7
@@ -67,6 +67,7 @@ def main():
         return
     host = Host(arguments)
     (host.work / "random.sw").write_text(SW)
+    (host.work / "random.table").write_text(TABLES)
     runner = Runner(host, runs_a_process=20)
     counts, messages = Counter(), []
     scripts = {seed: Script(seed) for seed in range(arguments.first, arguments.first + arguments.scripts)}

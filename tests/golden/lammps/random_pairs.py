@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pair styles of random scripts, with cutoffs and sizes by type."""
 
+from table_files import section, soft
+
 SW = "A A A 1.0 0.9 1.8 21.0 1.2 -0.333333333333 7.049556277 0.6022245584 4.0 0.0 0.0\n"
+TABLES = section("LOW", soft(3.0, 0.9), 0.002, 8.0, 300) + section("HIGH", soft(7.0, 0.6), 0.001, 8.0, 500, "")
 
 
 class PairStyles:
@@ -15,7 +18,7 @@ class PairStyles:
                 yield f"{i + 1} {j + 1}", mixed, min(largest, mixed * self.random.uniform(1.12, 2.8))
 
     def pair(self):
-        styles = ["lj/cut", "lj/cut", "lj/cut", "morse", "soft", "yukawa", "lj/expand", "buck", "hybrid", "overlay",
+        styles = ["lj/cut", "lj/cut", "table", "morse", "soft", "yukawa", "lj/expand", "buck", "hybrid", "overlay",
                   "gromacs", "sw"]
         if self.style == "charge":
             styles += ["dsf"] * 4
@@ -42,6 +45,9 @@ class PairStyles:
             self.add("pair_style soft 1.0", *(f"pair_coeff {t} 8.0 {c:.4f}" for t, s, c in pairs))
         elif style == "yukawa":
             self.add("pair_style yukawa 1.5 2.5", *(f"pair_coeff {t} 4.0 {c:.4f}" for t, s, c in pairs))
+        elif style == "table":
+            self.add(f"pair_style table linear {len(pairs)}00",
+                     *(f"pair_coeff {t} random.table {'LOW' if k % 2 else 'HIGH'} {c:.4f}" for k, (t, s, c) in enumerate(pairs)))
         elif style == "lj/expand":
             self.add("pair_style lj/expand 2.5",
                      *(f"pair_coeff {t} {depth} 0.9 {s - 0.9:.3f} {uniform(1.1, 2.0):.4f}" for t, s, c in pairs))
@@ -63,5 +69,5 @@ class PairStyles:
             self.add("pair_style sw", f"pair_coeff * * random.sw {' '.join('A' * self.types)}")
         else:
             self.add("pair_style lj/cut/coul/dsf 0.2 2.5 3.0", *lj())
-        if style in ("lj/cut", "morse", "lj/expand", "buck"):
+        if style in ("lj/cut", "table", "morse", "lj/expand", "buck"):
             self.add(f"pair_modify shift {self.random.choice(('yes', 'no'))}")

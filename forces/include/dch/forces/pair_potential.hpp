@@ -35,7 +35,8 @@ enum class PairForm {
   buckingham,     ///< a e^(-r/rho) - c / r^6: a, rho, c
   morse,          ///< d (e^(-2 alpha (r - r0)) - 2 e^(-alpha (r - r0))): d, alpha, r0
   soft,           ///< a (1 + cos(pi r / cutoff)): a
-  yukawa          ///< a e^(-kappa r) / r: a; for all kappa
+  yukawa,         ///< a e^(-kappa r) / r: a; for all kappa
+  table           ///< a PairTable: its number, from 0
 };
 
 /// How charges act beside, all with the constant: not at all, as q_i q_j / r, as what an Ewald sum leaves to
@@ -52,15 +53,24 @@ struct FormPair {
   double charge_cutoff = 0;         ///< >= 0; of charges, the same [length]
 };
 
+/// A force and an energy that are linear in r^2 between knots, which are equally far from each other in r^2.
+/// Pairs closer than the first knot have no number (NaN) as their force and energy. The force need not be the
+/// slope of the energy.
+struct PairTable {
+  double inner = 0, outer = 0;  ///< distances of the first knot and of the last, 0 <= inner < outer [length]
+  std::vector<double> force_over_r, energy;  ///< at the knots; two or more, and as many of each
+};
+
 struct PairPotentialParams {
   PairForm form = PairForm::lennard_jones;
   ChargeForm charges = ChargeForm::none;
   int types = 1;
-  std::vector<FormPair> pairs;  ///< symmetric matrix of pairs of types, row-major
-  double of_all = 0;            ///< the form's number for all pairs
-  double constant = 1;          ///< of charges, >= 0 [energy length / charge^2]
-  double splitting = 0;         ///< of charges, >= 0 [1/length]
-  double switch_from = 0;       ///< of charges, where they are switched off [length]
+  std::vector<FormPair> pairs;    ///< symmetric matrix of pairs of types, row-major
+  std::vector<PairTable> tables;  ///< of PairForm::table; no cutoff is beyond the last knot
+  double of_all = 0;              ///< the form's number for all pairs
+  double constant = 1;            ///< of charges, >= 0 [energy length / charge^2]
+  double splitting = 0;           ///< of charges, >= 0 [1/length]
+  double switch_from = 0;         ///< of charges, where they are switched off [length]
   bool shifted = false;  ///< whether each pair's energy by its form is lowered by what it is at the cutoff;
                          ///< nothing changes where that is 0
 };
@@ -95,7 +105,7 @@ struct alignas(64) PairBatch {
 class PairPotential {
  public:
   /// @throws InvalidParameter for numbers that are not finite, negative or asymmetric cutoffs, a form that
-  ///   does not go with these charges, and numbers beyond double precision.
+  ///   does not go with these charges, numbers beyond double precision, and tables other than PairTable says.
   explicit PairPotential(const PairPotentialParams& params);
 
   void set_executor(Executor* executor) { executor_ = executor; }
@@ -141,6 +151,14 @@ class PairPotential {
   template <class Real>
   using Tables = std::array<std::vector<Real>, 7>;
 
+  /// Tables side by side, as TableForm has them.
+  template <class Real>
+  struct Knots {
+    std::vector<Real> force, energy;
+  };
+
+  void take_tables();
+  std::array<double, 3> given_to_form(const FormPair& pair) const;
   void take_pair(std::size_t a, std::size_t b);
   void take_charges();
   void take_way();
@@ -167,6 +185,9 @@ class PairPotential {
   /// Numbers of types of which pairs are mixed (LennardJonesParticle); empty unless they are, and tables
   /// would not fit into registers.
   std::vector<double> half_sigma_, root_epsilon_;
+  std::vector<std::array<double, 3>> given_of_table_;
+  Knots<double> knots_;
+  Knots<float> knots_float_;
   Executor* executor_ = nullptr;
   Tables<double> full_;
   Tables<float> mixed_;

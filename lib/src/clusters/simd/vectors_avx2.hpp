@@ -46,6 +46,20 @@ struct Avx2Float {
                          _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_ps(lanes, a); }
+  static V floor(V a) { return _mm256_floor_ps(a); }
+  /// Numbers n and n + 1 of an array, n being an integer in each lane. By loads of both, as gathers of each
+  /// take longer (Zen 3).
+  static void gather_two(const float* from, V n, V& first, V& second) {
+    alignas(32) std::int32_t at[8];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(at), _mm256_cvttps_epi32(n));
+    const auto two = [&](int lane) {
+      const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + at[lane]));
+      return _mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(from + at[lane + 1]));
+    };
+    const V a = _mm256_set_m128(two(4), two(0)), b = _mm256_set_m128(two(6), two(2));
+    first = _mm256_shuffle_ps(a, b, 0x88);
+    second = _mm256_shuffle_ps(a, b, 0xDD);
+  }
   static V spread(const float* four, int which) {
     return _mm256_set_m128(_mm_set1_ps(four[2 * which + 1]), _mm_set1_ps(four[2 * which]));
   }
@@ -151,6 +165,16 @@ struct Avx2Double {
                          _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm256_and_pd(lanes, a); }
+  static V floor(V a) { return _mm256_floor_pd(a); }
+  /// As in single precision.
+  static void gather_two(const double* from, V n, V& first, V& second) {
+    alignas(16) std::int32_t at[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(at), _mm256_cvttpd_epi32(n));
+    const V a = _mm256_set_m128d(_mm_loadu_pd(from + at[2]), _mm_loadu_pd(from + at[0]));
+    const V b = _mm256_set_m128d(_mm_loadu_pd(from + at[3]), _mm_loadu_pd(from + at[1]));
+    first = _mm256_unpacklo_pd(a, b);
+    second = _mm256_unpackhi_pd(a, b);
+  }
   static V spread(const double* four, int which) { return _mm256_set1_pd(four[which]); }
   static V repeat(const double* four) { return _mm256_load_pd(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {

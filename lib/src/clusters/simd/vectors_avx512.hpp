@@ -50,6 +50,16 @@ struct Avx512Float {
     return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
   }
   static V keep(__mmask16 lanes, V a) { return _mm512_maskz_mov_ps(lanes, a); }
+  static V floor(V a) { return _mm512_floor_ps(a); }
+  /// Numbers n and n + 1 of an array, n being an integer in each lane; both are gathered at once.
+  static void gather_two(const float* from, V n, V& first, V& second) {
+    const __m512i at = _mm512_cvttps_epi32(n);
+    const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(at), from, 4));
+    const __m512 high = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_extracti64x4_epi64(at, 1), from, 4));
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    first = _mm512_permutex2var_ps(low, even, high);
+    second = _mm512_permutex2var_ps(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high);
+  }
   static __m512i slots() { return _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3); }
   static V spread(const float* four, int) {
     return _mm512_permutexvar_ps(slots(), _mm512_broadcast_f32x4(_mm_load_ps(four)));
@@ -180,6 +190,13 @@ struct Avx512Double {
     return _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask >> (8 * which)), a, b, _CMP_LT_OQ);
   }
   static V keep(__mmask8 lanes, V a) { return _mm512_maskz_mov_pd(lanes, a); }
+  static V floor(V a) { return _mm512_floor_pd(a); }
+  /// As in single precision.
+  static void gather_two(const double* from, V n, V& first, V& second) {
+    const __m256i at = _mm512_cvttpd_epi32(n);
+    first = _mm512_i32gather_pd(at, from, 8);
+    second = _mm512_i32gather_pd(at, from + 1, 8);
+  }
   static V spread(const double* four, int which) {
     const __m512i slot =
         which == 0 ? _mm512_setr_epi64(0, 0, 0, 0, 1, 1, 1, 1) : _mm512_setr_epi64(2, 2, 2, 2, 3, 3, 3, 3);

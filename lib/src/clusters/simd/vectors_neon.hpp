@@ -46,6 +46,16 @@ struct NeonFloat {
   static V keep(Lanes lanes, V a) {
     return vreinterpretq_f32_u32(vandq_u32(lanes, vreinterpretq_u32_f32(a)));
   }
+  static V floor(V a) { return vrndmq_f32(a); }
+  /// Numbers n and n + 1 of an array, n being an integer in each lane.
+  static void gather_two(const float* from, V n, V& first, V& second) {
+    std::int32_t at[4];
+    vst1q_s32(at, vcvtq_s32_f32(n));
+    const V a = vcombine_f32(vld1_f32(from + at[0]), vld1_f32(from + at[1]));
+    const V b = vcombine_f32(vld1_f32(from + at[2]), vld1_f32(from + at[3]));
+    first = vuzp1q_f32(a, b);
+    second = vuzp2q_f32(a, b);
+  }
   static V spread(const float* four, int which) { return vdupq_n_f32(four[which]); }
   static V repeat(const float* four) { return load(four); }
   static Where spread(const std::int32_t* four, int which) { return vdupq_n_s32(four[which]); }
@@ -145,6 +155,17 @@ struct NeonDouble {
   static V keep(Lanes lanes, V a) {
     return {vreinterpretq_f64_u64(vandq_u64(lanes.low, vreinterpretq_u64_f64(a.low))),
             vreinterpretq_f64_u64(vandq_u64(lanes.high, vreinterpretq_u64_f64(a.high)))};
+  }
+  static V floor(V a) { return {vrndmq_f64(a.low), vrndmq_f64(a.high)}; }
+  /// As in single precision.
+  static void gather_two(const double* from, V n, V& first, V& second) {
+    const int64x2_t low = vcvtq_s64_f64(n.low), high = vcvtq_s64_f64(n.high);
+    const float64x2_t a = vld1q_f64(from + vgetq_lane_s64(low, 0)),
+                      b = vld1q_f64(from + vgetq_lane_s64(low, 1));
+    const float64x2_t c = vld1q_f64(from + vgetq_lane_s64(high, 0)),
+                      d = vld1q_f64(from + vgetq_lane_s64(high, 1));
+    first = {vzip1q_f64(a, b), vzip1q_f64(c, d)};
+    second = {vzip2q_f64(a, b), vzip2q_f64(c, d)};
   }
   static V spread(const double* four, int which) { return set1(four[which]); }
   static V repeat(const double* four) { return load(four); }

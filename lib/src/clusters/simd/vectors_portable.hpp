@@ -84,6 +84,16 @@ struct PortableVector {
     return Lanes{(a.lane < b.lane) & ((kBits<Integer>.lane & of_register) != 0)};
   }
   static V keep(const Lanes& lanes, const V& a) { return V{lanes.lane ? a.lane : zero().lane}; }
+  static float floor(float a) { return __builtin_floorf(a); }
+  static double floor(double a) { return __builtin_floor(a); }
+  static V floor(const V& a) {
+    return each([&](int k) { return floor(a.lane[k]); });
+  }
+  /// Numbers n and n + 1 of an array, n being an integer in each lane.
+  static void gather_two(const Real* from, const V& n, V& first, V& second) {
+    first = each([&](int k) { return from[static_cast<std::int32_t>(n.lane[k])]; });
+    second = each([&](int k) { return from[static_cast<std::int32_t>(n.lane[k]) + 1]; });
+  }
   static V spread(const Real* four, int which) { return set1(four[which]); }
   static V repeat(const Real* four) { return load(four); }
   static Units spread(const std::int32_t* four, int which) {

@@ -45,6 +45,19 @@ struct SseFloat {
     return _mm_and_ps(_mm_cmplt_ps(a, b), _mm_castsi128_ps(_mm_cmpeq_epi32(bits, lane)));
   }
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
+  static V floor(V a) { return _mm_floor_ps(a); }
+  /// Numbers n and n + 1 of an array, n being an integer in each lane.
+  static void gather_two(const float* from, V n, V& first, V& second) {
+    alignas(16) std::int32_t at[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(at), _mm_cvttps_epi32(n));
+    const auto two = [&](int lane) {
+      const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from + at[lane]));
+      return _mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(from + at[lane + 1]));
+    };
+    const V a = two(0), b = two(2);
+    first = _mm_shuffle_ps(a, b, 0x88);
+    second = _mm_shuffle_ps(a, b, 0xDD);
+  }
   static V spread(const float* four, int which) { return _mm_set1_ps(four[which]); }
   static V repeat(const float* four) { return _mm_load_ps(four); }
   static Where spread(const std::int32_t* four, int which) { return _mm_set1_epi32(four[which]); }
@@ -141,6 +154,17 @@ struct SseDouble {
             _mm_and_pd(_mm_cmplt_pd(a.high, b.high), in_high)};
   }
   static V keep(V lanes, V a) { return {_mm_and_pd(lanes.low, a.low), _mm_and_pd(lanes.high, a.high)}; }
+  static V floor(V a) { return {_mm_floor_pd(a.low), _mm_floor_pd(a.high)}; }
+  /// As in single precision.
+  static void gather_two(const double* from, V n, V& first, V& second) {
+    alignas(16) std::int32_t at[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(at),
+                    _mm_unpacklo_epi64(_mm_cvttpd_epi32(n.low), _mm_cvttpd_epi32(n.high)));
+    const auto two = [&](int lane) { return _mm_loadu_pd(from + at[lane]); };
+    const __m128d a = two(0), b = two(1), c = two(2), d = two(3);
+    first = {_mm_unpacklo_pd(a, b), _mm_unpacklo_pd(c, d)};
+    second = {_mm_unpackhi_pd(a, b), _mm_unpackhi_pd(c, d)};
+  }
   static V spread(const double* four, int which) { return set1(four[which]); }
   static V repeat(const double* four) { return load(four); }
   static Cluster load_cluster(const ClusterOfFour<double>& at, const ClusterShift<double>& shift) {

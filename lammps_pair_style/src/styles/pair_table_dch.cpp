@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_table_dch.h"
+
+#include <algorithm>
+#include <atom.h>
+#include <cmath>
+#include <comm.h>
+#include <cstring>
+#include <error.h>
+#include <fstream>
+#include <utils.h>
+
+#include "restart_numbers.h"
+#include "table_file.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+/// In the order in which the plain style counts them in restart files.
+constexpr const char* kWays[] = {"lookup", "linear", "spline", "bitmap"};
+constexpr int kLinear = 1;
+
+/// Whether the number in the middle is that between two knots next to each other, of so many.
+bool is_linear(double first, double middle, double second, int knots) {
+  const double off = std::abs(middle - 0.5 * (first + second));
+  return off <= std::max(1e-9, 1e-15 * knots) * (std::abs(first) + std::abs(second));
+}
+
+}  // namespace
+
+void PairTableDCH::forget() {
+  given_.clear();
+  given_of_types_.clear();
+  ewaldflag = plain().ewaldflag;
+  pppmflag = plain().pppmflag;
+  msmflag = plain().msmflag;
+  dispersionflag = plain().dispersionflag;
+  tip4pflag = plain().tip4pflag;
+}
+
+void PairTableDCH::settings(int narg, char** arg) {
+  PairDCH::settings(narg, arg);
+  forget();
+}
+
+void PairTableDCH::read_restart(FILE* file) {
+  PairDCH::read_restart(file);
+  forget();
+}
+
+void PairTableDCH::read_restart_settings(FILE* file) {
+  PairDCH::read_restart_settings(file);
+  forget();
+}
+
+/// Flags of pairs of types tell which of them this command is for.
+void PairTableDCH::coeff(int narg, char** arg) {
+  PairsOfTypes before;
+  const auto for_each_set = [this](const auto& visit) {
+    if (!plain().allocated) return;
+    for (int a = 1; a <= atom->ntypes; ++a)
+      for (int b = a; b <= atom->ntypes; ++b)
+        if (plain().setflag[a][b]) visit(a, b);
+  };
+  for_each_set([&](int a, int b) {
+    before.emplace_back(a, b);
+    plain().setflag[a][b] = 0;
+  });
+  plain().coeff(narg, arg);
+  for_each_set([&](int a, int b) { given_of_types_[{a, b}] = given_.size(); });
+  given_.push_back({first_distance(arg[2], arg[3]), {}});
+  for (const auto& [a, b] : before) plain().setflag[a][b] = 1;
+  take_coefficients();
+}
+
+/// Process 0 reads the file, as it does for the plain style.
+double PairTableDCH::first_distance(const std::string& file, const std::string& keyword) const {
+  double found = 0;
+  if (comm->me == 0) {
+    std::ifstream opened(utils::get_potential_file_path(file));
+    found = dch::lammps::first_distance(opened, keyword);
+  }
+  MPI_Bcast(&found, 1, MPI_DOUBLE, 0, world);
+  return found;
+}
+
+/// Asks the plain style, from the cutoff inwards: where knots are not where they are thought to be, that
+/// shows before a distance is asked for that the table does not have. At the last knot it has no numbers.
+/// @returns whether it is linear between knots
+bool PairTableDCH::ask_for_knots(int a, int b, int length, Given& given) {
+  dch::PairTable& knots = given.knots;
+  auto &energy = knots.energy, &forces = knots.force_over_r;
+  knots.inner = given.inner;
+  knots.outer = plain().init_one(a, b);
+  if (!(knots.inner < knots.outer)) return false;
+  const auto n = static_cast<std::size_t>(length);
+  energy.resize(n);
+  forces.resize(n);
+  const double first2 = knots.inner * knots.inner;
+  const double apart = (knots.outer * knots.outer - first2) / (length - 1);
+  for (std::size_t k = n - 1; k-- > 0;) {
+    const double r2 = first2 + static_cast<double>(k) * apart;
+    double middle_force = 0;
+    const double middle = plain().single(0, 0, a, b, r2 + 0.5 * apart, 1, 1, middle_force);
+    energy[k] = plain().single(0, 0, a, b, r2, 1, 1, forces[k]);
+    if (k == n - 2) {
+      energy[k + 1] = 2 * middle - energy[k];
+      forces[k + 1] = 2 * middle_force - forces[k];
+    } else if (!is_linear(energy[k], middle, energy[k + 1], length) ||
+               !is_linear(forces[k], middle_force, forces[k + 1], length)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+dch::lammps::Obstacle PairTableDCH::obstacle_of_settings() {
+  if (ewaldflag || pppmflag || msmflag || dispersionflag || tip4pflag)
+    return {"tables for a long-range solver", "no keyword of a solver after 'pair_style table linear N'"};
+  const std::string settings = restart_settings(plain());
+  int numbers[2] = {-1, 0};  // how a table is read, and its length
+  if (settings.size() >= sizeof numbers) std::memcpy(numbers, settings.data(), sizeof numbers);
+  const auto [way, length] = numbers;
+  if (way != kLinear)
+    return {std::string("pair_style table ") + (way >= 0 && way < 4 ? kWays[way] : "of an unknown kind"),
+            "'pair_style table linear N'"};
+  for (const auto& [types, k] : given_of_types_) {
+    Given& given = given_[k];
+    if (!given.knots.energy.empty()) continue;
+    if (given.inner == 0)
+      return {"a file does not tell where its table begins", "a file with one distance a line"};
+    if (!ask_for_knots(types.first, types.second, length, given)) {
+      given.knots = {};
+      return {"a table of pair_style table linear that is not linear in r^2", "'pair_style table/stock'"};
+    }
+  }
+  return {};
+}
+
+void PairTableDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& params) const {
+  const auto n = static_cast<std::size_t>(atom->ntypes);
+  std::map<std::size_t, std::size_t> numbers;  // of tables that are used
+  for (const auto& [a, b] : given) {
+    const std::size_t k = given_of_types_.at({a, b});
+    const auto [entry, is_new] = numbers.emplace(k, params.tables.size());
+    if (is_new) params.tables.push_back(given_[k].knots);
+    dch::FormPair pair;
+    pair.numbers[0] = static_cast<double>(entry->second);
+    pair.cutoff = given_[k].knots.outer;
+    const auto row = static_cast<std::size_t>(a - 1), column = static_cast<std::size_t>(b - 1);
+    params.pairs[row * n + column] = params.pairs[column * n + row] = pair;
+  }
+}
+
+void PairTableDCH::check_forces() {
+  bool all_are_finite = true;
+  const double* const forces = atom->nlocal > 0 ? atom->f[0] : nullptr;
+  for (int k = 0; k < 3 * atom->nlocal; ++k) all_are_finite &= std::abs(forces[k]) <= 1e300;
+  if (all_are_finite) return;
+  // Other forces may be no numbers too. Rounding in single precision may have brought a pair closer than it
+  // is.
+  for_each_pair([&](int i, int j, dch::Vec3 apart, int) {
+    const int a = std::min(atom->type[i], atom->type[j]), b = std::max(atom->type[i], atom->type[j]);
+    const dch::PairTable& knots = given_[given_of_types_.at({a, b})].knots;
+    const double r2 = norm2(apart);
+    if (!(std::sqrt(r2) < (1 + 1e-6) * knots.inner + 1e-7 * knots.outer)) return;
+    double of_pair = 0;
+    plain().single(i, j, a, b, r2, 1, 1, of_pair);
+    error->one(FLERR, std::string("Pair distance < table inner cutoff, to within rounding"));
+  });
+}
+
+}  // namespace LAMMPS_NS
