@@ -111,7 +111,7 @@ constexpr FormKernels form_kernels_of{
      {style_kernels<F, D, MorseForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}},
-     {style_kernels<F, D, TableForm, NoCharges>(), {}, {}, {}, {}}},
+     {style_kernels<F, D, TableForm, NoCharges, true>(), {}, {}, {}, {}}},
     kWantsLanes<F>,
     kWantsLanes<D>};
 

@@ -86,7 +86,7 @@ class Table(ComparedWithStock):
         for newton in ("on", "off"):
             for ranks in (1, 2):
                 with self.subTest(newton, ranks=ranks):
-                    self.ours(f"newton {newton}\n" + script, ranks=ranks)
+                    self.assertIn(CLUSTERS, self.ours(f"newton {newton}\n" + script, ranks=ranks))
 
     def test_settings_again(self):
         self.compare(TABLE + "run 10\npair_style table linear 700\npair_coeff 1 1 pair.table B\nrun 10\n"
@@ -115,7 +115,7 @@ thermo_modify format float %.15g
             self.assertEqual(*(error_of(script, before) for before in ("", "suffix dch\n")))
 
     def test_atoms_too_close_stop_the_run(self):
-        """At rest at first; after some steps; bonded; in cells of few atoms, one by one; with a table for two types."""
+        """At first; after some steps; where pairs are computed one by one; by the table of one pair of types."""
         (host.work / "narrow.table").write_text(section("N", lennard_jones(1.0, 1.0), 0.95, 2.5, 300))
         narrow = TABLE.replace("pair.table A", "narrow.table N")
         near = TABLE + "create_atoms 1 single 0.1 0.1 0.2\n"
