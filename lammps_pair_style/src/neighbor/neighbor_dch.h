@@ -77,6 +77,8 @@ class NeighborDCH : public Neighbor {
   void set_styles(bool taken) { wants_styles_ = taken; }
   bool takes_styles() const { return enabled_ && wants_styles_; }
   /// Why pair styles that have been taken so should leave forces to the plain style; empty if they need not.
+  dch::lammps::Obstacle obstacle_to_choice() const;
+  /// The same of those on cluster pairs.
   dch::lammps::Obstacle obstacle_to_styles() const;
   /// All lists are native from their next build on.
   void disable();

@@ -203,9 +203,14 @@ std::shared_ptr<ClusterList> NeighborDCH::request_clusters(const Pair& asker, co
   return clusters;
 }
 
-Obstacle NeighborDCH::obstacle_to_styles() const {
+Obstacle NeighborDCH::obstacle_to_choice() const {
   if (!enabled_) return {"'dch off' was given", "'dch on'"};
   if (!wants_styles_) return {"'dch styles no' was given", "'dch styles auto'"};
+  return {};
+}
+
+Obstacle NeighborDCH::obstacle_to_styles() const {
+  if (Obstacle choice = obstacle_to_choice(); !choice.empty()) return choice;
   if (engine_ == "grid") return {"the engine grid makes no cluster pairs", "'dch on engine auto'"};
   return {};
 }

@@ -14,6 +14,7 @@
 
 #include "neighbor_dch.h"
 #include "pair_dch.h"
+#include "plain_sums.h"
 #include "restart_numbers.h"
 
 namespace LAMMPS_NS {
@@ -64,15 +65,7 @@ void PairDCH::compute_outer(int eflag, int vflag) {
 }
 
 void PairDCH::take_sums_of_plain() {
-  eng_vdwl = plain_->eng_vdwl;
-  eng_coul = plain_->eng_coul;
-  std::copy_n(plain_->virial, 6, virial);
-  const int atoms = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
-  if (eflag_atom) std::copy_n(plain_->eatom, atoms, eatom);
-  if (vflag_atom)
-    for (int i = 0; i < atoms; ++i) std::copy_n(plain_->vatom[i], 6, vatom[i]);
-  if (cvflag_atom && plain_->cvatom)
-    for (int i = 0; i < atoms; ++i) std::copy_n(plain_->cvatom[i], 9, cvatom[i]);
+  take_sums(*plain_, atom->nlocal + (force->newton_pair ? atom->nghost : 0), *this);
 }
 
 dch::Span<const dch::Vec3> PairDCH::positions() const {

@@ -185,7 +185,7 @@ def modes_of(scene):
     engine = scene["engine"]
     with_forces = "auto" if engine == "grid" else engine
     return {name: (before, after.format(engine=engine, engine_with_forces=with_forces))
-            for name, (before, after) in MODES.items() if scene["pair"] != "granular" or name.startswith("lists")}
+            for name, (before, after) in MODES.items() if scene["pair"] != "granular" or name.startswith(("lists", "both"))}
 
 
 def wrong(scene, mode, stock, output):
