@@ -8,10 +8,10 @@ third digit.
 """
 
 import re
-
-from lammps_run import largest_relative_difference, thermo_tables
-from script_tests import host, main, run
 import unittest
+
+from lammps_run import thermo_tables
+from script_tests import host, main, run
 
 STYLES = ("gran/hooke", "gran/hooke/history", "gran/hertz/history")
 NUMBERS = "2000.0 NULL 50.0 NULL 0.5 1"
@@ -203,11 +203,11 @@ pair_coeff * 2 gran/hertz/history"""
     def test_stress_by_atom_and_single_contacts(self):
         # single() reads velocities of ghosts, which are those of half a step before: lists of others show other numbers.
         shown = """compute each all stress/atom NULL pair
-compute of each all reduce sumsq c_each[1] c_each[4]
+compute of all reduce sumsq c_each[1] c_each[4]
 compute local all pair/local force p1 p4 p7
 compute sums all reduce sumsq c_local[1] c_local[2] c_local[3] c_local[4]
 thermo_style custom step press pxy c_of[1] c_of[2] c_sums[1] c_sums[2] c_sums[3] c_sums[4]
-""".replace("compute of each all", "compute of all")
+"""
         for style in STYLES:
             for newton, ranks in (("on", 1), ("off", 2)):
                 plain = self.compare(heap(style, newton=newton) + shown + "run 100\n", ranks, ("suffix",), style, builds=1)
