@@ -220,7 +220,7 @@ std::string NeighborDCH::wanted_engine() const {
 }
 
 void NeighborDCH::prepare_search() {
-  const double radius = cutneighmax * kRadiusMargin;
+  const double radius = reach() * kRadiusMargin;
   const bool by_size = choose_size_classes();
   const int threads = pool_ ? pool_->threads() : 1;
   const std::string engine = wanted_engine();

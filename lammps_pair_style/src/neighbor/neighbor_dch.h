@@ -157,6 +157,8 @@ class NeighborDCH : public Neighbor {
 
   void build_native_reference();
   void prepare_search();
+  void widen_search();
+  double reach() const;
   std::string wanted_engine() const;
   void check_engine_makes_clusters();
   void prepare_skin();

@@ -48,8 +48,9 @@ void NeighborDCH::build(int topoflag) {
 void NeighborDCH::build_ours() {
   double clock = MPI_Wtime();
   try {
+    widen_search();
     points_.gather(may_use_box());
-    if (points_.in_box() && fills_lists()) images_.gather(cutneighmax);
+    if (points_.in_box() && fills_lists()) images_.gather(reach());
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
     points_.forget_keys();
@@ -65,6 +66,24 @@ void NeighborDCH::build_ours() {
     error->one(FLERR, std::string("DCH neighbor lists: out of memory; use more processes or give 'dch off'"));
   }
   ++run_.builds;
+}
+
+/// How far lists look. LAMMPS's largest cutoff leaves out pairs of frozen grains, and knows no radii that
+/// grow in a run.
+double NeighborDCH::reach() const {
+  if (!any_by_radius()) return cutneighmax;
+  const int atoms = atom->nlocal + atom->nghost;
+  const double largest = atoms > 0 ? *std::max_element(atom->radius, atom->radius + atoms) : 0.0;
+  return std::max(cutneighmax, 2 * largest + skin);
+}
+
+/// A search that no longer reaches far enough is made anew, with room for radii that go on growing.
+void NeighborDCH::widen_search() {
+  constexpr double kRoom = 1.1;
+  if (reach() + images_.error_within(reach()) <= params_.radius) return;
+  params_.radius = kRoom * reach();
+  search_ = parts_.search(engine_in_use_, params_);
+  before_run_ = {};
 }
 
 void NeighborDCH::fill_lists() {
@@ -110,7 +129,7 @@ bool NeighborDCH::may_use_box() const {
   const bool any_ghost_rows =
       fills_lists() &&
       std::any_of(served_.begin(), served_.end(), [](const ServedList& served) { return served.ghost; });
-  const bool is_exact = cutneighmax + images_.error_within(cutneighmax) <= params_.radius;
+  const bool is_exact = reach() + images_.error_within(reach()) <= params_.radius;
   // LAMMPS tells bonded atoms by image, and in a skewed box the nearest one may be a stranger to it.
   return !any_ghost_rows && is_exact && special_.are_near_ones() && points_.may_use_box(params_.radius);
 }

@@ -51,6 +51,40 @@ LEAST = 1e-3  # in terms of which numbers differ that are 0 but for rounding
 WAYS = {"suffix": "suffix dch\n", "dch on": "dch on\n", "both": "dch on\nsuffix dch\n"}
 
 
+# Small grains above a bed of large ones that never move: LAMMPS's largest cutoff leaves out pairs of the bed.
+BED = """
+units lj
+atom_style sphere 1
+newton off
+boundary p p f
+comm_modify vel yes
+lattice sc 1.2 origin 0.5 0.5 0.5
+region box block 0 6 0 6 0 9
+create_box 2 box
+region bed block INF INF INF INF 0 2.9
+region above block INF INF INF INF 3.1 8
+create_atoms 1 region bed
+create_atoms 2 region above
+set type 1 diameter 1.15
+set type 2 diameter 0.6
+set group all density 1.0
+group bed type 1
+group small type 2
+velocity small create 1.0 4711 loop geom
+pair_style gran/hooke/history 2000.0 NULL 50.0 NULL 0.5 0
+pair_coeff * *
+neighbor {skin} bin
+neigh_modify delay 0 every 1 check yes
+timestep 0.0005
+fix down all gravity 1.0 vector 0 0 -1
+fix rest bed freeze
+fix move small nve/sphere
+thermo_style custom step atoms ke press
+thermo 100
+thermo_modify format float %.15g
+"""
+
+
 def heap(style="gran/hooke/history", numbers=NUMBERS, newton="off", sizes=POLYDISPERSE, dynamic=""):
     return HEAP.format(style=f"pair_style {style} {numbers}\npair_coeff * *", newton=newton, sizes=sizes, dynamic=dynamic)
 
@@ -155,6 +189,16 @@ run 100
     def test_grains_that_grow(self):
         grow = "variable wide equal 0.95+0.0002*step\nfix grow all adapt 1 atom diameter v_wide\n"
         self.compare(heap(sizes="0.95", dynamic=" 1") + "run 0\n" + grow + "run 300\n", 2, ("suffix",))
+
+    def test_pairs_beyond_the_largest_cutoff(self):
+        """Of frozen grains, which LAMMPS leaves out of it, and of grains that have grown since the run began."""
+        grow = "variable wide equal 0.6+0.0002*step\nfix grow small adapt 1 atom diameter v_wide\n"
+        for script, ranks in ((BED.format(skin=0.1), 1), (BED.format(skin=0.1), 2), (BED.format(skin=0.3) + grow, 1)):
+            plain = self.outcome(script + "run 400\n", ranks)
+            for styles in ("no", "auto"):
+                ours = self.outcome(script + "run 400\ndch stats\n", ranks, f"dch styles {styles}\ndch verify yes\ndch on\n")
+                self.expect_equal(plain, ours, 1e-8)
+                self.assertRegex(ours[0], r"verified +[1-9]")
 
     def test_restarts(self):
         """Of either kind of name, with the history; files of `dch on` are stock LAMMPS's. The style's line is given
