@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The examples of docs/lammps, and the include lines of docs/install.md: each block of a page in order, commands as scripts over
-chains of two types with bonds and angles, command lines as they are but for fewer steps."""
+chains of two types with bonds and angles, or over grains, command lines as they are but for fewer steps."""
 
 import re
 import shlex
@@ -33,6 +33,18 @@ angle_style harmonic
 angle_coeff 1 1.0 180
 neigh_modify delay 0 every 1 check yes
 fix move all nve
+"""
+GRAINS = """
+units lj
+atom_style sphere
+lattice sc 1.0
+region box block 0 6 0 6 0 6
+create_box 1 box
+create_atoms 1 box
+set group all diameter 1.0
+velocity all create 1.0 4711
+neigh_modify delay 0 every 1 check yes
+fix move all nve/sphere
 """
 RUN = "thermo 1\nrun 4\n"
 
@@ -83,7 +95,7 @@ class Manual(unittest.TestCase):
             program, block = [host.tools / "plugin_host", host.loader.parent / "libdch_lammps.so"], block.partition("\n")[2]
         block = re.sub(r"^include \S+", "include ${load}", block, flags=re.MULTILINE)
         write_chains(host.work / "chains.data")
-        self.check(*host.run_text(CHAINS + block + RUN, executable=program), plain)
+        self.check(*host.run_text((GRAINS if "pair_style gran/" in block else CHAINS) + block + RUN, executable=program), plain)
 
     def write_scripts(self):
         """Those that command lines name, with the systems that they read."""
