@@ -20,6 +20,7 @@
 #include "ghosts_sent.h"
 #include "lammps_versions.h"
 #include "neighbor_dch.h"
+#include "plain_pair.h"
 #include "stock_name.h"
 
 namespace LAMMPS_NS {
@@ -58,13 +59,7 @@ PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : Pair(lammps), style_(styl
 }
 
 PairDCH::~PairDCH() {
-  if (!copymode) give_up_arrays();
-}
-
-void PairDCH::give_up_arrays() {
-  if (!std::exchange(allocated, 0)) return;
-  memory->destroy(setflag);
-  memory->destroy(cutsq);
+  if (!copymode) give_up_arrays_by_types(*this, *memory);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -101,18 +96,8 @@ void PairDCH::take_flags() {
 /// LAMMPS looks at which pairs of types have been given.
 void PairDCH::take_coefficients() {
   kernel_.reset();
-  if (!plain_->allocated) {
-    give_up_arrays();
-    return;
-  }
-  const int n = atom->ntypes;
-  if (!allocated) {
-    allocated = 1;
-    memory->create(setflag, n + 1, n + 1, "pair:setflag");
-    memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
-  }
-  for (int a = 1; a <= n; ++a)
-    for (int b = a; b <= n; ++b) setflag[a][b] = plain_->setflag[a][b];
+  if (!plain_->allocated) give_up_arrays_by_types(*this, *memory);
+  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
 }
 
 void PairDCH::modify_params(int narg, char** arg) {

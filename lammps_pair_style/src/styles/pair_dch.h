@@ -105,7 +105,6 @@ class PairDCH : public Pair, public Explained {
   bool may_have_levels() const;
   Pair& plain_of_levels() const;
   std::string way() const;
-  void give_up_arrays();
   void take_flags();
   void refresh();
   void take_sums_of_plain();

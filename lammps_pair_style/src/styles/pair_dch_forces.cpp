@@ -14,7 +14,7 @@
 
 #include "neighbor_dch.h"
 #include "pair_dch.h"
-#include "plain_sums.h"
+#include "plain_pair.h"
 #include "restart_numbers.h"
 
 namespace LAMMPS_NS {

@@ -18,6 +18,7 @@
 #include <dch/base/error.hpp>
 
 #include "finite_number.h"
+#include "plain_pair.h"
 
 namespace LAMMPS_NS {
 
@@ -28,10 +29,7 @@ PairDPDPhilox::PairDPDPhilox(LAMMPS* lammps, const char* style, bool repels)
 }
 
 PairDPDPhilox::~PairDPDPhilox() {
-  if (allocated && !copymode) {
-    memory->destroy(setflag);
-    memory->destroy(cutsq);
-  }
+  if (!copymode) give_up_arrays_by_types(*this, *memory);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -71,10 +69,8 @@ dch::DissipativePair& PairDPDPhilox::of_types(int a, int b) {
 
 void PairDPDPhilox::make_room() {
   if (allocated) return;
-  allocated = 1;
   const int n = atom->ntypes;
-  memory->create(setflag, n + 1, n + 1, "pair:setflag");
-  memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
+  make_arrays_by_types(*this, n, *memory);
   for (int a = 1; a <= n; ++a)
     for (int b = 1; b <= n; ++b) setflag[a][b] = 0;
   given_.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), {0, 0, cutoff_});

@@ -19,7 +19,7 @@
 #include "atom_vectors.h"
 #include "lammps_versions.h"
 #include "neighbor_dch.h"
-#include "plain_sums.h"
+#include "plain_pair.h"
 #include "restart_numbers.h"
 #include "stock_name.h"
 
@@ -53,10 +53,7 @@ PairGranDCH::PairGranDCH(LAMMPS* lammps, const char* plain, dch::ContactForm for
 }
 
 PairGranDCH::~PairGranDCH() {
-  if (allocated && !copymode) {
-    memory->destroy(setflag);
-    memory->destroy(cutsq);
-  }
+  if (!copymode) give_up_arrays_by_types(*this, *memory);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -69,32 +66,19 @@ void PairGranDCH::settings(int narg, char** arg) {
 
 void PairGranDCH::coeff(int narg, char** arg) {
   plain_->coeff(narg, arg);
-  take_flags();
+  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
 }
 
 /// Restart files do not say whether damping is limited.
 void PairGranDCH::read_restart(FILE* file) {
   plain_->read_restart(file);
   limits_damping_ = false;
-  take_flags();
+  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
 }
 
 void PairGranDCH::read_restart_settings(FILE* file) {
   plain_->read_restart_settings(file);
   limits_damping_ = false;
-}
-
-/// LAMMPS looks at which pairs of types have been given.
-void PairGranDCH::take_flags() {
-  if (!plain_->allocated) return;
-  const int n = atom->ntypes;
-  if (!allocated) {
-    allocated = 1;
-    memory->create(setflag, n + 1, n + 1, "pair:setflag");
-    memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
-  }
-  for (int a = 1; a <= n; ++a)
-    for (int b = a; b <= n; ++b) setflag[a][b] = plain_->setflag[a][b];
 }
 
 void PairGranDCH::modify_params(int narg, char** arg) {

@@ -61,7 +61,6 @@ class PairGranDCH : public Pair, public Explained {
  private:
   dch::lammps::Obstacle reason_for_plain();
   bool has_history() const { return form_ != dch::ContactForm::hooke; }
-  void take_flags();
   void make_contacts();
   void take_list();
   void take_bodies(std::size_t grains);
