@@ -65,6 +65,9 @@ void DissipativePairs::compute(const DissipativeStep& step, DissipativeBatch& ba
     throw InvalidParameter("dissipative pairs: the thermal energy is " +
                            detail::describe(step.thermal_energy) + " and the time step " +
                            detail::describe(step.duration) + "; both must be finite, 0 or more and above 0");
+  if (batch.count < 0 || batch.count > DissipativeBatch::kSize)
+    throw InvalidParameter("a batch of dissipative pairs has " + std::to_string(batch.count) +
+                           " of them; it may have 0 to " + std::to_string(DissipativeBatch::kSize));
   detail::DissipativeTask task{seed_, static_cast<std::uint64_t>(step.number), noise, types_ * types_, {}};
   for (std::size_t k = 0; k < table_.size(); ++k) task.table[k] = table_[k].data();
   detail::force_kernels(instruction_set()).dissipative.compute(task, batch);

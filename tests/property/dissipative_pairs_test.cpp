@@ -84,6 +84,7 @@ TEST(DissipativePairsTest, AreThoseOfTheFormula) {
     int acting = 0;
     for (const int count : {64, 63, 5, 1, 0}) {
       DissipativeBatch batch = any_pairs(random, count);
+      for (int k = count; k < DissipativeBatch::kSize; ++k) batch.types[k] = batch.kind[k] = 2000000000;
       forces.compute(step, batch);
       for (int k = 0; k < count; ++k) {
         const Expected found = expected(params, step, batch, k);
@@ -175,6 +176,10 @@ TEST(DissipativePairsTest, RefusesWhatHasNoSense) {
   for (const DissipativeStep& step :
        {DissipativeStep{0, -1, 1}, DissipativeStep{0, 1, 0}, DissipativeStep{0, nan, 1}})
     EXPECT_THROW(forces.compute(step, batch), InvalidParameter);
+  for (const int count : {-1, DissipativeBatch::kSize + 1}) {
+    batch.count = count;
+    EXPECT_THROW(forces.compute({0, 1, 1}, batch), InvalidParameter);
+  }
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ void dissipative_pairs(const DissipativeTask& task, DissipativeBatch& batch) {
   const V of_step = S::set1(task.noise), one = S::set1(1);
   for (int k = 0; k < batch.count; k += S::kLanes) {
     alignas(32) std::int32_t at[S::kLanes];
-    for (int lane = 0; lane < S::kLanes; ++lane)
-      at[lane] = batch.kind[k + lane] * task.pairs_of_types + batch.types[k + lane];
+    for (int lane = 0; lane < S::kLanes; ++lane) {
+      const int pair = std::min(k + lane, batch.count - 1);  // behind the last one are any numbers
+      at[lane] = batch.kind[pair] * task.pairs_of_types + batch.types[pair];
+    }
     const V x = S::load(batch.x + k), y = S::load(batch.y + k), z = S::load(batch.z + k);
     const V r2 = S::madd(x, x, S::madd(y, y, S::mul(z, z)));
     const V approach = S::madd(x, S::load(batch.vx + k),

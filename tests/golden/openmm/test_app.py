@@ -135,7 +135,7 @@ class AppTest(unittest.TestCase):
         context.getIntegrator().step(steps(20, 3000))
         self.same_as_native(context, system)
         if OPTIONS.long:
-            # Flexible water is 15 K below after these steps with OpenMM's own kernels too, and single steps differ by 5.
+            # Flexible water is 13 K below after these steps with OpenMM's own kernels too, and single steps differ by 5.
             self.assertAlmostEqual(kinetic_temperature(context), TEMPERATURE, delta=40)
         if not case.is_implicit:
             self.under_pressure(context, system, step)

@@ -42,7 +42,7 @@ struct alignas(64) DissipativeBatch {
   std::int32_t kind[kSize]{};    ///< 0 to 3
   double force_over_r[kSize]{};  ///< of the first particle, along x, y, z; written
   double energy[kSize]{};        ///< of the repulsion; written
-  int count = 0;
+  int count = 0;                 ///< 0 to kSize
 };
 
 /// Forces of dissipative particle dynamics (Groot and Warren, J. Chem. Phys. 107, 4423 (1997)) along the line
@@ -61,7 +61,9 @@ class DissipativePairs {
   ///   cutoffs, and weights that are not between 0 and 1 or do not begin with 1.
   explicit DissipativePairs(const DissipativeParams& params);
 
-  /// @throws InvalidParameter for a negative thermal energy or a duration of 0 or less.
+  /// Types and kinds of pairs are not checked.
+  /// @throws InvalidParameter for a negative thermal energy, a duration of 0 or less, and a count that is
+  ///   negative or more than kSize.
   void compute(const DissipativeStep& step, DissipativeBatch& batch) const;
 
  private:

@@ -16,8 +16,7 @@ namespace dch {
 ///
 /// * along d: k_n o - m gamma_n v_n
 /// * across d, with the history s of a contact: -(k_t s + m gamma_t v_t), at most friction times the force
-/// along
-///   d. s is v_t added up over time, turned with the contact, and shortened where it slides.
+///   along d. s is v_t added up over time, turned with the contact, and shortened where it slides.
 enum class ContactForm {
   hooke,          ///< no history: m gamma_t v_t across d, at most friction
   hooke_history,  ///< all of the above
