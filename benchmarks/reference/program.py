@@ -40,12 +40,17 @@ class Program:
     field_between_bonded: bool = False  # see all_pairs.answer
 
 
-def run(command, folder, text=""):
-    """Standard output of a program that gets `text` as its input."""
+def run(command, folder, text="", refusal=None):
+    """Standard output of a program that gets `text` as its input.
+
+    A program that ends badly and prints `refusal` is missing here, whatever its package has installed.
+    """
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                        OMPI_MCA_hwloc_base_binding_policy="none")
     done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, input=text, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
+        if refusal and refusal in done.stdout:
+            raise Missing(f"{command[0]} does not run here: {refusal}")
         raise Failed(f"{command[0]} ended with status {done.returncode}:\n{done.stdout[-1500:]}")
     return done.stdout

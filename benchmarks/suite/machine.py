@@ -30,9 +30,22 @@ def first_match(pattern, text):
     return found.group(1).strip() if found else UNKNOWN
 
 
-def cpu():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return first_match(r"^model name\s*:\s*(.*)$", file.read())
+def cpu(facts=None):
+    """The name of the processor, as /proc/cpuinfo or the text `facts` has it, with the generation where that leaves it out."""
+    if facts is None:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            facts = file.read()
+    name = first_match(r"^model name\s*:\s*(.*)$", facts)
+    # Hypervisors often call each EPYC by this name alone.
+    return f"{name}, {zen(facts)}" if name == "AMD EPYC" else name
+
+
+def zen(facts):
+    """Generation of an AMD processor: of family 25, models below 16 and from 32 to 95 are Zen 3 and all others Zen 4."""
+    family, model = (first_match(rf"^{what}\s*:\s*(\d+)$", facts) for what in ("cpu family", "model"))
+    if family == "25":
+        return "Zen 3" if int(model) < 16 or 32 <= int(model) < 96 else "Zen 4"
+    return {"23": "Zen 1 or 2", "26": "Zen 5"}.get(family, f"family {family}")
 
 
 def instruction_sets():

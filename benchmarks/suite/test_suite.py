@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
-from suite import families, html_report, markdown_report, plot, ratios, record, words  # noqa: E402  (the path comes first)
+from suite import families, html_report, machine, markdown_report, plot, ratios, record, words  # noqa: E402  (the path comes first)
 from suite.machine import ROOT  # noqa: E402
 from suite.running import Failed, Missing, Suite  # noqa: E402
 
@@ -55,6 +55,17 @@ class Figures(unittest.TestCase):
         for value, text in ((0.0, "0"), (7, "7"), (1.234, "1.23"), (12.34, "12.3"), (1234.5, "1234"), (1.5e-9, "1.5e-09"),
                             (None, "-"), ("x", "x")):
             self.assertEqual(words.number(value), text)
+
+
+class Processors(unittest.TestCase):
+    def test_name_has_the_generation_that_a_hypervisor_leaves_out(self):
+        def named(name, family, model):
+            return machine.cpu(f"vendor_id\t: AuthenticAMD\ncpu family\t: {family}\nmodel\t\t: {model}\nmodel name\t: {name}\n")
+
+        for family, model, generation in ((23, 49, "Zen 1 or 2"), (25, 1, "Zen 3"), (25, 17, "Zen 4"), (25, 33, "Zen 3"),
+                                          (25, 160, "Zen 4"), (26, 2, "Zen 5"), (27, 1, "family 27")):
+            self.assertEqual(named("AMD EPYC", family, model), f"AMD EPYC, {generation}")
+        self.assertEqual(named("AMD EPYC 7763 64-Core Processor", 25, 1), "AMD EPYC 7763 64-Core Processor")
 
 
 class Programs(unittest.TestCase):
