@@ -75,7 +75,7 @@ void DropInRegistry::setReciprocal(void (*registration)()) {
 bool DropInRegistry::registerReciprocal() {
   const Lock lock(mutex);
   if (isReciprocalRegistered) return true;
-  const OpenMM::Platform& platform = OpenMM::Platform::getPlatformByName("CPU");
+  OpenMM::Platform& platform = OpenMM::Platform::getPlatformByName("CPU");
   for (const std::string name : {"CalcPmeReciprocalForce", "CalcDispersionPmeReciprocalForce"})
     if (platform.supportsKernels({name})) return false;
   reciprocal();
