@@ -42,8 +42,21 @@ def who(context):
 SYSTEM, POSITIONS = water(app.PME)
 BEFORE = context_of(SYSTEM, "CPU")  # OpenMM's platform has no kernel of ours for it yet
 ENERGY_BEFORE, FORCES_BEFORE = energy_and_forces(BEFORE, POSITIONS, WAVES)
+HAS_PLUGIN = openmm.Platform.getPlatformByName("CPU").supportsKernels(["CalcPmeReciprocalForce"])  # as Debian 13's OpenMM
 
 
+@unittest.skipUnless(HAS_PLUGIN, "OpenMM has no plugin for PME here; ReciprocalTest runs")
+class PluginOfOpenMMTest(unittest.TestCase):
+    def test_it_stays_where_there_is_one(self):
+        self.assertIs(openmm_dch.enable_reciprocal(), False)
+        context = context_of(SYSTEM, "CPU")
+        energy, forces = energy_and_forces(context, POSITIONS, WAVES)
+        self.assertEqual(who(context), ("OpenMM", "OpenMM"))
+        self.assertAlmostEqual(energy, ENERGY_BEFORE, delta=1e-9 * abs(ENERGY_BEFORE))
+        self.assertLess(relative_error(FORCES_BEFORE, forces), 1e-9)
+
+
+@unittest.skipIf(HAS_PLUGIN, "OpenMM has a plugin for PME here; PluginOfOpenMMTest runs")
 class ReciprocalTest(unittest.TestCase):
     def setUp(self):
         self.assertTrue(openmm_dch.enable_reciprocal())
