@@ -129,7 +129,7 @@ void ClusterPairFinder::find(const Scene<Metric>& scene, Executor* executor, Clu
   } else {
     executor->run(slices, search);
   }
-  join(out);
+  join(executor, out);
   keep_cuts();
 }
 
@@ -237,53 +237,6 @@ std::int32_t ClusterPairFinder::restrict_row(std::int32_t c, const ListParams& r
     kept += mask != 0;
   }
   return kept;
-}
-
-/// A slice that is alone has the memory of the pairs themselves while it is searched.
-void ClusterPairFinder::swap_found(Slice& slice, ClusterPairs& out) {
-  out.rows.swap(slice.rows);
-  out.entries.swap(slice.entries);
-  out.shift.swap(slice.shift);
-}
-
-void ClusterPairFinder::join(ClusterPairs& out) {
-  if (slices_.size() == 1) {
-    slices_[0].entries.resize(slices_[0].written);
-    swap_found(slices_[0], out);
-  } else {
-    out.rows.clear();
-    out.entries.clear();
-    out.shift.clear();
-    append_slices(out);
-  }
-  cut_into_tasks(out);
-  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
-  out.split_clusters.clear();
-  out.shift_vector.resize(out.shift.size());
-  out.shift_in_units.resize(out.shift.size());
-  out.has_shift_vectors = false;
-}
-
-void ClusterPairFinder::append_slices(ClusterPairs& out) const {
-  std::size_t rows = 0, entries = 0, shifts = 0;
-  for (const Slice& slice : slices_) {
-    rows += slice.rows.size();
-    entries += slice.written;
-    shifts += slice.shift.size();
-  }
-  shift_count(shifts);
-  out.rows.reserve(rows + 1);
-  out.entries.reserve(entries);
-  out.shift.reserve(shifts);
-  for (const Slice& slice : slices_) {
-    const auto first_entry = static_cast<std::int64_t>(out.entries.size());
-    const auto first_shift = static_cast<std::int32_t>(out.shift.size());
-    for (const ClusterPairs::Row& row : slice.rows)
-      out.rows.push_back({first_entry + row.first, row.cluster, first_shift + row.first_shift});
-    const auto found = slice.entries.begin();
-    out.entries.insert(out.entries.end(), found, found + static_cast<std::ptrdiff_t>(slice.written));
-    out.shift.insert(out.shift.end(), slice.shift.begin(), slice.shift.end());
-  }
 }
 
 #define DCH_INSTANTIATE(Metric) \

@@ -154,8 +154,8 @@ class ClusterPairFinder {
                                              const ClusterPairs& clusters);
   std::int32_t shift_count(std::size_t shifts) const;
   static void swap_found(Slice& slice, ClusterPairs& out);
-  void join(ClusterPairs& out);
-  void append_slices(ClusterPairs& out) const;
+  void join(Executor* executor, ClusterPairs& out);
+  void append_slices(Executor* executor, ClusterPairs& out) const;
   void cut_into_tasks(ClusterPairs& out);
   void append_ranges(Shifts shifts, std::int32_t first_cluster, ClusterPairs& out);
 

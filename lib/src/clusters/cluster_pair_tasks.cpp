@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// ClusterPairFinder: the rows, cut into tasks for the threads of a force kernel.
+// ClusterPairFinder: the rows of all slices, side by side and cut into tasks for the threads of a force
+// kernel.
 #include <algorithm>
 #include <utility>
 
@@ -14,6 +15,59 @@ namespace {
 constexpr std::int32_t kClustersPerTask = 1024, kMaxTasks = 32;
 
 }  // namespace
+
+/// A slice that is alone has the memory of the pairs themselves while it is searched.
+void ClusterPairFinder::swap_found(Slice& slice, ClusterPairs& out) {
+  out.rows.swap(slice.rows);
+  out.entries.swap(slice.entries);
+  out.shift.swap(slice.shift);
+}
+
+void ClusterPairFinder::join(Executor* executor, ClusterPairs& out) {
+  if (slices_.size() == 1) {
+    slices_[0].entries.resize(slices_[0].written);
+    swap_found(slices_[0], out);
+  } else {
+    append_slices(executor, out);
+  }
+  cut_into_tasks(out);
+  out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
+  out.split_clusters.clear();
+  out.shift_vector.resize(out.shift.size());
+  out.shift_in_units.resize(out.shift.size());
+  out.has_shift_vectors = false;
+}
+
+/// Each slice goes to its place on the thread that comes to it: copied one after another they would take a
+/// tenth of a search on two threads. Arrays are not emptied before, so only what they grow by is set to zero.
+void ClusterPairFinder::append_slices(Executor* executor, ClusterPairs& out) const {
+  struct Begin {
+    std::size_t rows = 0, entries = 0, shifts = 0;
+  };
+  std::vector<Begin> begin{{}};
+  for (const Slice& slice : slices_) {
+    const Begin& last = begin.back();
+    begin.push_back(
+        {last.rows + slice.rows.size(), last.entries + slice.written, last.shifts + slice.shift.size()});
+  }
+  shift_count(begin.back().shifts);
+  out.rows.reserve(begin.back().rows + 1);
+  out.rows.resize(begin.back().rows);
+  out.entries.resize(begin.back().entries);
+  out.shift.resize(begin.back().shifts);
+  executor->run(static_cast<int>(slices_.size()), [&](int p) {
+    const Slice& slice = slices_[static_cast<std::size_t>(p)];
+    const Begin& at = begin[static_cast<std::size_t>(p)];
+    const auto first_entry = static_cast<std::int64_t>(at.entries);
+    const auto first_shift = static_cast<std::int32_t>(at.shifts);
+    for (std::size_t r = 0; r < slice.rows.size(); ++r) {
+      const ClusterPairs::Row& row = slice.rows[r];
+      out.rows[at.rows + r] = {first_entry + row.first, row.cluster, first_shift + row.first_shift};
+    }
+    std::copy_n(slice.entries.begin(), slice.written, out.entries.begin() + first_entry);
+    std::copy(slice.shift.begin(), slice.shift.end(), out.shift.begin() + first_shift);
+  });
+}
 
 /// Shifts stand in the order of the nodes that they lead from, hence of their clusters, and name all nodes
 /// that these meet.
