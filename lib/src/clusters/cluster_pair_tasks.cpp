@@ -51,7 +51,9 @@ void ClusterPairFinder::append_slices(Executor* executor, ClusterPairs& out) con
         {last.rows + slice.rows.size(), last.entries + slice.written, last.shifts + slice.shift.size()});
   }
   shift_count(begin.back().shifts);
-  out.rows.reserve(begin.back().rows + 1);
+  out.rows.reserve(begin.back().rows + 1);  // and no more, which resize() alone may take
+  out.entries.reserve(begin.back().entries);
+  out.shift.reserve(begin.back().shifts);
   out.rows.resize(begin.back().rows);
   out.entries.resize(begin.back().entries);
   out.shift.resize(begin.back().shifts);
