@@ -47,7 +47,6 @@ void PoolExecutor::run(int parts, const std::function<void(int)>& task) {
   } else {
     const Release whenDone{busy};
     pool.execute([&](OpenMM::ThreadPool&, int) { all.take(); });
-    all.take();  // while they wake up, which may take as long as a part
     pool.waitForThreads();
   }
   all.throwOn();
