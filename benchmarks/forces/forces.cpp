@@ -205,43 +205,6 @@ void forces_of_types(benchmark::State& state) {
   report_per(state, "time/useful", static_cast<double>(melt.useful));
 }
 
-enum class Part { list, search, forces };
-const dch::InstructionSet kWidest = dch::instruction_set();  // before benchmarks set others
-
-/// On several threads, by wall clock, with what a step or an update has to do before. The second argument is
-/// the number of threads; the instruction set is the widest.
-template <Part part>
-void on_threads(benchmark::State& state) {
-  dch::set_instruction_set(kWidest);
-  Melt& melt = melt_of(state.range(0));
-  const auto threads = static_cast<int>(state.range(1));
-  const auto pool = dch::make_thread_pool(threads);
-  dch::Executor* const executor = threads > 1 ? pool.get() : nullptr;
-  dch::HierarchyParams params;
-  params.radius = kCutoff + kSkin;
-  params.executor = executor;
-  const auto search = dch::make_dch_search(params);
-  dch::ListParams unsorted = request();
-  unsorted.order = dch::RowOrder::unsorted;
-  dch::LennardJones potential({1, 1, kCutoff});
-  potential.set_executor(executor);
-  melt.search_for(dch::ForcePrecision::mixed);
-  dch::NeighborList list;
-  dch::ClusterPairs pairs;
-  std::vector<dch::Vec3> force(melt.positions.size());
-  for (auto _ : state) {
-    if (part != Part::forces) search->update(melt.positions, melt.box);
-    if (part == Part::list) search->list(unsorted, list);
-    if (part == Part::search) search->cluster_pairs(request(), pairs);
-    if (part == Part::forces) {
-      melt.pairs.refresh(melt.positions, melt.box, executor);
-      potential.add_forces(melt.pairs, dch::ForcePrecision::mixed, force);
-    }
-    benchmark::ClobberMemory();
-  }
-  report_per(state, "time/atom", melt.atoms());
-}
-
 const std::vector<std::int64_t> kSets{0, 1, 2, 3};
 
 #define DCH_CLUSTER_PAIRS(name, orders, precision)                 \
@@ -277,16 +240,6 @@ BENCHMARK(refresh)->Args({20, 3})->Unit(benchmark::kMillisecond);
 DCH_FORCES(mixed);
 DCH_FORCES(full);
 #undef DCH_FORCES
-#define DCH_ON_THREADS(part)            \
-  BENCHMARK(on_threads<Part::part>)     \
-      ->Name("threads_" #part)          \
-      ->ArgsProduct({{20, 40}, {1, 2}}) \
-      ->UseRealTime()                   \
-      ->Unit(benchmark::kMillisecond)
-DCH_ON_THREADS(list);
-DCH_ON_THREADS(search);
-DCH_ON_THREADS(forces);
-#undef DCH_ON_THREADS
 
 }  // namespace
 

@@ -38,8 +38,8 @@ void ClusterPairFinder::join(Executor* executor, ClusterPairs& out) {
   out.has_shift_vectors = false;
 }
 
-/// Each slice goes to its place on the thread that comes to it: copied one after another they would take a
-/// tenth of a search on two threads. Arrays are not emptied before, so only what they grow by is set to zero.
+/// Each slice goes to its place on the thread that comes to it, since all threads would wait for one that
+/// copies them all. Arrays are not emptied before, so only what they grow by is set to zero.
 void ClusterPairFinder::append_slices(Executor* executor, ClusterPairs& out) const {
   struct Begin {
     std::size_t rows = 0, entries = 0, shifts = 0;
