@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Lists, the search of cluster pairs and forces of the Lennard-Jones melt on several threads, by wall clock, with what
-// a step or an update has to do before. Arguments: cubic cells of four atoms along each axis of the start,
-// and the number of threads. Answers are those of one thread, to the last bit, or nothing is timed.
+// Lists, the search of cluster pairs and forces of the Lennard-Jones melt on several threads, by wall clock,
+// with what a step or an update has to do before. Arguments: cubic cells of four atoms along each axis of the
+// start, and the number of threads. Answers are those of one thread, to the last bit, or nothing is timed.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cstdio>
