@@ -2,11 +2,14 @@
 //
 // Cluster pairs hold every pair once, with the right image, in every kind of box, and still do after motion.
 #include <gtest/gtest.h>
+#include <string>
+#include <tuple>
 
 #include <dch/base/error.hpp>
 #include <dch/base/executor.hpp>
 
 #include "cluster_pair_check.hpp"
+#include "error_message.hpp"
 #include "instruction_sets.hpp"
 #include "list_params.hpp"
 #include "listed_hierarchy.hpp"
@@ -34,6 +37,11 @@ bool same(const ClusterPairs& a, const ClusterPairs& b) {
          std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(), same_entry) &&
          std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(), same_row) &&
          std::equal(a.shift.begin(), a.shift.end(), b.shift.begin(), b.shift.end(), same_shift);
+}
+
+template <class Places>
+std::string bits_of(const std::vector<Places>& places) {
+  return {reinterpret_cast<const char*>(places.data()), places.size() * sizeof(Places)};
 }
 
 TEST_P(ClusterPairsScenes, HoldEveryPairOnce) {
@@ -223,6 +231,38 @@ TEST(ClusterPairsTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(pairs.refresh(points, box), InvalidParameter);
   points.push_back({});
   EXPECT_THROW(pairs.refresh(points, Box::orthorhombic({5, 5, 5}, {true, true, false})), InvalidBox);
+}
+
+// Half of the clusters are split by a boundary, on any number of threads, and the first of those that are
+// nowhere is named.
+TEST(ClusterPairsTest, RefreshIsTheSameOnAnyNumberOfThreads) {
+  const Box box = Box::orthorhombic({5, 5, 5});
+  const std::vector<Vec3> points = scenes::uniform_in(box, 800, 4);
+  ListedHierarchy hierarchy = hierarchy_of(points, box, 1);
+  ClusterPairs found;
+  hierarchy.cluster_pairs(within(1), found);
+  ASSERT_GT(found.split_clusters.size(), 20u);
+  scenes::Random random(3);
+  std::vector<Vec3> moved = points, nowhere = points;
+  for (Vec3& p : moved) p = box.wrap(p + random.in_cube(0.2));
+  for (const std::size_t k : {2, 4, 9, 17}) {
+    const auto split = found.split_clusters[k].cluster * ClusterPairs::kSlots;
+    nowhere[static_cast<std::size_t>(found.particle[static_cast<std::size_t>(split)])].z = std::nan("");
+  }
+  const auto refreshed = [&](Executor* executor) {
+    ClusterPairs pairs = found;
+    const std::string message =
+        test::message_of<InvalidPosition>([&] { pairs.refresh(nowhere, box, executor); });
+    pairs.refresh(moved, box, executor);
+    EXPECT_EQ(cluster_pair_fault(pairs, moved, box, within(0.5)), "");
+    return std::tuple(message, pairs.unit, bits_of(pairs.at), bits_of(pairs.at_in_units),
+                      bits_of(pairs.shift_in_units));
+  };
+  const auto alone = refreshed(nullptr);
+  for (const int threads : {2, 3, 7}) {
+    const auto pool = make_thread_pool(threads);
+    EXPECT_EQ(refreshed(pool.get()), alone) << threads << " threads";
+  }
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class ThreadPool final : public Executor {
  public:
   explicit ThreadPool(int threads) : spins_(has_processors_for(threads) ? kSpins : 0) {
     try {
-      for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+      for (int k = 1; k < threads; ++k) workers_.emplace_back([this, k] { work(k); });
     } catch (const std::system_error& error) {
       close();
       throw Error("of a pool of " + std::to_string(threads) + " threads only " +
@@ -43,14 +43,14 @@ class ThreadPool final : public Executor {
 
   void run(int parts, const std::function<void(int)>& task) override {
     if (parts < 1) return;
-    Job job{task, parts, parts};
+    Job job(task, parts, threads());
     std::unique_lock lock(mutex_);
     if (parts > 1) {  // which the others may help with
       job.next = newest_;
       newest_ = &job;
       wake_.notify_all();
     }
-    take_parts(job, lock);
+    take_parts(job, 0, lock);
     if (job.open > 0) {
       lock.unlock();
       spin_until([&] { return job.open == 0; });
@@ -64,11 +64,35 @@ class ThreadPool final : public Executor {
   /// One call of run(), on the stack of its caller. The caller begins parts of its own job only and then
   /// waits for those that others have begun. A part waits only for jobs that it has started itself, so no two
   /// threads wait for each other, however calls are nested.
+  ///
+  /// Each thread has a share of the parts, which it begins in their order, and then helps that which has the
+  /// most left. So the same parts of calls that follow each other are mostly run by the same thread, which
+  /// has what they read and write in its cache.
   struct Job {
+    Job(const std::function<void(int)>& to_do, int count, int threads)
+        : task(to_do), parts(count), open(count), shares(static_cast<std::size_t>(threads)) {
+      for (int k = 0; k < threads; ++k)
+        shares[static_cast<std::size_t>(k)] = {share_begin(count, k, threads),
+                                               share_begin(count, k + 1, threads)};
+    }
+    /// @pre not all have begun
+    int begin_part(int thread) {
+      ++begun;
+      Share* from = &shares[static_cast<std::size_t>(thread)];
+      if (from->first < from->last) return from->first++;
+      for (Share& share : shares)
+        if (share.last - share.first > from->last - from->first) from = &share;
+      return --from->last;
+    }
+
+    struct Share {
+      int first = 0, last = 0;
+    };
     const std::function<void(int)>& task;
     const int parts;
-    std::atomic<int> open;  ///< parts that have not ended
-    int begun = 0;          ///< parts
+    std::atomic<int> open;      ///< parts that have not ended
+    int begun = 0;              ///< parts
+    std::vector<Share> shares;  ///< by thread, parts that have not begun
     std::exception_ptr error = nullptr;
     Job* next = nullptr;  ///< the job that came before it, of those with parts to begin
   };
@@ -82,14 +106,14 @@ class ThreadPool final : public Executor {
     for (std::thread& worker : workers_) worker.join();
   }
 
-  void work() {
+  void work(int thread) {
     const auto is_wanted = [this] { return closing_ || newest_ != nullptr; };
     for (;;) {
       spin_until(is_wanted);
       std::unique_lock lock(mutex_);
       wake_.wait(lock, is_wanted);
       if (closing_) return;
-      take_parts(*newest_, lock);  // which older jobs wait for, if it is nested
+      take_parts(*newest_, thread, lock);  // which older jobs wait for, if it is nested
     }
   }
 
@@ -108,9 +132,9 @@ class ThreadPool final : public Executor {
   }
 
   /// Runs parts of a job as long as there are any to begin. When it returns, the job may be gone.
-  void take_parts(Job& job, std::unique_lock<std::mutex>& lock) {
+  void take_parts(Job& job, int thread, std::unique_lock<std::mutex>& lock) {
     while (job.begun < job.parts) {
-      const int part = job.begun++;
+      const int part = job.begin_part(thread);
       if (job.begun == job.parts) leave_out(job);
       lock.unlock();
       std::exception_ptr error;

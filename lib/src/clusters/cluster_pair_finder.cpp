@@ -17,7 +17,7 @@ constexpr std::uint32_t kPairsWithinCluster = 0x08CE;  ///< bits 4 a + b with a 
 constexpr std::uint32_t kPairsOfOneSlot = 0x1111;      ///< that NearCluster has of a point alone
 constexpr std::int32_t kMaxShifts = 0x10000;           ///< that the entries of a row can tell apart
 /// Slices of the work for each thread, so that none waits long for the last one.
-constexpr int kSlicesPerThread = 4;
+constexpr int kSlicesPerThread = 8;
 
 /// Bit 4 a for each slot a of a set; times the bits b of another one, the bits 4 a + b of all their pairs.
 std::uint32_t spread(std::uint32_t slots) {

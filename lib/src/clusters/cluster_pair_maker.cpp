@@ -44,7 +44,7 @@ void ClusterPairMaker::make(const HierarchyView& view, const ListParams& params,
                                hierarchy.raw, params, reach},
                          hierarchy.params.executor, out);
     });
-    out.refresh(hierarchy.raw, hierarchy.box);
+    out.refresh(hierarchy.raw, hierarchy.box, hierarchy.params.executor);
     out.refreshes = 0;
     out.refreshes_before = refreshes;
   } catch (...) {

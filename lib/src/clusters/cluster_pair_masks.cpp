@@ -53,8 +53,7 @@ std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoff
 
 /// For the next search. What none reads gives its memory back: 20 bytes a particle.
 void ClusterPairFinder::keep_cuts() {
-  last_cuts_ = std::move(cuts_);
-  cuts_ = {};
+  std::swap(last_cuts_, cuts_);
   clusters_ = {};
 }
 

@@ -2,64 +2,21 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <string>
-#include <utility>
 
 #include <dch/base/error.hpp>
 #include <dch/clusters/cluster_pairs.hpp>
 
 #include "base/describe.hpp"
+#include "clusters/cluster_places.hpp"
 #include "clusters/simd/cluster_search_kernels.hpp"
 #include "geometry/lattice.hpp"
 
 namespace dch {
 namespace {
 
-constexpr std::int32_t kPadding = -1;
-
-Vec3 slot_of(const ClusterOfFour<double>& cluster, int slot) {
-  return {cluster.x[slot], cluster.y[slot], cluster.z[slot]};
-}
-
-void put(Vec3 at, int slot, ClusterOfFour<double>& cluster) {
-  cluster.x[slot] = at.x;
-  cluster.y[slot] = at.y;
-  cluster.z[slot] = at.z;
-}
-
-bool all_within(double distance2, const ClusterOfFour<double>& a, const ClusterOfFour<double>& b) {
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
-    if (!(norm2(slot_of(b, slot) - slot_of(a, slot)) < distance2)) return false;
-  return true;
-}
-
-/// The nearest integer modulo 2^32.
-std::int32_t rounded(double units) {
-  if (!(std::abs(units) < 0x1p51)) units = std::remainder(units, 0x1p32);  // slow, and exact
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llrint(units)));
-}
-
-/// As the kernels do.
-void round_cluster(const ClusterOfFour<double>& at, Vec3 origin, double per_unit, ClusterUnits& to) {
-  const auto last_bits = [](double sum) { return rounded(sum - 0x1.8p52); };
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-    to.x[slot] = last_bits(per_unit * at.x[slot] + origin.x);
-    to.y[slot] = last_bits(per_unit * at.y[slot] + origin.y);
-    to.z[slot] = last_bits(per_unit * at.z[slot] + origin.z);
-  }
-}
-
-double farthest2_of(const ClusterOfFour<double>& at) {
-  double most = 0;
-  for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) most = std::max(most, norm2(slot_of(at, slot)));
-  return most;
-}
-
-/// Of how far a particle moves less in the image that it is in.
-double safe_distance2(const Box& box) {
-  const double safe = 0.25 * box.min_height();
-  return safe * safe;
-}
+using detail::kPadding, detail::nearest_unit, detail::put_slot, detail::round_cluster, detail::safe_distance2;
 
 detail::RefreshTask refresh_task(ClusterPairs& pairs, ClusterPairs::Range clusters,
                                  Span<const Vec3> positions, double safe2) {
@@ -81,77 +38,6 @@ detail::RefreshTask refresh_task(ClusterPairs& pairs, ClusterPairs::Range cluste
 void keep_numbers(std::vector<std::int32_t>& clusters) {
   clusters.erase(std::remove(clusters.begin(), clusters.end(), kPadding), clusters.end());
 }
-
-/// Takes new positions of clusters that the boundary of the cell splits.
-class SplitClusters {
- public:
-  SplitClusters(ClusterPairs& pairs, Span<const Vec3> positions, const Box& now, double safe2)
-      : pairs_(pairs),
-        positions_(positions),
-        now_(now),
-        images_(now),
-        safe2_(safe2),
-        farthest2_(pairs.farthest * pairs.farthest) {}
-
-  /// @param known what is known of it, or null
-  /// @throws InvalidPosition, and then has changed nothing
-  ClusterPairs::SplitCluster take(std::int32_t cluster, const ClusterPairs::SplitCluster* known) {
-    const auto c = static_cast<std::size_t>(cluster);
-    ClusterPairs::SplitCluster split = known ? *known : ClusterPairs::SplitCluster{cluster, {}};
-    const ClusterOfFour<double>& before = pairs_.at[c];
-    ClusterOfFour<double> at = place(split);
-    if (!known || !all_within(safe2_, before, at)) {
-      find_images(before, split);
-      at = place(split);
-    }
-    pairs_.at[c] = at;
-    farthest2_ = std::max(farthest2_, farthest2_of(at));
-    const auto origin = static_cast<std::size_t>(pairs_.origin_of[c]);
-    round_cluster(at, pairs_.origin_in_units[origin], 1 / pairs_.unit, pairs_.at_in_units[c]);
-    return split;
-  }
-  /// Squared distance of the farthest particle from its origin, or what that was to be.
-  double farthest2() const { return farthest2_; }
-
- private:
-  std::int32_t particle(std::int32_t cluster, int slot) const {
-    const std::int32_t* const of = &pairs_.particle[static_cast<std::size_t>(cluster) * ClusterPairs::kSlots];
-    return of[of[slot] == kPadding ? 0 : slot];
-  }
-  Vec3 origin(std::int32_t cluster) const {
-    return pairs_.origin[static_cast<std::size_t>(pairs_.origin_of[static_cast<std::size_t>(cluster)])];
-  }
-
-  /// The origin, which has few digits, is moved to each image: that does not round.
-  ClusterOfFour<double> place(const ClusterPairs::SplitCluster& split) const {
-    ClusterOfFour<double> at;
-    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot)
-      put(positions_[static_cast<std::size_t>(particle(split.cluster, slot))] -
-              (origin(split.cluster) - images_.vector(split.image[slot])),
-          slot, at);
-    return at;
-  }
-
-  /// The image of each particle is that nearest to where it was.
-  void find_images(const ClusterOfFour<double>& before, ClusterPairs::SplitCluster& split) const {
-    for (int slot = 0; slot < ClusterPairs::kSlots; ++slot) {
-      const std::int32_t i = particle(split.cluster, slot);
-      const Vec3 position = positions_[static_cast<std::size_t>(i)];
-      const Vec3 moved = position - origin(split.cluster) - slot_of(before, slot);
-      if (!std::isfinite(norm2(moved)))
-        throw InvalidPosition("position " + std::to_string(i) + " = " + detail::describe(position) +
-                              " is not finite; check the coordinates of this step");
-      split.image[slot] =
-          norm2(moved) < safe2_ ? Vec3{} : images_.integers(now_.nearest_image(moved) - moved);
-    }
-  }
-
-  ClusterPairs& pairs_;
-  Span<const Vec3> positions_;
-  const Box& now_;
-  detail::Lattice images_;
-  double safe2_, farthest2_;
-};
 
 }  // namespace
 
@@ -176,15 +62,15 @@ void ClusterPairs::refresh(Span<const Vec3> positions, const Box& now, Executor*
   if (!same_periodicity(now, box))
     throw InvalidBox("refresh() got the box " + now.description() + " for cluster pairs made in the box " +
                      box.description() + "; make the pairs anew for another periodicity");
-  take_box(now);
+  take_box(now, executor);
   refresh_clusters(positions, now, executor);
   ++refreshes;
 }
 
-void ClusterPairs::take_box(const Box& now) {
+void ClusterPairs::take_box(const Box& now, Executor* executor) {
   if (has_shift_vectors && now == box) return;
-  refresh_shifts(now);
-  choose_unit(now);
+  refresh_shifts(now, executor);
+  choose_unit(now, executor);
   has_shift_vectors = true;
   box = now;
 }
@@ -193,7 +79,7 @@ bool ClusterPairs::follow(const Places& places, Span<const Vec3> positions, cons
                           std::vector<std::int32_t>& away, Executor* executor) {
   const auto follow = detail::cluster_search_kernels(instruction_set()).follow;
   std::atomic<bool> all_certain{true};
-  take_box(now);
+  take_box(now, executor);
   away.assign(at.size(), kPadding);
   for_ranges(executor, clusters(), [&](std::int32_t first, std::int32_t last) {
     const detail::FollowTask task{refresh_task(*this, {first, last}, positions, safe_distance2(now)),
@@ -216,50 +102,52 @@ void ClusterPairs::refresh_clusters(Span<const Vec3> positions, const Box& now, 
     refresh(refresh_task(*this, {first, last}, positions, safe2), far.data() + first);
   });
   keep_numbers(far);
-  SplitClusters taker(*this, positions, now, safe2);
-  std::vector<SplitCluster> split_now;
-  split_now.reserve(far.size());
-  auto known = split_clusters.begin();
-  for (const std::int32_t cluster : far) {
-    while (known != split_clusters.end() && known->cluster < cluster) ++known;
-    split_now.push_back(
-        taker.take(cluster, known != split_clusters.end() && known->cluster == cluster ? &*known : nullptr));
-  }
-  split_clusters = std::move(split_now);
-  if (taker.farthest2() > farthest * farthest) make_room_for(taker.farthest2(), now);
+  refresh_split(far, positions, now, executor);
 }
 
-void ClusterPairs::refresh_shifts(const Box& now) {
+void ClusterPairs::refresh_shifts(const Box& now, Executor* executor) {
   const detail::Lattice images(now);
-  for (std::size_t s = 0; s < shift.size(); ++s) {
-    const Vec3 between =
-        origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
-    const Vec3 vector = between + images.vector(shift[s].image);
-    for (int slot = 0; slot < kSlots; ++slot) put(vector, slot, shift_vector[s].whole);
-  }
+  for_ranges(executor, shift.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t s = first; s < last; ++s) {
+      const Vec3 between =
+          origin[static_cast<std::size_t>(shift[s].to)] - origin[static_cast<std::size_t>(shift[s].from)];
+      const Vec3 vector = between + images.vector(shift[s].image);
+      for (int slot = 0; slot < kSlots; ++slot) put_slot(vector, slot, shift_vector[s].whole);
+    }
+  });
 }
 
 /// The finest in which no displacement of slots of an entry reaches 2^31.
-void ClusterPairs::choose_unit(const Box& now) {
+void ClusterPairs::choose_unit(const Box& now, Executor* executor) {
   double widest = 0;
-  for (const ClusterShift<double>& by : shift_vector)
-    widest = std::max({widest, std::abs(by.whole.x[0]), std::abs(by.whole.y[0]), std::abs(by.whole.z[0])});
+  std::mutex joining;
+  for_ranges(executor, shift.size(), [&](std::size_t first, std::size_t last) {
+    double own = 0;
+    for (std::size_t s = first; s < last; ++s) {
+      const ClusterOfFour<double>& by = shift_vector[s].whole;
+      own = std::max({own, std::abs(by.x[0]), std::abs(by.y[0]), std::abs(by.z[0])});
+    }
+    const std::lock_guard lock(joining);
+    widest = std::max(widest, own);
+  });
   unit = std::ldexp(1, std::ilogb(widest + 2 * farthest) + 1 - 31);
   origin_in_units.resize(origin.size());
   for (std::size_t k = 0; k < origin.size(); ++k)
     for (int axis = 0; axis < 3; ++axis)
-      origin_in_units[k][axis] = 0x1.8p52 + static_cast<double>(rounded(origin[k][axis] / unit));
+      origin_in_units[k][axis] = 0x1.8p52 + static_cast<double>(nearest_unit(origin[k][axis] / unit));
   const detail::Lattice images(now);
-  for (std::size_t s = 0; s < shift.size(); ++s) {
-    const Vec3 vector = images.vector(shift[s].image);
-    for (int axis = 0; axis < 3; ++axis) shift_in_units[s].axis[axis] = rounded(vector[axis] / unit);
-  }
+  for_ranges(executor, shift.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t s = first; s < last; ++s) {
+      const Vec3 vector = images.vector(shift[s].image);
+      for (int axis = 0; axis < 3; ++axis) shift_in_units[s].axis[axis] = nearest_unit(vector[axis] / unit);
+    }
+  });
 }
 
 /// For particles that have gone far from their origins, to stay near each other all the same.
-void ClusterPairs::make_room_for(double farthest2, const Box& now) {
+void ClusterPairs::make_room_for(double farthest2, const Box& now, Executor* executor) {
   farthest = 2 * std::sqrt(farthest2);
-  choose_unit(now);
+  choose_unit(now, executor);
   for (std::size_t c = 0; c < at.size(); ++c)
     round_cluster(at[c], origin_in_units[static_cast<std::size_t>(origin_of[c])], 1 / unit, at_in_units[c]);
 }

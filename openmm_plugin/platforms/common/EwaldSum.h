@@ -16,7 +16,7 @@ namespace OpenMMDCH {
 class EwaldSum : public ReciprocalSum {
  public:
   /// @param ofPlatform  its threads; null for the caller's alone
-  explicit EwaldSum(std::unique_ptr<dch::Executor> ofPlatform)
+  explicit EwaldSum(std::shared_ptr<dch::Executor> ofPlatform)
       : ReciprocalSum(dch::LatticeSum::coulomb), executor(std::move(ofPlatform)) {}
 
   /// Splitting and wave numbers are those that OpenMM chooses.
@@ -27,7 +27,7 @@ class EwaldSum : public ReciprocalSum {
   double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
 
  private:
-  std::unique_ptr<dch::Executor> executor;
+  std::shared_ptr<dch::Executor> executor;
   std::optional<dch::EwaldWaves> waves;
 };
 

@@ -17,13 +17,13 @@
 
 namespace OpenMMDCH {
 
-/// A NecklaceContactForce on platforms on the processor, all in double. Contacts are searched on the threads
-/// that the platform lends, forces are added on one.
+/// A NecklaceContactForce on platforms on the processor, all in double. Contacts are searched on
+/// several threads, forces are added on one.
 class NecklaceContactKernel : public CalcNecklaceContactForceKernel {
  public:
   /// @param threads  null for one
   NecklaceContactKernel(const std::string& kernelName, const OpenMM::Platform& onPlatform,
-                        std::unique_ptr<dch::Executor> threads = nullptr)
+                        std::shared_ptr<dch::Executor> threads = nullptr)
       : CalcNecklaceContactForceKernel(kernelName, onPlatform), executor(std::move(threads)) {}
 
   void initialize(const OpenMM::System& system, const NecklaceContactForce& force) override;
@@ -37,7 +37,7 @@ class NecklaceContactKernel : public CalcNecklaceContactForceKernel {
   HostState stateOf(OpenMM::ContextImpl& context) const;
   double addPairs(const HostState& state);
 
-  std::unique_ptr<dch::Executor> executor;
+  std::shared_ptr<dch::Executor> executor;
   bool isPeriodic = false;
   dch::necklace::ContactQuery query;
   std::optional<ContactKeeper> keeper;

@@ -105,29 +105,38 @@ void NonbondedSum::checkPositions(dch::Span<const dch::Vec3> positions) {
                                     " is not finite");
 }
 
-double NonbondedSum::addExceptions(const HostState& state) const {
+/// Threads find the terms, which take exponentials, and one adds them in their order.
+double NonbondedSum::addExceptions(const HostState& state) {
+  const std::vector<DCHParameterSet::Exception>& exceptions = parameters().exceptions();
+  exceptionTerms.resize(exceptions.size());
+  dch::for_ranges(executor.get(), exceptions.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) exceptionTerms[k] = termsOf(state, exceptions[k]);
+  });
   double energy = 0;
-  for (const DCHParameterSet::Exception& exception : parameters().exceptions())
-    energy += addException(state, exception);
+  for (std::size_t k = 0; k < exceptions.size(); ++k) {
+    dch::Vec3& first = state.forces[static_cast<std::size_t>(exceptions[k].particle1)];
+    dch::Vec3& second = state.forces[static_cast<std::size_t>(exceptions[k].particle2)];
+    first = first - exceptionTerms[k].force;
+    second = second + exceptionTerms[k].force;
+    energy += exceptionTerms[k].energy;
+  }
   return energy;
 }
 
 /// The sum in reciprocal space holds all pairs, so what it has of an excluded one is taken away here.
-double NonbondedSum::addException(const HostState& state, const DCHParameterSet::Exception& exception) const {
+NonbondedSum::ExceptionTerms NonbondedSum::termsOf(const HostState& state,
+                                                   const DCHParameterSet::Exception& exception) const {
   const auto i = static_cast<std::size_t>(exception.particle1);
   const auto j = static_cast<std::size_t>(exception.particle2);
   const DCHParameterSet::Particle &a = parameters().particles()[i], &b = parameters().particles()[j];
   const bool isInReciprocalSpace = potential().isInReciprocalSpace(a, b);
-  if (!exception.acts() && !isInReciprocalSpace) return 0;
+  if (!exception.acts() && !isInReciprocalSpace) return {};
   dch::Vec3 apart = state.positions[j] - state.positions[i];
   if (exceptionsArePeriodic) apart = state.box.nearest_image(apart);
   PairTerms terms;
   if (exception.acts()) terms = PairPotential::ofException(exception, norm2(apart));
   if (isInReciprocalSpace) terms = terms - potential().inReciprocalSpace(a, b, norm2(apart));
-  const dch::Vec3 force = terms.forceOverR * apart;
-  state.forces[i] = state.forces[i] - force;
-  state.forces[j] = state.forces[j] + force;
-  return terms.energy;
+  return {terms.forceOverR * apart, terms.energy};
 }
 
 }  // namespace OpenMMDCH

@@ -2,11 +2,15 @@
 #ifndef OPENMM_DCH_NONBONDED_SUM_H_
 #define OPENMM_DCH_NONBONDED_SUM_H_
 
+#include <memory>
 #include <openmm/NonbondedForce.h>
 #include <openmm/System.h>
 #include <openmm/internal/ContextImpl.h>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include <dch/base/executor.hpp>
 #include <dch/base/span.hpp>
 #include <dch/lists/exclusions.hpp>
 
@@ -20,6 +24,9 @@ namespace OpenMMDCH {
 /// processor. Of a lattice sum this is the part in direct space.
 class NonbondedSum {
  public:
+  /// @param ofPlatform  its threads; null for the caller's alone
+  explicit NonbondedSum(std::shared_ptr<dch::Executor> ofPlatform = nullptr)
+      : executor(std::move(ofPlatform)) {}
   virtual ~NonbondedSum() = default;
 
   /// @param force  has been checked
@@ -44,6 +51,7 @@ class NonbondedSum {
   virtual void parametersChanged() {}
 
   const dch::Exclusions& exclusions() const { return excludedPairs; }
+  dch::Executor* threads() const { return executor.get(); }
 
   /// Adds the forces of particles i and j and returns their energy.
   double addPair(const HostState& state, std::size_t i, std::size_t j, dch::Span<dch::Vec3> forces) const;
@@ -56,14 +64,21 @@ class NonbondedSum {
 
  private:
   HostState stateOf(OpenMM::ContextImpl& context) const;
-  double addExceptions(const HostState& state) const;
-  double addException(const HostState& state, const DCHParameterSet::Exception& exception) const;
+  /// What an exception gives its particles.
+  struct ExceptionTerms {
+    dch::Vec3 force;  ///< on the second one; the first has the opposite one [kJ/mol/nm]
+    double energy = 0;
+  };
+  double addExceptions(const HostState& state);
+  ExceptionTerms termsOf(const HostState& state, const DCHParameterSet::Exception& exception) const;
 
+  std::shared_ptr<dch::Executor> executor;
   bool isPeriodic = false, exceptionsArePeriodic = false, isFollowed = false;
   std::optional<DCHParameterSet> parameterSet;
   std::optional<PairPotential> pairPotential;
   dch::Exclusions excludedPairs;
   double dispersionCoefficient = 0;  ///< energy times volume [kJ/mol nm^3]
+  std::vector<ExceptionTerms> exceptionTerms;
 };
 
 }  // namespace OpenMMDCH

@@ -21,10 +21,10 @@ void CpuBornSum::take(const BornModel& taken) {
     sums.emplace(model.cutoff, particles, model.countsInside);
     if (necks.kinds > 0) sums->set_necks(std::move(necks));
   });
-  sums->set_executor(&executor);
+  sums->set_executor(executor.get());
   if (keeper) return;
   noExclusions = dch::Exclusions::from_pairs(particles.size(), std::vector<dch::IndexPair>{});
-  keeper.emplace(model.cutoff, noExclusions, executor);
+  keeper.emplace(model.cutoff, noExclusions, *executor);
 }
 
 void CpuBornSum::follow(const HostState& state) {

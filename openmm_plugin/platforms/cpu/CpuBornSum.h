@@ -2,6 +2,7 @@
 #ifndef OPENMM_DCH_CPU_BORN_SUM_H_
 #define OPENMM_DCH_CPU_BORN_SUM_H_
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,16 +10,16 @@
 
 #include "BornSum.h"
 #include "ClusterPairKeeper.h"
-#include "PoolExecutor.h"
+#include "ContextThreads.h"
 
 namespace OpenMMDCH {
 
 /// A generalized Born model on the CPU platform: cluster pairs from double positions, SIMD kernels in single
-/// precision, on the threads of the platform. In the few boxes where lists cannot be made, and where radii
-/// differ too much for single precision, as on Reference.
+/// precision, on as many threads as the platform has. In the few boxes where lists cannot be made, and where
+/// radii differ too much for single precision, as on Reference.
 class CpuBornSum : public BornSum {
  public:
-  explicit CpuBornSum(OpenMM::ThreadPool& threads) : executor(threads) {}
+  explicit CpuBornSum(const OpenMM::ThreadPool& threads) : executor(threadsBeside(threads)) {}
 
   void take(const BornModel& taken) override;
 
@@ -29,7 +30,7 @@ class CpuBornSum : public BornSum {
   void addChain(const HostState& state) override;
 
  private:
-  PoolExecutor executor;
+  std::shared_ptr<dch::Executor> executor;
   dch::Exclusions noExclusions;
   std::optional<ClusterPairKeeper> keeper;
   std::optional<dch::BornSums> sums;

@@ -11,6 +11,7 @@
 #include <openmm/kernels.h>
 
 #include "BornKernel.h"
+#include "ContextThreads.h"
 #include "CpuBornSum.h"
 #include "CpuMeshSum.h"
 #include "CpuNonbondedSum.h"
@@ -19,7 +20,6 @@
 #include "DropInKernel.h"
 #include "EwaldSum.h"
 #include "NecklaceContactKernel.h"
-#include "PoolExecutor.h"
 #include "ReciprocalKernel.h"
 #include "internal/DropInRegistry.h"
 
@@ -49,8 +49,7 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
       return OpenMMDCH::makeBornKernel<OpenMMDCH::CustomGBKernel>(name, platform, context,
                                                                   bornSumFor(threads), native);
     if (name == OpenMMDCH::CalcNecklaceContactForceKernel::Name())
-      return new OpenMMDCH::NecklaceContactKernel(name, platform,
-                                                  std::make_unique<OpenMMDCH::PoolExecutor>(threads));
+      return new OpenMMDCH::NecklaceContactKernel(name, platform, OpenMMDCH::threadsBeside(threads));
     throw OpenMM::OpenMMException("OpenMMDCH has no kernel named " + name);
   }
 
@@ -58,7 +57,7 @@ class CpuDCHKernelFactory : public OpenMM::KernelFactory {
   static OpenMMDCH::SumsOfPlatform sumsFor(OpenMM::ThreadPool& threads) {
     OpenMMDCH::SumsOfPlatform sums;
     sums.pairs = std::make_unique<OpenMMDCH::CpuNonbondedSum>(threads, isDouble());
-    sums.waves = std::make_unique<OpenMMDCH::EwaldSum>(std::make_unique<OpenMMDCH::PoolExecutor>(threads));
+    sums.waves = std::make_unique<OpenMMDCH::EwaldSum>(OpenMMDCH::threadsBeside(threads));
     sums.mesh = meshFor(dch::LatticeSum::coulomb, true, threads);
     sums.dispersionMesh = meshFor(dch::LatticeSum::dispersion, true, threads);
     return sums;

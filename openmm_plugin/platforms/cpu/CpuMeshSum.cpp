@@ -14,7 +14,7 @@ void CpuMeshSum::start(int) {
     mesh.emplace(std::array<int, 3>{grid[0], grid[1], grid[2]}, alpha,
                  isOfDispersion() ? 1 : PairPotential::coulombConstant(), what);
   });
-  mesh->set_executor(&executor);
+  mesh->set_executor(executor.get());
   const std::array<int, 3> sizes = mesh->sizes();
   std::copy(sizes.begin(), sizes.end(), grid);
 }

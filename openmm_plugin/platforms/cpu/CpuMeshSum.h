@@ -2,19 +2,21 @@
 #ifndef OPENMM_DCH_CPU_MESH_SUM_H_
 #define OPENMM_DCH_CPU_MESH_SUM_H_
 
+#include <memory>
 #include <optional>
 
 #include <dch/forces/ewald_mesh.hpp>
 
+#include "ContextThreads.h"
 #include "MeshSum.h"
-#include "PoolExecutor.h"
 
 namespace OpenMMDCH {
 
-/// By the library's mesh, in single precision, on the threads of the platform.
+/// By the library's mesh, in single precision, on as many threads as the platform has.
 class CpuMeshSum : public MeshSum {
  public:
-  CpuMeshSum(dch::LatticeSum ofWhat, OpenMM::ThreadPool& threads) : MeshSum(ofWhat), executor(threads) {}
+  CpuMeshSum(dch::LatticeSum ofWhat, const OpenMM::ThreadPool& threads)
+      : MeshSum(ofWhat), executor(threadsBeside(threads)) {}
   double addWithThemselves(OpenMM::ContextImpl& context, const std::vector<double>& charges) override;
   std::string computedBy() const override { return "DCH"; }
 
@@ -22,7 +24,7 @@ class CpuMeshSum : public MeshSum {
   void start(int particles) override;
 
  private:
-  PoolExecutor executor;
+  std::shared_ptr<dch::Executor> executor;
   std::optional<dch::EwaldMesh> mesh;
 };
 

@@ -38,7 +38,7 @@ Kinds kindsOf(const std::vector<DCHParameterSet::Particle>& particles) {
 void CpuNonbondedSum::initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
                                  const Splittings& splittings) {
   NonbondedSum::initialize(system, force, splittings);
-  if (potential().hasCutoff()) keeper.emplace(potential().cutoffDistance(), exclusions(), executor);
+  if (potential().hasCutoff()) keeper.emplace(potential().cutoffDistance(), exclusions(), *threads());
 }
 
 void CpuNonbondedSum::parametersChanged() {
@@ -56,7 +56,7 @@ void CpuNonbondedSum::makeForcesOfAllPairs() {
     chargesNow.push_back(p.charge);
   }
   forcesOfAllPairs.emplace(particles, chargesNow, PairPotential::coulombConstant(), exclusions());
-  forcesOfAllPairs->set_executor(&executor);
+  forcesOfAllPairs->set_executor(threads());
 }
 
 void CpuNonbondedSum::makeForces() {
@@ -74,7 +74,7 @@ void CpuNonbondedSum::makeForces() {
     for (const auto& p : parameters().particles()) parametersOf.push_back({p.epsilon, p.sigma});
     forces.emplace(cutoff, parametersOf);
   }
-  forces->set_executor(&executor);
+  forces->set_executor(threads());
   forces->set_unresolved(&unresolved);
   const std::size_t types = std::max(side, std::size_t{1});
   keeper->setTypes(std::move(kinds.of), static_cast<int>(types));
@@ -144,16 +144,16 @@ double CpuNonbondedSum::addWithoutCutoff(const HostState& state, bool includeEne
 
 double CpuNonbondedSum::addAllPairs(const HostState& state) {
   checkPositions(state.positions);
-  const auto threads = static_cast<std::size_t>(executor.threads());
-  std::vector<double> energies(threads);
-  forcesByThread.resize(threads);
-  executor.run(executor.threads(), [&](int thread) {
-    const auto k = static_cast<std::size_t>(thread);
+  const auto parts = static_cast<std::size_t>(threads()->threads());
+  std::vector<double> energies(parts);
+  forcesByThread.resize(parts);
+  threads()->run(threads()->threads(), [&](int part) {
+    const auto k = static_cast<std::size_t>(part);
     forcesByThread[k].assign(state.positions.size(), {});
-    energies[k] = addRows(state, k, threads, forcesByThread[k]);
+    energies[k] = addRows(state, k, parts, forcesByThread[k]);
   });
   double energy = 0;
-  for (std::size_t k = 0; k < threads; ++k) {
+  for (std::size_t k = 0; k < parts; ++k) {
     energy += energies[k];
     for (std::size_t i = 0; i < state.forces.size(); ++i)
       state.forces[i] = state.forces[i] + forcesByThread[k][i];

@@ -10,18 +10,19 @@
 #include <dch/forces/lennard_jones.hpp>
 
 #include "ClusterPairKeeper.h"
+#include "ContextThreads.h"
 #include "NonbondedSum.h"
-#include "PoolExecutor.h"
 
 namespace OpenMMDCH {
 
 /// A nonbonded force on the CPU platform: cluster pairs from double positions, SIMD kernels in single
-/// precision with sums in double, on the threads of the platform. Without a cutoff all pairs in the same way;
-/// in the few boxes where lists cannot be made, all pairs in double.
+/// precision with sums in double, on as many threads as the platform has. Without a cutoff all pairs in the
+/// same way; in the few boxes where lists cannot be made, all pairs in double.
 class CpuNonbondedSum : public NonbondedSum {
  public:
   /// @param asDouble  all in double, on the same threads
-  CpuNonbondedSum(OpenMM::ThreadPool& threads, bool asDouble) : executor(threads), isDouble(asDouble) {}
+  CpuNonbondedSum(const OpenMM::ThreadPool& pool, bool asDouble)
+      : NonbondedSum(threadsBeside(pool)), isDouble(asDouble) {}
 
   void initialize(const OpenMM::System& system, const OpenMM::NonbondedForce& force,
                   const Splittings& splittings) override;
@@ -41,7 +42,6 @@ class CpuNonbondedSum : public NonbondedSum {
   /// Adds the forces of unresolved particles in double, and returns the energy of all pairs if it is wanted.
   double resolve(const dch::ClusterPairs& pairs, const HostState& state, bool includeEnergy) const;
 
-  PoolExecutor executor;
   bool isDouble;
   std::optional<ClusterPairKeeper> keeper;             ///< with a cutoff
   std::optional<dch::LennardJones> forces;             ///< the same

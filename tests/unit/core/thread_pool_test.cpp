@@ -35,6 +35,37 @@ TEST(ThreadPool, ServesManyTasksInARow) {
   EXPECT_EQ(sum, 2000 * 6);
 }
 
+// What a part has written is then in the cache of the thread that has it next time.
+TEST(ThreadPool, GivesThePartsOfAThreadToItAgain) {
+  const auto pool = make_thread_pool(3);
+  std::vector<std::thread::id> first;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::thread::id> by(6);
+    std::latch all_at_work(3);
+    pool->run(6, [&](int part) {
+      by[static_cast<std::size_t>(part)] = std::this_thread::get_id();
+      if (part % 2 == 0) all_at_work.arrive_and_wait();
+    });
+    ASSERT_EQ(by[0], std::this_thread::get_id());
+    if (round == 0) first = by;
+    for (const std::size_t part : {0, 2, 4})
+      ASSERT_EQ(by[part], first[part]) << "round " << round << ", part " << part;
+  }
+}
+
+// The first part takes as long as all others, which the other thread runs then.
+TEST(ThreadPool, ThreadsThatHaveDoneTheirPartsHelpOthers) {
+  const auto pool = make_thread_pool(2);
+  std::latch others(9);
+  pool->run(10, [&](int part) {
+    if (part == 0) {
+      others.wait();
+    } else {
+      others.count_down();
+    }
+  });
+}
+
 TEST(ThreadPool, ThrowsOnAndStaysUsable) {
   const auto pool = make_thread_pool(2);
   std::atomic<int> ended{0};

@@ -229,10 +229,12 @@ struct ClusterPairs {
 
  private:
   void refresh_clusters(Span<const Vec3> positions, const Box& now, Executor* executor);
-  void take_box(const Box& now);
-  void refresh_shifts(const Box& now);
-  void choose_unit(const Box& now);
-  void make_room_for(double farthest2, const Box& now);
+  void refresh_split(const std::vector<std::int32_t>& split, Span<const Vec3> positions, const Box& now,
+                     Executor* executor);
+  void take_box(const Box& now, Executor* executor);
+  void refresh_shifts(const Box& now, Executor* executor);
+  void choose_unit(const Box& now, Executor* executor);
+  void make_room_for(double farthest2, const Box& now, Executor* executor);
 };
 
 }  // namespace dch
