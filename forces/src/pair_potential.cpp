@@ -131,11 +131,14 @@ void PairPotential::take_pair(std::size_t a, std::size_t b) {
       pair.numbers != mirrored.numbers)
     throw InvalidParameter("the pair" + types_text(a, b) +
                            " differs from the same in the other order; give a " + "symmetric matrix");
+  if (params_.form == PairForm::colloid)
+    for (const double diameter : {pair.numbers[2], pair.numbers[3]})
+      if (!(diameter >= 0)) refuse("diameter" + types_text(a, b), diameter, "at least 0");
   full_.front()[k] = pair.cutoff * pair.cutoff;
   full_.back()[k] = pair.charge_cutoff * pair.charge_cutoff;
   if (pair.cutoff == 0) return;
   double numbers[4]{};
-  const std::array<double, 3> given = given_to_form(pair);
+  const std::array<double, 4> given = given_to_form(pair);
   const double exponent = style.prepare(given.data(), pair.cutoff, numbers);
   for (std::size_t n = 0; n < 4; ++n) {
     if (!std::isfinite(numbers[n]))

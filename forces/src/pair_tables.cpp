@@ -64,7 +64,7 @@ void PairPotential::take_tables() {
     if (!(more < 1e6))
       refuse_table("begins at the distance " + detail::describe(table.inner) + ", too near to its end at " +
                    detail::describe(table.outer) + " for as many numbers");
-    given_of_table_.push_back({first2, density, static_cast<double>(knots_.force.size())});
+    given_of_table_.push_back({first2, density, static_cast<double>(knots_.force.size()), 0});
     append(table.force_over_r, static_cast<std::size_t>(more), knots_.force);
     append(table.energy, static_cast<std::size_t>(more), knots_.energy);
     if (knots_.force.size() > kMost) refuse_table("has too many numbers; all may have 2^30");
@@ -76,7 +76,7 @@ void PairPotential::take_tables() {
 }
 
 /// What its form is given of a pair.
-std::array<double, 3> PairPotential::given_to_form(const FormPair& pair) const {
+std::array<double, 4> PairPotential::given_to_form(const FormPair& pair) const {
   if (params_.form != PairForm::table) return pair.numbers;
   const double number = pair.numbers[0];
   if (!(number >= 0 && number < static_cast<double>(params_.tables.size()) && number == std::floor(number)))

@@ -12,6 +12,7 @@
 #include <dch/geometry/box.hpp>
 #include <dch/lists/list_params.hpp>
 
+#include "colloid_oracle.hpp"
 #include "dual.hpp"
 #include "list_params.hpp"
 #include "lj_oracle.hpp"
@@ -19,7 +20,7 @@
 
 namespace dch::forms {
 
-inline Dual lennard_jones(const std::array<double, 3>& n, Dual r) {
+inline Dual lennard_jones(const std::array<double, 4>& n, Dual r) {
   const Dual s = n[1] / r, s6 = s * s * s * s * s * s;
   return 4 * n[0] * (s6 * s6 - s6);
 }
@@ -37,7 +38,7 @@ inline Dual switched(Dual r, double from, double to) {
 }
 
 /// Energy of Lennard-Jones whose terms 1/r^2n, n = 6 and 3, end at `to` with slope 0.
-inline double force_switched(const std::array<double, 3>& n, double r, double from, double to) {
+inline double force_switched(const std::array<double, 4>& n, double r, double from, double to) {
   const auto term = [&](int power) {
     const double at_r = std::pow(r, -power), end = std::pow(to, -power);
     if (r < from) return at_r * at_r - std::pow(from, -power) * end;
@@ -84,6 +85,8 @@ inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair,
       return n[0] * exp(-all.of_all * r) / r;
     case PairForm::table:
       return tabulated(all.tables[static_cast<std::size_t>(n[0])], r);
+    case PairForm::colloid:
+      return energy_of_colloids(n, r);
   }
   return 0;
 }
@@ -261,6 +264,10 @@ inline std::vector<Case> cases() {
   take("soft", F::soft, C::none, 2, {{20, 0, 0}, 2.4, 0});
   take("Yukawa", F::yukawa, C::none, 2, {{10, 0, 0}, 2.4, 0}, 1.2);
   for (const int types : {1, 2, 6}) all.push_back({"tables", params_with_tables(types), kExact});
+  for (const int types : {1, 2, 3, 6}) {
+    const PairPotentialParams all_alike = params(F::colloid, C::none, types, {{144, 0.9, 0, 0}, 2.4, 0});
+    all.push_back({"colloids", with_diameters(all_alike), kExact});
+  }
   return all;
 }
 

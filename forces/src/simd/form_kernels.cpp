@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include "simd/form_kernels_sets.hpp"
 
 namespace dch::detail {
+
+double logarithm_beside_one(double x) { return std::log1p(x); }
 
 const FormKernels& form_kernels(InstructionSet set) {
   switch (set) {

@@ -16,7 +16,7 @@ struct BatchTask {
   const double *weight, *charge_weight;
 };
 
-inline constexpr int kPairForms = 9, kChargeForms = 5;
+inline constexpr int kPairForms = 10, kChargeForms = 5;
 
 /// The loops of PairPotential, compiled for one instruction set; null where a form does not go with charges
 /// that act so.
@@ -35,6 +35,9 @@ struct FormKernels {
   OfStyle of_style[kPairForms][kChargeForms];
   bool mixed_wants_lanes, full_wants_lanes;  ///< whether the functions use LjTask::lanes
 };
+
+/// ln(1 + x). Not inlined into kernels, which leave out a call whose result they do not need.
+[[gnu::const]] double logarithm_beside_one(double x);
 
 /// The kernels of a set that is supported.
 const FormKernels& form_kernels(InstructionSet set);

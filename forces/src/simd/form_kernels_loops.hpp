@@ -5,9 +5,11 @@
 
 #include "simd/form_kernels.hpp"
 #include "simd/forms/charges.hpp"
+#include "simd/forms/colloid.hpp"
 #include "simd/forms/exponentials.hpp"
 #include "simd/forms/soft.hpp"
 #include "simd/forms/table.hpp"
+#include "simd/row_kernels_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -72,13 +74,25 @@ constexpr LjFunctions<LjPairTask>::OfKind pair_functions() {
   return all;
 }
 
-template <class Single, class Double, class Form, class Charges, bool kOneType = false, bool kMixes = false>
+/// For particles with many neighbors.
+template <class S, class Kind>
+constexpr LjFunctions<LjPairTask>::OfKind row_functions() {
+  return {{{},
+           {rows_of_pairs<S, Wanted::forces, Kind>, rows_of_pairs<S, Wanted::sums, Kind>,
+            rows_of_pairs<S, Wanted::tallies, Kind>},
+           {}}};
+}
+
+template <class Single, class Double, class Form, class Charges, bool kOneType = false, bool kMixes = false,
+          bool kByRows = false>
 constexpr FormKernels::OfStyle style_kernels() {
   using Kind = Style<Form, Charges>;
   constexpr auto kByType = LjParameters::by_type;
+  auto functions_of_pairs = pair_functions<Double, Kind, kOneType>();
+  if constexpr (kByRows) functions_of_pairs = row_functions<Double, Kind>();
   return {cluster_functions<Single, Kind, kOneType, kMixes>(),
           cluster_functions<Double, Kind, kOneType, kMixes>(),
-          pair_functions<Double, Kind, kOneType>(),
+          functions_of_pairs,
           {lennard_jones_of_pairs<Double, kByType, Wanted::forces, Kind, true>,
            lennard_jones_of_pairs<Double, kByType, Wanted::sums, Kind, true>,
            lennard_jones_of_pairs<Double, kByType, Wanted::tallies, Kind, true>},
@@ -111,7 +125,8 @@ constexpr FormKernels form_kernels_of{
      {style_kernels<F, D, MorseForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}},
-     {style_kernels<F, D, TableForm, NoCharges, true>(), {}, {}, {}, {}}},
+     {style_kernels<F, D, TableForm, NoCharges, true>(), {}, {}, {}, {}},
+     {style_kernels<F, D, ColloidForm, NoCharges, false, false, true>(), {}, {}, {}, {}}},
     kWantsLanes<F>,
     kWantsLanes<D>};
 

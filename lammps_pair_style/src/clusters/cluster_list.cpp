@@ -153,14 +153,39 @@ void ClusterListFiller::leave_out(const AtomPoints& points, bool asks_bonds, dch
   }
 }
 
+namespace {
+
+/// As make_pair_list, row by row in the order of particles.
+void make_whole_rows(const dch::NeighborList& rows, const dch::ListParams& params, AtomPoints& points,
+                     dch::PairList& out) try {
+  dch::detail::PairListMaker maker(rows, params.list_radius(), points.positions(), points.box(), params.types,
+                                   out);
+  std::vector<std::size_t> row_of(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    row_of[rows.particle.empty() ? r : static_cast<std::size_t>(rows.particle[r])] = r;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::int64_t k = rows.first[row_of[i]]; k < rows.first[row_of[i] + 1]; ++k)
+      maker.add(static_cast<std::int32_t>(i), rows.j[static_cast<std::size_t>(k)]);
+  maker.finish();
+} catch (...) {
+  out = dch::PairList();
+  throw;
+}
+
+}  // namespace
+
 void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        double skin, ClusterList& list) {
   params.order = dch::RowOrder::unsorted;
   params.superset = true;
-  params.shell = skin;
+  if (!list.has_whole_rows()) params.shell = skin;
   search.list(params, rows_);
   const bool asks_bonds = params.exclusions == nullptr && !points.in_box() && atom->molecular != Atom::ATOMIC;
   leave_out(points, asks_bonds, rows_);
+  if (list.has_whole_rows()) {
+    make_whole_rows(rows_, params, points, list.pair_list);
+    return;
+  }
   dch::make_pair_list(
       rows_, params.list_radius(), points.positions(), points.box(), params.types,
       [](std::int32_t, std::int32_t) { return true; }, list.pair_list);

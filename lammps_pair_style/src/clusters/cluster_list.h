@@ -45,6 +45,7 @@ struct ClusterList {
   bool one_by_one = true;    ///< which of the next two is filled
   double pairs_an_atom = 0;  ///< by which that was chosen, if by_size does not decide
   bool by_size = false;      ///< each class of sizes has a structure, of which there are no cluster pairs
+  bool wants_rows = false;   ///< of the style: pairs one by one are best in whole rows, if by_size decides
   double chosen_for = 0;     ///< radius at which that was chosen [length]
   dch::PairList pair_list;   ///< of points: LAMMPS's indices
   dch::ClusterPairs pairs;   ///< of the same
@@ -55,6 +56,8 @@ struct ClusterList {
                      static_cast<std::size_t>(b - 1)] != 0;
   }
 
+  /// Whether pairs stand row by row in the order of atoms.
+  bool has_whole_rows() const { return by_size && wants_rows; }
   std::size_t points() const { return one_by_one ? pair_list.particles : pairs.particles; }
   std::int64_t count() const { return one_by_one ? pair_list.pairs() : pairs.slot_pairs(); }
   std::size_t memory_bytes() const { return pair_list.memory_bytes() + pairs.memory_bytes(); }

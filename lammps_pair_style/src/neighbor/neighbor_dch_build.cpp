@@ -58,8 +58,10 @@ void NeighborDCH::build_ours() {
     expiry_.remember(points_, wanted_pairs().by_radii);
     run_.entries = 0;
     if (fills_lists()) fill_lists();
-    if (fills_lists() && run_.builds == 0 && served_.front().has_short_rows) order_.note_short_rows();
     fill_clusters();
+    const bool follows_atoms =
+        fills_lists() ? served_.front().has_short_rows : clusters_.back().list->has_whole_rows();
+    if (run_.builds == 0 && follows_atoms) order_.note_short_rows();
   } catch (const dch::Error& e) {
     error->one(FLERR, std::string("DCH neighbor lists: ") + e.what());
   } catch (const std::bad_alloc&) {

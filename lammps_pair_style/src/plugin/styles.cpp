@@ -20,6 +20,7 @@
 #include "fix_nve_dch.h"
 #include "pair_buck_dch.h"
 #include "pair_charmm_dch.h"
+#include "pair_colloid_dch.h"
 #include "pair_dpd_philox.h"
 #include "pair_gran_dch.h"
 #include "pair_lj_dch.h"
@@ -58,6 +59,7 @@ std::vector<StyleEntry<Pair>> pair_styles_dch() {
 #define PairStyle(key, Made) styles.push_back({#key, &create<Pair, Made>, &create_chosen<Pair, Made>})
 #include "pair_buck_dch.h"
 #include "pair_charmm_dch.h"
+#include "pair_colloid_dch.h"
 #include "pair_dpd_philox.h"
 #include "pair_gran_dch.h"
 #include "pair_lj_dch.h"

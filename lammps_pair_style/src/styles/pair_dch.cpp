@@ -202,6 +202,7 @@ void PairDCH::init_style() {
   if (is_chosen_ && obstacle_.empty()) obstacle_ = neighbor_dch->obstacle_to_styles();
   const Pair& asker = has_lists_of_plain_ ? *plain_ : *this;
   clusters_ = neighbor_dch->request_clusters(asker, plain_name_ + "/dch", obstacle_);
+  if (clusters_) clusters_->wants_rows = style_.by_rows;
   if (!has_lists_of_plain_ && (!clusters_ || neighbor_dch->verifies())) neighbor->request(this, instance_me);
 }
 

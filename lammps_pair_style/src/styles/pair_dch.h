@@ -37,7 +37,8 @@ class PairDCH : public Pair, public Explained {
     const char* plain;  ///< the plain style's name
     dch::PairForm form;
     dch::ChargeForm charges;
-    int numbers;  ///< how many the plain style writes to restart files for a pair of types
+    int numbers;           ///< how many the plain style writes to restart files for a pair of types
+    bool by_rows = false;  ///< whether the kernel computes pairs one by one row by row
   };
 
   PairDCH(LAMMPS* lammps, const Style& style);
@@ -86,8 +87,12 @@ class PairDCH : public Pair, public Explained {
   /// The same of a pair of types.
   /// @param all  what take_all() gets
   virtual void take_pair(const double* all, const double* own, dch::FormPair& pair) const;
+  /// What the kernel is made of.
+  dch::PairPotentialParams kernel_params() const;
   /// Called when forces have been added.
   virtual void check_forces() {}
+  /// Whether all forces on owned atoms are, those of other styles included.
+  bool forces_are_finite() const;
   /// Owned atom, the other, vector from the latter, kind of bonded pair or 0.
   using PairVisitor = std::function<void(int, int, dch::Vec3, int)>;
   /// Visits each pair within its cutoff.
@@ -114,7 +119,6 @@ class PairDCH : public Pair, public Explained {
   void compute_pair_by_pair();
   void add_self_energies(bool by_atom);
   void finish(Batch& batch);
-  void make_kernel();
   bool has_charges() const { return style_.charges != dch::ChargeForm::none; }
   dch::Span<const double> charges() const;
   std::array<double, 4> weights(const double* special) const;

@@ -2,6 +2,7 @@
 // The forces of the pair styles of this package: over clusters, pair by pair, or by the plain style.
 #include <algorithm>
 #include <atom.h>
+#include <cmath>
 #include <domain.h>
 #include <error.h>
 #include <force.h>
@@ -29,7 +30,7 @@ void PairDCH::compute(int eflag, int vflag) {
   ++computed_;
   const bool asks_each_pair = evflag && (cvflag_atom || num_tally_compute > 0);
   try {
-    if (!kernel_) make_kernel();
+    if (!kernel_) kernel_ = std::make_unique<dch::PairPotential>(kernel_params());
     refresh();
     if (asks_each_pair) {
       ++pair_by_pair_;
@@ -103,7 +104,7 @@ void PairDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& 
 
 void PairDCH::take_pair(const double*, const double*, dch::FormPair&) const {}
 
-void PairDCH::make_kernel() {
+dch::PairPotentialParams PairDCH::kernel_params() const {
   PairsOfTypes given;
   for (const PairOfTypes& p : pairs_of_types_) given.emplace_back(p.a, p.b);
   const auto n = static_cast<std::size_t>(atom->ntypes);
@@ -116,7 +117,7 @@ void PairDCH::make_kernel() {
   params.shifted = offset_flag != 0;
   if (style_.charges == dch::ChargeForm::ewald) params.splitting = force->kspace->g_ewald;
   take_numbers(given, params);
-  kernel_ = std::make_unique<dch::PairPotential>(params);
+  return params;
 }
 
 /// With newton off for pairs each process computes its own half of a pair with a ghost. Kernels add to both;
@@ -224,6 +225,13 @@ void PairDCH::finish(Batch& batch) {
                over_r, apart.x, apart.y, apart.z);
   }
   batch = {};
+}
+
+bool PairDCH::forces_are_finite() const {
+  bool all_are = true;
+  const double* const forces = atom->nlocal > 0 ? atom->f[0] : nullptr;
+  for (int k = 0; k < 3 * atom->nlocal; ++k) all_are &= std::abs(forces[k]) <= 1e300;
+  return all_are;
 }
 
 void PairDCH::for_each_pair(const PairVisitor& visit) const {

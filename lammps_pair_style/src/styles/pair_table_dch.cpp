@@ -153,10 +153,7 @@ void PairTableDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialPar
 }
 
 void PairTableDCH::check_forces() {
-  bool all_are_finite = true;
-  const double* const forces = atom->nlocal > 0 ? atom->f[0] : nullptr;
-  for (int k = 0; k < 3 * atom->nlocal; ++k) all_are_finite &= std::abs(forces[k]) <= 1e300;
-  if (all_are_finite) return;
+  if (forces_are_finite()) return;
   // Other forces may be no numbers too. Rounding in single precision may have brought a pair closer than it
   // is.
   for_each_pair([&](int i, int j, dch::Vec3 apart, int) {

@@ -42,6 +42,7 @@ STYLES = (
     ("morse", "2.4", "1.0 5.0 1.1", "0.7 6.0 1.0", "0.9 5.5 1.05"),
     ("soft", "2.4", "20.0", "15.0", ""),
     ("yukawa", "1.2 2.6", "10.0", "7.0", ""),
+    ("colloid", "2.4", "144 0.9 0.0 0.0", "60 0.8 0.5 0.5", "90 0.85 0.0 0.5"),
 )
 
 
@@ -141,7 +142,8 @@ read_data {host.work}/salt.data
 thermo_modify format float %.15g
 run 0
 """
-            has_data = style != "lj/cut/coul/dsf"  # which writes no coefficients to data files
+            # The first writes no coefficients to data files, the second only the first of two types.
+            has_data = style not in ("lj/cut/coul/dsf", "colloid")
             with self.subTest(style):
                 self.assertEqual(len(self.compare(script + (from_data if has_data else ""))), 3 if has_data else 2)
 

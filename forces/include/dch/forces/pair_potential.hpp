@@ -36,7 +36,11 @@ enum class PairForm {
   morse,          ///< d (e^(-2 alpha (r - r0)) - 2 e^(-alpha (r - r0))): d, alpha, r0
   soft,           ///< a (1 + cos(pi r / cutoff)): a
   yukawa,         ///< a e^(-kappa r) / r: a; for all kappa
-  table           ///< a PairTable: its number, from 0
+  table,          ///< a PairTable: its number, from 0
+  colloid  ///< spheres made of Lennard-Jones particles, and such particles, by Everaers and Ejtehadi, Phys.
+           ///< Rev. E 67, 041710 (2003): A (Hamaker) [energy], sigma, diameters d1 and d2 [length], both >=
+           ///< 0, 0 of a particle. Where spheres overlap, or a particle's center is within a sphere, forces
+           ///< are not finite
 };
 
 /// How charges act beside, all with the constant: not at all, as q_i q_j / r, as what an Ewald sum leaves to
@@ -48,7 +52,7 @@ enum class ChargeForm { none, bare, ewald, damped_shifted, switched };
 
 /// A pair of types.
 struct FormPair {
-  std::array<double, 3> numbers{};  ///< as PairForm names them
+  std::array<double, 4> numbers{};  ///< as PairForm names them
   double cutoff = 0;                ///< >= 0; the form does not act if it is 0 [length]
   double charge_cutoff = 0;         ///< >= 0; of charges, the same [length]
 };
@@ -158,7 +162,7 @@ class PairPotential {
   };
 
   void take_tables();
-  std::array<double, 3> given_to_form(const FormPair& pair) const;
+  std::array<double, 4> given_to_form(const FormPair& pair) const;
   void take_pair(std::size_t a, std::size_t b);
   void take_charges();
   void take_way();
@@ -185,7 +189,7 @@ class PairPotential {
   /// Numbers of types of which pairs are mixed (LennardJonesParticle); empty unless they are, and tables
   /// would not fit into registers.
   std::vector<double> half_sigma_, root_epsilon_;
-  std::vector<std::array<double, 3>> given_of_table_;
+  std::vector<std::array<double, 4>> given_of_table_;
   Knots<double> knots_;
   Knots<float> knots_float_;
   Executor* executor_ = nullptr;

@@ -45,6 +45,7 @@ struct Avx2Float {
     return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ),
                          _mm256_castsi256_ps(_mm256_cmpeq_epi32(bits, lane)));
   }
+  static std::uint32_t bits(V lanes) { return static_cast<std::uint32_t>(_mm256_movemask_ps(lanes)); }
   static V keep(V lanes, V a) { return _mm256_and_ps(lanes, a); }
   static V floor(V a) { return _mm256_floor_ps(a); }
   /// Numbers n and n + 1 of an array, n being an integer in each lane. By loads of both, as gathers of each

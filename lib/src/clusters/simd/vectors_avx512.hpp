@@ -49,6 +49,7 @@ struct Avx512Float {
   static __mmask16 less(V a, V b, std::uint32_t mask, int) {
     return _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(mask), a, b, _CMP_LT_OQ);
   }
+  static std::uint32_t bits(__mmask16 lanes) { return lanes; }
   static V keep(__mmask16 lanes, V a) { return _mm512_maskz_mov_ps(lanes, a); }
   static V floor(V a) { return _mm512_floor_ps(a); }
   /// Numbers n and n + 1 of an array, n being an integer in each lane; both are gathered at once.

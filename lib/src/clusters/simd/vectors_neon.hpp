@@ -43,6 +43,7 @@ struct NeonFloat {
   static Lanes less(V a, V b, std::uint32_t mask, int which) {
     return vandq_u32(vcltq_f32(a, b), vtstq_u32(vdupq_n_u32(mask >> (4 * which)), each_bit()));
   }
+  static std::uint32_t bits(Lanes lanes) { return vaddvq_u32(vandq_u32(lanes, each_bit())); }
   static V keep(Lanes lanes, V a) {
     return vreinterpretq_f32_u32(vandq_u32(lanes, vreinterpretq_u32_f32(a)));
   }

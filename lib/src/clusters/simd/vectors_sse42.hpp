@@ -44,6 +44,7 @@ struct SseFloat {
     const __m128i bits = _mm_and_si128(_mm_set1_epi32(static_cast<int>(mask >> (4 * which))), lane);
     return _mm_and_ps(_mm_cmplt_ps(a, b), _mm_castsi128_ps(_mm_cmpeq_epi32(bits, lane)));
   }
+  static std::uint32_t bits(V lanes) { return static_cast<std::uint32_t>(_mm_movemask_ps(lanes)); }
   static V keep(V lanes, V a) { return _mm_and_ps(lanes, a); }
   static V floor(V a) { return _mm_floor_ps(a); }
   /// Numbers n and n + 1 of an array, n being an integer in each lane.
