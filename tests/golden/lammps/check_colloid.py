@@ -170,6 +170,13 @@ class Colloid(unittest.TestCase):
                     output = self.ours(script, ranks=ranks)
                     self.assertRegex(output, "pair colloid/dch: pairs one by one, in double precision, as there are size classes")
 
+    def test_whole_rows_hold_the_pairs_of_native_lists(self):
+        for newton, ranks in WAYS:
+            with self.subTest(newton=newton, ranks=ranks):
+                output = run(f"newton {newton}\ninclude ${{load}}\nsuffix dch\ndch verify yes\n" + SIZES.replace("${search}", "multi")
+                             + "run 20\ndch stats\n", ranks=ranks)
+                self.assertRegex(output, r"verified +5 builds, \d+ pairs, all equal")
+
     def test_shifted_energies_and_mixed_numbers(self):
         """Of mixed diameters only the geometric mean is 0 where one of both is."""
         mixed = SOLUTION.replace("pair_coeff 1 2 75.4 1.0 0.0 3.0 4.0\n", "").replace("pair_coeff 2 3 39.5 1.0 2.0 3.0 5.5\n", "")
