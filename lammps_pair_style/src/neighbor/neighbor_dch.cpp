@@ -118,7 +118,7 @@ void NeighborDCH::init() {
                           "style or give 'dch off' before the run"));
   }
   show_bins();
-  show_cutoff();
+  show_cutoffs();
   ghosts_for_ = "no DCH list is in use";
   Neighbor::init();
   FixDCHWork::note_current(lmp);

@@ -153,7 +153,8 @@ class NeighborDCH : public Neighbor {
   void hide_bins();
   std::string need_of_ghosts() const;
   std::string reader_of_ghosts() const;
-  void show_cutoff();
+  dch::Span<double> cutoffs_of_ghosts();
+  void show_cutoffs();
 
   void build_native_reference();
   void prepare_search();
@@ -208,7 +209,7 @@ class NeighborDCH : public Neighbor {
   int all_bins_ = 0, all_stencils_ = 0,
       stencils_in_use_ = 0;                           ///< nbin, nstencil, nstencil_perpetual while hidden
   std::string ghosts_for_ = "no DCH list is in use";  ///< why there are ghosts; empty if there are none
-  double full_cutoff_ = 0;                            ///< cutneighmax while that is hidden, else 0 [length]
+  std::vector<double> full_cutoffs_;  ///< cutoffs_of_ghosts() while these are hidden, else none
 
   std::vector<ServedList> served_;
   std::vector<int> served_plist_;  ///< perpetual lists that are ours

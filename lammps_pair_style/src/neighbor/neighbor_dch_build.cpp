@@ -30,7 +30,7 @@ double seconds_since(double& start) {
 }  // namespace
 
 void NeighborDCH::build(int topoflag) {
-  show_cutoff();
+  show_cutoffs();
   note_expiry();
   if (tuner_) choose_skin();
   if (!fills_lists() && clusters_.empty()) {

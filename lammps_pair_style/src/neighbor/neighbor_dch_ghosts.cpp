@@ -45,20 +45,35 @@ std::string NeighborDCH::need_of_ghosts() const {
   if (tuner_) return "'dch skin auto' was given";
   if (atom->molecular != Atom::ATOMIC) return "atoms may have bonds";
   if (force->kspace) return "kspace_style";
+  if (comm->cutghostuser > 0 || comm->cutusermulti || comm->cutusermultiold) return "comm_modify cutoff";
   if (domain->box_change) return "the box changes";  // Atom::sort() makes bins anew, by half of cutneighmax
   if (!may_use_box()) return "the box is not more than twice as wide as the cutoff";
   return reader_of_ghosts();
 }
 
-/// From between the decision to build lists and the exchange of atoms: LAMMPS takes the width of the region
-/// of ghosts from the largest cutoff. The build that follows has it back.
-void NeighborDCH::leave_out_ghosts() {
-  if (ghosts_for_.empty() && full_cutoff_ == 0)
-    full_cutoff_ = std::exchange(cutneighmax, kHardlyAny * cutneighmax);
+/// The cutoffs that LAMMPS takes the width of the region of ghosts from, as comm_modify says; of collections
+/// squared.
+dch::Span<double> NeighborDCH::cutoffs_of_ghosts() {
+  const auto collections = static_cast<std::size_t>(ncollections);
+  if (comm->mode == Comm::MULTI) return {cutcollectionsq[0], collections * collections};
+  if (comm->mode == Comm::MULTIOLD) return {cuttype + 1, static_cast<std::size_t>(atom->ntypes)};
+  return {&cutneighmax, 1};
 }
 
-void NeighborDCH::show_cutoff() {
-  if (full_cutoff_ > 0) cutneighmax = std::exchange(full_cutoff_, 0.0);
+/// From between the decision to build lists and the exchange of atoms. The build that follows has the cutoffs
+/// back.
+void NeighborDCH::leave_out_ghosts() {
+  if (!ghosts_for_.empty() || !full_cutoffs_.empty()) return;
+  const double hardly_any = comm->mode == Comm::MULTI ? kHardlyAny * kHardlyAny : kHardlyAny;
+  for (double& cutoff : cutoffs_of_ghosts())
+    full_cutoffs_.push_back(std::exchange(cutoff, hardly_any * cutoff));
+}
+
+void NeighborDCH::show_cutoffs() {
+  // They are others where a command has changed the mode after an error; then LAMMPS has them anew.
+  if (!full_cutoffs_.empty() && full_cutoffs_.size() == cutoffs_of_ghosts().size())
+    std::copy(full_cutoffs_.begin(), full_cutoffs_.end(), cutoffs_of_ghosts().begin());
+  full_cutoffs_.clear();
 }
 
 }  // namespace LAMMPS_NS
