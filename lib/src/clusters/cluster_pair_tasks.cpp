@@ -103,7 +103,7 @@ void ClusterPairFinder::cut_into_tasks(Executor* executor, ClusterPairs& out) {
       if (to >= end) task.later[static_cast<std::size_t>(to)] = 1;
     }
   };
-  if (executor) {
+  if (executor && executor->threads() > 1 && tasks.size() > 1) {
     executor->run(static_cast<int>(tasks.size()), name_nodes);
   } else {
     for (int t = 0; t < static_cast<int>(tasks.size()); ++t) name_nodes(t);

@@ -198,7 +198,7 @@ TEST(ClusterPairFinder, TakesSeveralPartsForEachOfSeveralThreads) {
   ClusterPairs fresh;
   std::swap(scene.pairs, fresh);
   scene.find(1, &two);
-  EXPECT_EQ(two.asked, (std::vector<int>{2, 8, 8})) << "to cut clusters, find pairs and join them";
+  EXPECT_EQ(two.asked, (std::vector<int>{2, 16, 16})) << "to cut clusters, find pairs and join them";
   EXPECT_EQ(scene.pairs.entries.size(), 23u);
   EXPECT_EQ(scene.pairs.entries.capacity(), scene.pairs.entries.size()) << "no array grows twice";
   EXPECT_EQ(scene.pairs.rows.capacity(), scene.pairs.rows.size());
