@@ -52,8 +52,9 @@ class PluginOfOpenMMTest(unittest.TestCase):
         context = context_of(SYSTEM, "CPU")
         energy, forces = energy_and_forces(context, POSITIONS, WAVES)
         self.assertEqual(who(context), ("OpenMM", "OpenMM"))
-        self.assertAlmostEqual(energy, ENERGY_BEFORE, delta=1e-9 * abs(ENERGY_BEFORE))
-        self.assertLess(relative_error(FORCES_BEFORE, forces), 1e-9)
+        # It is in single precision, and its threads add what they come to first.
+        self.assertAlmostEqual(energy, ENERGY_BEFORE, delta=1e-6 * abs(ENERGY_BEFORE))
+        self.assertLess(relative_error(FORCES_BEFORE, forces), 5e-6)
 
 
 @unittest.skipIf(HAS_PLUGIN, "OpenMM has a plugin for PME here; PluginOfOpenMMTest runs")
