@@ -108,12 +108,6 @@ class ClusterPairFinder {
   struct Shifts {
     std::int64_t first, last;
   };
-  /// The nodes with clusters of one of ClusterPairs::tasks, and those of later ones that they meet.
-  struct TaskNodes {
-    std::int32_t first_cluster;
-    Shifts shifts;
-    std::vector<std::uint8_t> later;  ///< by node, whether it is one of the latter
-  };
   /// A node beside the one whose rows are found.
   struct NodePair {
     std::int32_t from, to;
@@ -162,8 +156,8 @@ class ClusterPairFinder {
   static void swap_found(Slice& slice, ClusterPairs& out);
   void join(Executor* executor, ClusterPairs& out);
   void append_slices(Executor* executor, ClusterPairs& out) const;
-  void cut_into_tasks(Executor* executor, ClusterPairs& out);
-  void append_ranges(const TaskNodes& task, ClusterPairs& out) const;
+  void cut_into_tasks(ClusterPairs& out);
+  void append_ranges(Shifts shifts, std::int32_t first_node, ClusterPairs& out);
 
   const ClusterSearchKernels* kernels_ = nullptr;
   Lattice images_{Box()};
@@ -177,6 +171,7 @@ class ClusterPairFinder {
   std::vector<std::uint8_t> ghost_;    ///< by cluster: bit of each slot with a ghost
   std::vector<std::int32_t> slot_of_;  ///< by particle; kept where there are exclusions
   std::vector<Slice> slices_;
+  std::vector<std::uint8_t> is_named_;  ///< by node, of one of ClusterPairs::tasks
 };
 
 }  // namespace dch::detail

@@ -51,7 +51,7 @@ std::uint32_t ClusterPairFinder::pairs_of_wanted_types(const TypeCutoffs& cutoff
   return mask;
 }
 
-/// For the next search. What none reads gives its memory back: 20 bytes a particle.
+/// For the next search. What none reads gives its memory back: 11 bytes a particle.
 void ClusterPairFinder::keep_cuts() {
   std::swap(last_cuts_, cuts_);
   clusters_ = {};

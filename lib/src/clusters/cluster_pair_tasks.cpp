@@ -3,7 +3,6 @@
 // ClusterPairFinder: the rows of all slices, side by side and cut into tasks for the threads of a force
 // kernel.
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "clusters/cluster_pair_finder.hpp"
@@ -31,7 +30,7 @@ void ClusterPairFinder::join(Executor* executor, ClusterPairs& out) {
   } else {
     append_slices(executor, out);
   }
-  cut_into_tasks(executor, out);
+  cut_into_tasks(out);
   out.rows.push_back({static_cast<std::int64_t>(out.entries.size()), 0, 0});
   out.split_clusters.clear();
   out.shift_vector.resize(out.shift.size());
@@ -74,55 +73,36 @@ void ClusterPairFinder::append_slices(Executor* executor, ClusterPairs& out) con
 
 /// Shifts stand in the order of the nodes that they lead from, hence of their clusters, and name all nodes
 /// that these meet.
-void ClusterPairFinder::cut_into_tasks(Executor* executor, ClusterPairs& out) {
+void ClusterPairFinder::cut_into_tasks(ClusterPairs& out) {
   const std::int32_t wanted = std::max(kClustersPerTask, out.clusters() / kMaxTasks);
-  const auto nodes = static_cast<std::int32_t>(nodes_.size());
-  const auto first_of = [&](std::int32_t node) {
-    return node < nodes ? nodes_[static_cast<std::size_t>(node)].first : out.clusters();
+  const auto first_of = [&](const ClusterPairs::Shift& shift) {
+    return nodes_[static_cast<std::size_t>(shift.from)].first;
   };
-  const auto shifts = static_cast<std::int64_t>(out.shift.size());
-  const auto from = [&](std::int64_t s) {
-    return s < shifts ? out.shift[static_cast<std::size_t>(s)].from : nodes;
-  };
-  std::vector<TaskNodes> tasks;
-  for (std::int64_t shift = 0; shift < shifts;) {
-    const std::int32_t first = first_of(from(shift));
-    // The first node with a shift that is as far on as a task is to be long.
-    const auto end = std::partition_point(
-        out.shift.begin() + shift, out.shift.end(),
-        [&](const ClusterPairs::Shift& one) { return first_of(one.from) - first < wanted; });
-    tasks.push_back({first, {shift, end - out.shift.begin()}, {}});
-    shift = tasks.back().shifts.last;
-  }
-  const auto name_nodes = [&](int t) {
-    TaskNodes& task = tasks[static_cast<std::size_t>(t)];
-    task.later.assign(nodes_.size(), 0);
-    const std::int32_t end = from(task.shifts.last);
-    for (std::int64_t s = task.shifts.first; s < task.shifts.last; ++s) {
-      const std::int32_t to = out.shift[static_cast<std::size_t>(s)].to;
-      if (to >= end) task.later[static_cast<std::size_t>(to)] = 1;
-    }
-  };
-  if (executor && executor->threads() > 1 && tasks.size() > 1) {
-    executor->run(static_cast<int>(tasks.size()), name_nodes);
-  } else {
-    for (int t = 0; t < static_cast<int>(tasks.size()); ++t) name_nodes(t);
-  }
   out.tasks.clear();
   out.ranges.clear();
   out.has_earlier_contributions.assign(nodes_.size(), 0);
-  for (const TaskNodes& task : tasks) {
-    out.tasks.push_back({task.first_cluster, static_cast<std::int64_t>(out.ranges.size())});
-    append_ranges(task, out);
+  for (auto shift = out.shift.begin(); shift != out.shift.end();) {
+    const std::int32_t first = first_of(*shift);
+    // The first one of a node that is as far on as a task is to be long.
+    const auto end = std::partition_point(shift, out.shift.end(), [&](const ClusterPairs::Shift& one) {
+      return first_of(one) - first < wanted;
+    });
+    out.tasks.push_back({first, static_cast<std::int64_t>(out.ranges.size())});
+    append_ranges({shift - out.shift.begin(), end - out.shift.begin()},
+                  end == out.shift.end() ? static_cast<std::int32_t>(nodes_.size()) : end->from, out);
+    shift = end;
   }
   out.tasks.push_back({out.clusters(), static_cast<std::int64_t>(out.ranges.size())});
 }
 
-/// The clusters of the later nodes that a task names.
-void ClusterPairFinder::append_ranges(const TaskNodes& task, ClusterPairs& out) const {
+/// The clusters of the nodes that shifts of the last task lead to, from one node on.
+void ClusterPairFinder::append_ranges(Shifts shifts, std::int32_t first_node, ClusterPairs& out) {
+  is_named_.assign(nodes_.size(), 0);
+  for (std::int64_t s = shifts.first; s < shifts.last; ++s)
+    is_named_[static_cast<std::size_t>(out.shift[static_cast<std::size_t>(s)].to)] = 1;
   const std::size_t before = out.ranges.size();
-  for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (task.later[k] == 0) continue;
+  for (auto k = static_cast<std::size_t>(first_node); k < nodes_.size(); ++k) {
+    if (is_named_[k] == 0) continue;
     const Node& node = nodes_[k];
     const std::int32_t last = node.first + node.clusters;
     out.has_earlier_contributions[k] = 1;
