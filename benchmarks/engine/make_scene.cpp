@@ -151,6 +151,7 @@ const std::vector<Maker>& makers() {
       {"hotgas", [](const Options& o) { return make_hot_gas(o.scale); }},
       {"sizes1:10", [](const Options& o) { return make_two_sizes(o.scale, 10); }},
       {"sizes1:50", [](const Options& o) { return make_two_sizes(o.scale, 50); }},
+      {"colloids1:50", [](const Options& o) { return make_colloids(o.scale, 50); }},
       {"sizes1..20", [](const Options& o) { return make_continuous_sizes(o.scale, 20); }},
       {"cutoffs3",
        [](const Options& o) {

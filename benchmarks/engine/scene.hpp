@@ -82,6 +82,8 @@ std::unique_ptr<RandomScene> make_glass(double scale);
 std::unique_ptr<RandomScene> make_hot_gas(double scale);
 /// Few large spheres among many small ones; the volume fractions are the same whatever the ratio of sizes.
 std::unique_ptr<RandomScene> make_two_sizes(double scale, double ratio);
+/// Large spheres with 200 small ones at the surface of each; the large ones are 2,048 at scale 1.
+std::unique_ptr<RandomScene> make_colloids(double scale, double ratio);
 /// Spheres whose number density falls as the fourth power of the radius, from the smallest to `ratio` times
 /// as large.
 std::unique_ptr<RandomScene> make_continuous_sizes(double scale, double ratio);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "size_layer.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid_kernels.hpp"
 
 namespace dch::bench {
+namespace {
+/// More cells than this many for each of its spheres take longer to go through than wider ones.
+constexpr double kMostCells = 8;
+}  // namespace
 
 void SizeLayer::set_up(std::vector<std::int32_t> members, Span<const double> radii, double largest_of_all,
                        double side, double at_least, double skin) {
@@ -18,7 +25,8 @@ void SizeLayer::set_up(std::vector<std::int32_t> members, Span<const double> rad
     const auto code = static_cast<std::int32_t>(std::lround(radius(i) / largest_of_all * kMaxCode));
     words_.push_back(code << kNumberBits | i);
   }
-  cells_ = std::max(1, static_cast<std::int32_t>(side / at_least));
+  const double most_a_side = std::cbrt(kMostCells * static_cast<double>(members_.size()));
+  cells_ = std::max(1, static_cast<std::int32_t>(std::min(side / at_least, most_a_side)));
   width = side / cells_;
   const std::size_t room = members_.size() + detail::kChunk;
   for (auto* axis : {&x, &y, &z}) axis->assign(room, 0);

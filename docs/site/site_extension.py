@@ -60,6 +60,8 @@ class PublicHeaders(SphinxDirective):
         for header in headers:
             self.env.note_dependency(str(header))
             entries = self.env.dch_declarations.get(str(header.relative_to(ROOT)))
+            if not entries and "namespace dch::detail {" in header.read_text(encoding="utf-8"):
+                continue  # users name nothing of it
             if not entries:
                 raise self.error(f"Doxygen knows of nothing in {header}")
             lines = [f"## {str(header).split('/include/')[1]}", ""]
@@ -68,8 +70,6 @@ class PublicHeaders(SphinxDirective):
                           "```", ""]
             self.state.nested_parse(StringList(lines, source=str(header)), 0, parent, match_titles=True)
         return parent.children
-
-
 
 
 def page_of(folder):

@@ -18,7 +18,7 @@ import check_links
 GUIDES = ("index", "lammps", "openmm", "python", "cpp", "replay", "theory", "measured", "project", "api/python", "api/cpp")
 # At the start of a line: no declaration ahead of a definition, and nothing of a namespace for the library's own use.
 DECLARED = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?(?: : [^;]*)? \{", re.MULTILINE)
-OWN_USE = re.compile(r"^namespace detail \{.*?^\}  // namespace detail", re.MULTILINE | re.DOTALL)
+OWN_USE = re.compile(r"^namespace (?:dch::)?detail \{.*?^\}  // namespace (?:dch::)?detail", re.MULTILINE | re.DOTALL)
 TAKEN = {"img": "src", "script": "src", "link": "href", "iframe": "src", "source": "src", "object": "data"}
 
 
@@ -62,8 +62,10 @@ def missing_pages(root, site):
 
 
 def python_names(root):
-    """What __all__ of dch and of its adapters lists."""
+    """What __all__ of dch and of its adapters lists; a module whose name begins with _ is for nobody's script."""
     for path in sorted((root / "python" / "dch").glob("*.py")):
+        if path.stem.startswith("_") and path.stem != "__init__":
+            continue
         module = "dch" if path.stem == "__init__" else f"dch.{path.stem}"
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and node.targets[0].id == "__all__":

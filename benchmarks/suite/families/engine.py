@@ -14,7 +14,7 @@ UNIT = "ns/particle"
 CELL_LIST = "cell list"
 QUICK = "melt4k,melt32k,chain32k,droplet+gas,clusters,swollen,shear,glass,hotgas,sizes1:10,cutoffs3"
 ALL = ("melt4k,melt32k,melt256k,melt1m,chain32k,droplet+gas,droplet,clusters,swollen,shear,glass,hotgas,sizes1:10,sizes1:50,"
-       "sizes1..20,cutoffs3")
+       "colloids1:50,sizes1..20,cutoffs3")
 SCALED = "shear,glass,hotgas,droplet+gas,clusters,swollen,sizes1:10"  # made in any size
 CHECKED = ("All lists were compared with each other at every configuration, by number of pairs and a hash over pairs, and at "
            "the first and the last with the library's cell list or all pairs, which share no code with hierarchies and grids; a "

@@ -15,7 +15,7 @@ def run(suite):
     suite.program("lammps_pair_style", "dch.lmp")
     result = Result(checked="Energies at step 0 were compared with those of stock LAMMPS in every run.")
     cases = suite.pick(tiny=["lj"], quick=["lj", "chain"],
-                       full=["lj", "lj20", "chain", "eam", "peptide", "colloid", "colloid50", "granular"])
+                       full=["lj", "lj20", "chain", "eam", "peptide", "colloid", "colloid50", "colloids50", "granular"])
     if "chain" in cases and not suite.has_trajectory("chain32k.data"):
         cases.remove("chain")
         result.left_out.append("chain: make_trajectories chain32k makes its data file")

@@ -118,6 +118,7 @@ class ColumnFiller {
 
   void fill_part(int part, const PairColumns& columns) {
     const bool is_measured = wants_geometry(columns);
+    const bool has_distances = columns.distance != nullptr || columns.single_distance != nullptr;
     std::int64_t* const next = next_[static_cast<std::size_t>(part)].data();
     PairChunk chunk;
     for_each_row(part, [&](std::int32_t i, Span<const std::int32_t> row) {
@@ -125,6 +126,8 @@ class ColumnFiller {
         const std::int32_t* const j = row.data() + done;
         const int count = static_cast<int>(std::min<std::size_t>(row.size() - done, PairChunk::kMost));
         if (is_measured) geometry_.measure(i, j, count, chunk);
+        if (columns.shift != nullptr) chunk.count_shifts(count);
+        if (has_distances) chunk.take_distances(count);
         if (is_half_)
           put_half(i, j, count, chunk, next, columns);
         else
@@ -137,7 +140,7 @@ class ColumnFiller {
                        std::int64_t* next, const PairColumns& columns) {
     std::array<std::int64_t, PairChunk::kMost> place;
     std::array<std::int32_t, PairChunk::kMost> other;
-    std::array<double, PairChunk::kMost> sign;
+    std::array<int, PairChunk::kMost> sign;
     for (int k = 0; k < count; ++k) {
       place[k] = next[std::min(i, j[k])]++;
       other[k] = std::max(i, j[k]);
@@ -154,27 +157,25 @@ class ColumnFiller {
     next[i] += count;
     put(
         count, chunk, columns, [&](int k) { return own + k; }, [&](int k) { return j[k]; },
-        [](int) { return 1.0; });
+        [](int) { return 1; });
     std::array<std::int64_t, PairChunk::kMost> place;
     for (int k = 0; k < count; ++k) place[k] = next[j[k]]++;
     put(
         count, chunk, columns, [&](int k) { return place[k]; }, [&](int) { return i; },
-        [](int) { return -1.0; });
+        [](int) { return -1; });
   }
 
   /// Column by column: the pairs with other(k) at their places, turned where the sign is -1.
   template <class Place, class Other, class Sign>
   static void put(int count, const PairChunk& chunk, const PairColumns& columns, const Place& place,
                   const Other& other, const Sign& sign) {
-    const auto& [a, b, c] = chunk.shift;
+    const auto& [a, b, c] = chunk.whole_shift;
     const auto& [x, y, z] = chunk.displacement;
     if (columns.j != nullptr)
       for (int k = 0; k < count; ++k) columns.j[place(k)] = other(k);
     if (columns.shift != nullptr)
       for (int k = 0; k < count; ++k)
-        columns.shift[place(k)] = {static_cast<std::int64_t>(sign(k) * a[k]),
-                                   static_cast<std::int64_t>(sign(k) * b[k]),
-                                   static_cast<std::int64_t>(sign(k) * c[k])};
+        columns.shift[place(k)] = {sign(k) * a[k], sign(k) * b[k], sign(k) * c[k]};
     if (columns.displacement != nullptr)
       for (int k = 0; k < count; ++k)
         columns.displacement[place(k)] = {sign(k) * x[k], sign(k) * y[k], sign(k) * z[k]};
@@ -183,13 +184,11 @@ class ColumnFiller {
         columns.single_displacement[place(k)] = {static_cast<float>(sign(k) * x[k]),
                                                  static_cast<float>(sign(k) * y[k]),
                                                  static_cast<float>(sign(k) * z[k])};
-    if (columns.distance == nullptr && columns.single_distance == nullptr) return;
-    PairChunk::Column<double> distance;
-    for (int k = 0; k < count; ++k) distance[k] = std::sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]);
     if (columns.distance != nullptr)
-      for (int k = 0; k < count; ++k) columns.distance[place(k)] = distance[k];
+      for (int k = 0; k < count; ++k) columns.distance[place(k)] = chunk.distance[k];
     if (columns.single_distance != nullptr)
-      for (int k = 0; k < count; ++k) columns.single_distance[place(k)] = static_cast<float>(distance[k]);
+      for (int k = 0; k < count; ++k)
+        columns.single_distance[place(k)] = static_cast<float>(chunk.distance[k]);
   }
 
   Executor* executor_;

@@ -2,6 +2,8 @@
 #include "engines/pair_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 #include "geometry/lattice.hpp"
 
@@ -20,7 +22,26 @@ bool is_along(Vec3 v, std::size_t axis) {
   return true;
 }
 
+/// As an integer, without an instruction that SSE2 lacks: the low bits of the sum with kRounder.
+std::int64_t as_integer(double whole) {
+  const double sum = whole + kRounder;
+  std::int64_t bits = 0, zero = 0;
+  std::memcpy(&bits, &sum, sizeof bits);
+  std::memcpy(&zero, &kRounder, sizeof zero);
+  return bits - zero;
+}
+
 }  // namespace
+
+void PairChunk::count_shifts(int count) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < count; ++k) whole_shift[axis][k] = as_integer(shift[axis][k]);
+}
+
+void PairChunk::take_distances(int count) {
+  const auto& [x, y, z] = displacement;
+  for (int k = 0; k < count; ++k) distance[k] = std::sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]);
+}
 
 PairGeometry::PairGeometry(Span<const Vec3> given, const HomeImages& home, const Box& box)
     : given_(given.data()), home_(home), is_periodic_(box.any_periodic()) {

@@ -18,8 +18,15 @@ struct PairChunk {
   template <class T>
   using Column = std::array<T, kMost>;
 
-  std::array<Column<double>, 3> shift;         ///< S, whole numbers
-  std::array<Column<double>, 3> displacement;  ///< D [length]
+  std::array<Column<double>, 3> shift;              ///< S, whole numbers
+  std::array<Column<double>, 3> displacement;       ///< D [length]
+  std::array<Column<std::int64_t>, 3> whole_shift;  ///< by count_shifts()
+  Column<double> distance;                          ///< by take_distances() [length]
+
+  /// Shifts as integers, of the first `count` pairs.
+  void count_shifts(int count);
+  /// |D| of the first `count` pairs.
+  void take_distances(int count);
 };
 
 /// Shifts and displacements of pairs within less than half the smallest height of the cell, as NeighborPairs

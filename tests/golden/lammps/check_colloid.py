@@ -123,19 +123,19 @@ def difference(plain, ours):
 
 
 class Colloid(unittest.TestCase):
-    def compare(self, script, **options):
-        tables = [thermo_tables(run("include ${load}\n" + before + script, **options)) for before in ("", "suffix dch\n")]
-        self.assertEqual(*map(len, tables))
-        for plain, ours in zip(*tables):
-            self.assertEqual(len(plain), len(ours))
-            for lines in zip(plain, ours):
+    def compare(self, script, more="", **options):
+        """Tables of the plain style, and the output of ours, whose script goes on with `more`."""
+        plain = run("include ${load}\n" + script, **options)
+        ours = run("include ${load}\nsuffix dch\n" + script + more, **options)
+        tables = [thermo_tables(output) for output in (plain, ours)]
+        for tables_of_run in zip(*tables, strict=True):
+            for lines in zip(*tables_of_run, strict=True):
                 self.assertLess(difference(*lines), 1e-9)
-        return tables[0]
+        return tables[0], ours
 
     def ours(self, script, **options):
         """Compares, and returns what `dch stats` and `dch explain` say."""
-        self.compare(script + "run 20\n", **options)
-        return run("include ${load}\nsuffix dch\n" + script + "run 20\ndch stats\ndch explain\n", **options)
+        return self.compare(script + "run 20\n", "dch stats\ndch explain\n", **options)[1]
 
     def expect_same_by_atom(self, script, before="", ranks=1):
         plain, ours = (forces_of(before + script, suffix, ranks) for suffix in ("", "suffix dch\n"))
@@ -205,7 +205,7 @@ fix 1 all nve/limit 0.05
 thermo_modify format float %.15g
 run 10
 """
-        self.assertEqual(len(self.compare(script)), 2)
+        self.assertEqual(len(self.compare(script)[0]), 2)
 
     def test_restart_files_are_those_of_the_plain_style(self):
         """Written by either and read by the other."""
