@@ -2,6 +2,8 @@
 //
 // Hierarchies of cages are empty after an update that memory did not suffice for, and contacts are found
 // whole or not at all.
+//
+// More than 300 lines: one sweep a function of the chains' headers, all on the same melts.
 #include <functional>
 #include <memory>
 
@@ -215,6 +217,32 @@ TEST(NecklaceFaults, AContactFinderFindsThemTheNextTime) {
 TEST(NecklaceFaults, AContactFinderOnThreadsFindsThemTheNextTime) {
   const auto pool = make_thread_pool(2);
   sweep_finder(pool.get(), 0);
+}
+
+TEST(NecklaceFaults, AContactFinderKeepsItsChainsIfItCannotTakeOthers) {
+  const Melt melt(3), other(5);
+  const auto expected = melt.expected(melt.positions), other_expected = other.expected(other.positions);
+  struct Kept {
+    ContactFinder finder;
+    bool replaced = false;
+  };
+  expect_sound(sweep(
+                   [&] {
+                     Kept kept{ContactFinder(melt.chains)};
+                     kept.finder.update(melt.positions, melt.box);
+                     return kept;
+                   },
+                   [&](Kept& kept) {
+                     kept.finder.replace(other.chains);
+                     kept.replaced = true;
+                   },
+                   [&](Kept& kept, Ending ending) -> std::string {
+                     if (kept.replaced != (ending != Ending::threw)) return "it threw after it was done";
+                     if (kept.replaced) kept.finder.update(other.positions, other.box);
+                     return contact_fault(kept.finder.find_contacts(melt.query),
+                                          kept.replaced ? other_expected : expected);
+                   }),
+               3);
 }
 
 TEST(NecklaceFaults, AContactFinderHoldsNothingAfterAnUpdateThatThrew) {

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <atom.h>
 #include <cmath>
-#include <comm.h>
-#include <domain.h>
 #include <error.h>
 #include <string>
 #include <update.h>
 
-#include <dch/base/error.hpp>
-
-#include "atom_points.h"
 #include "finite_number.h"
 
 namespace LAMMPS_NS {
@@ -24,7 +19,7 @@ constexpr int kMaxSkip = 1000000;
 }  // namespace
 
 ComputeNecklaceContact::ComputeNecklaceContact(LAMMPS* lammps, int narg, char** arg)
-    : Compute(lammps, narg, arg), beads_(lammps) {
+    : Compute(lammps, narg, arg), map_(lammps), beads_(lammps), bonds_(lammps) {
   if (narg < 4)
     error->all(FLERR,
                kName + "the gap is missing; for example 'compute touch all necklace/contact 0.1 radius 0.5'");
@@ -97,34 +92,6 @@ int ComputeNecklaceContact::read_radii(int narg, char** arg, int at) {
 
 void ComputeNecklaceContact::init() { found_at_ = -1; }
 
-/// Chains anew if atoms or bonds are others than before, in structures that have no positions yet.
-void ComputeNecklaceContact::follow_chains() {
-  using namespace dch::necklace;
-  if (finder_ && known_tags_ == beads_.tags() && known_bonds_ == beads_.bonds() &&
-      std::equal(beads_.radii().begin(), beads_.radii().end(), finder_->necklace().radii().begin()))
-    return;
-  finder_.reset();
-  ContactFinderParams params;
-  params.refuse_undetermined = true;  // a bond over half the box is one of a run that has gone wrong
-  finder_ = std::make_unique<ContactFinder>(
-      Necklace(Chains::from_bonds(beads_.tags().size(), beads_.bonds()), beads_.radii()), params);
-  known_tags_ = beads_.tags();
-  known_bonds_ = beads_.bonds();
-}
-
-void ComputeNecklaceContact::find() {
-  beads_.gather(groupbit, radius_of_type_);
-  contacts_.clear();
-  try {
-    follow_chains();
-    finder_->update(beads_.positions(), box_of(*domain));
-    contacts_ = finder_->find_contacts(query_);
-  } catch (const dch::Error& e) {  // all processes have the same beads, so all throw
-    error->all(FLERR,
-               kName + e.what() + " (beads are numbered from 0 in the order of atom IDs in the group)");
-  }
-}
-
 /// Results asked for at one step share a search; one that asks again at the same step does so because
 /// something has moved the atoms.
 void ComputeNecklaceContact::find_for(Result asked) {
@@ -140,13 +107,13 @@ void ComputeNecklaceContact::find_for(Result asked) {
 double ComputeNecklaceContact::compute_scalar() {
   invoked_scalar = update->ntimestep;
   find_for(Result::scalar);
-  return scalar = static_cast<double>(contacts_.size());
+  return scalar = static_cast<double>(total_);
 }
 
 void ComputeNecklaceContact::compute_peratom() {
   invoked_peratom = update->ntimestep;
   find_for(Result::by_atom);
-  std::vector<double> of_bead(beads_.tags().size(), 0.0);
+  std::vector<double> of_bead(beads_.size(), 0.0);
   for (const auto& contact : contacts_) {
     ++of_bead[static_cast<std::size_t>(contact.i)];
     ++of_bead[static_cast<std::size_t>(contact.j)];
@@ -154,8 +121,8 @@ void ComputeNecklaceContact::compute_peratom() {
   counts_.assign(static_cast<std::size_t>(std::max(1, atom->nmax)), 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const std::int32_t bead = beads_.bead_of(atom->tag[i]);
-    if (bead >= 0) counts_[static_cast<std::size_t>(i)] = of_bead[static_cast<std::size_t>(bead)];
+    const std::ptrdiff_t k = beads_.index_of(map_.bead_of(atom->tag[i]));
+    if (k >= 0) counts_[static_cast<std::size_t>(i)] = of_bead[static_cast<std::size_t>(k)];
   }
   vector_atom = counts_.data();
 }
@@ -163,30 +130,24 @@ void ComputeNecklaceContact::compute_peratom() {
 void ComputeNecklaceContact::compute_local() {
   invoked_local = update->ntimestep;
   find_for(Result::local);
-  std::vector<bool> mine(beads_.tags().size(), false);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const std::int32_t bead = atom->mask[i] & groupbit ? beads_.bead_of(atom->tag[i]) : -1;
-    if (bead >= 0) mine[static_cast<std::size_t>(bead)] = true;
-  }
+  const auto tag_of = [this](std::int32_t k) {
+    return static_cast<double>(
+        map_.tags()[static_cast<std::size_t>(beads_.beads()[static_cast<std::size_t>(k)])]);
+  };
   rows_.clear();
-  for (const auto& contact : contacts_) {
-    const auto i = static_cast<std::size_t>(contact.i), j = static_cast<std::size_t>(contact.j);
-    if (mine[i])
-      rows_.push_back(
-          {static_cast<double>(beads_.tags()[i]), static_cast<double>(beads_.tags()[j]), contact.gap});
-  }
+  for (const auto& contact : contacts_)
+    if (beads_.is_own(static_cast<std::size_t>(contact.i)))
+      rows_.push_back({tag_of(contact.i), tag_of(contact.j), contact.gap});
   row_starts_.clear();
   for (auto& row : rows_) row_starts_.push_back(row.data());
   size_local_rows = static_cast<int>(rows_.size());
   array_local = row_starts_.data();
 }
 
-/// One row: which structure found the contacts, and the figure that chooses between them.
+/// One row: how the contacts were found, and what processes sent each other for it.
 void ComputeNecklaceContact::compute_array() {
   invoked_array = update->ntimestep;
   find_for(Result::search);
-  search_ = {finder_->answered_by() == dch::necklace::Structure::dch ? 1.0 : 0.0,
-             finder_->choice().visited_per_bead};
   array = &search_row_;
 }
 

@@ -14,7 +14,9 @@ ComputeStyle(necklace/contact,ComputeNecklaceContact);
 
 #include <dch/necklace/contact_finder.hpp>
 
-#include "gathered_beads.h"
+#include "bond_check.h"
+#include "chain_map.h"
+#include "near_beads.h"
 
 namespace LAMMPS_NS {
 
@@ -22,9 +24,8 @@ namespace LAMMPS_NS {
 /// many there are, and a list of them: atom IDs and gap, each on the process that owns the atom of smaller
 /// ID; and how they were found.
 ///
-/// Every process gathers all chains and finds all contacts, by structures that it keeps from call to call:
-/// along the chains while these are stretched, over space where they are packed. All processes have the same
-/// beads and count the same work, so they choose alike.
+/// Every process finds the contacts of its own atoms, among these and the beads of others that may touch
+/// them: along the chains while these are stretched, over space where they are packed, as it measures.
 class ComputeNecklaceContact : public Compute {
  public:
   ComputeNecklaceContact(LAMMPS* lammps, int narg, char** arg);
@@ -45,22 +46,31 @@ class ComputeNecklaceContact : public Compute {
   double positive(const char* word, const char* what);
   void find_for(Result asked);
   void find();
-  void follow_chains();
+  bool find_among(bool everything, const dch::Box& box, bool is_new);
+  dch::necklace::Necklace chains_here();
+  void search(bool everything, const dch::Box& box, bool is_new);
+  void keep(const std::vector<dch::necklace::Contact>& found);
+  void add_up();
 
   dch::necklace::ContactQuery query_;
   std::vector<double> radius_of_type_;  ///< from 1 [length]; empty: the atoms' own
-  GatheredBeads beads_;
-  std::vector<tagint> known_tags_;  ///< of the chains in finder_, as are the bonds and radii
-  std::vector<dch::IndexPair> known_bonds_;
+  ChainMap map_;
+  NearBeads beads_;
+  BondCheck bonds_;
+  std::vector<std::int32_t> known_beads_;  ///< of the chains in finder_
+  bool all_whole_ = true;                  ///< no bead of a chain of finder_ is missing
   std::unique_ptr<dch::necklace::ContactFinder> finder_;
-  std::vector<dch::necklace::Contact> contacts_;
+  std::vector<dch::necklace::Contact> contacts_;  ///< of own beads; i and j are indices in beads_
+  std::array<double, 2> measured_{};              ///< pairs of spheres and beads, when they were last counted
+  bigint total_ = 0;                              ///< contacts, on all processes
+  BeadTraffic traffic_;
   bigint found_at_ = -1;  ///< step of contacts_; -1 for none
   std::array<bool, 4>
       taken_{};  ///< by result: it has had contacts_ already, so its next call is of later positions
   std::vector<double> counts_;  ///< what vector_atom points to
   std::vector<std::array<double, 3> > rows_;
   std::vector<double*> row_starts_;  ///< what array_local points to
-  std::array<double, 2> search_{};   ///< the row of the global array
+  std::array<double, 4> search_{};   ///< the row of the global array
   double* search_row_ = search_.data();
 };
 

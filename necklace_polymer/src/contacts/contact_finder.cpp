@@ -78,6 +78,14 @@ void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
   ready_ = true;
 }
 
+void ContactFinder::replace(Necklace necklace) {
+  ContactFinder other(std::move(necklace), params_);
+  other.choice_ = choice_;
+  other.since_measured_ = since_measured_;
+  other.answered_by_ = answered_by_;
+  *this = std::move(other);
+}
+
 bool ContactFinder::any_contact(const ContactQuery& query) {
   std::vector<Contact> found;
   if (const auto request = request_of_turn(query)) return by_dch(*request, query, true, found);

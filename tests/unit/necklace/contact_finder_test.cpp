@@ -226,6 +226,27 @@ void ask_in_both_turns(const Necklace& necklace, const std::vector<Vec3>& positi
 }
 
 // The wrapped hierarchy needs whole chains; contacts do not.
+TEST(ContactFinder, OtherChainsTakeTheChoiceOver) {
+  Random random(5);
+  std::vector<Vec3> positions(60);
+  for (Vec3& p : positions) p = random.in_ball(2);
+  const Box box = Box::orthorhombic({9, 9, 9});
+  const Necklace all = Necklace::chain(std::vector<double>(60, 0.4));
+  const Necklace part = Necklace::chain(std::vector<double>(40, 0.3));
+  ContactFinder finder(all, always_dch());
+  measure(finder, positions, box);
+  const double visited = finder.choice().visited_per_bead;
+  finder.replace(part);
+  EXPECT_EQ(finder.necklace().size(), 40u);
+  EXPECT_THROW(finder.find_contacts({}), InvalidParameter);  // there are no positions yet
+  positions.resize(40);
+  finder.update(positions, box);
+  const auto found = finder.find_contacts({});
+  EXPECT_EQ(finder.answered_by(), Structure::dch);  // without measuring first
+  EXPECT_EQ(finder.choice().visited_per_bead, visited);
+  EXPECT_EQ(dch::test::pairs_of(found), dch::test::contact_oracle(part, positions, box, {}));
+}
+
 TEST(ContactFinder, BondsThatLeaveImagesUndeterminedDoNotHideContacts) {
   const Box box = Box::orthorhombic({9, 9, 9});
   const std::vector<double> radii(5, 0.6);

@@ -76,6 +76,10 @@ class ContactFinder {
   ///   held after a throw until the next successful update.
   void update(Span<const Vec3> positions, const Box& box);
 
+  /// Goes on with other chains, as a part of a scene does whose beads come and go: a new finder to which the
+  /// choice is left, so that it need not measure first. Positions are to be given anew. O(n), n beads.
+  void replace(Necklace necklace);
+
   /// Brings the structure that the next search takes up to date, which that search would do itself: for
   /// callers who time the two apart.
   /// @throws as the search.
