@@ -52,6 +52,33 @@ void forward_communication(Comm& comm, Style* fix, int numbers) {
   }
 }
 
+template <class Comm, class Style, class = void>
+inline constexpr bool kNamesCommByPair = sizeof(Comm) == 0;
+template <class Comm, class Style>
+inline constexpr bool kNamesCommByPair<
+    Comm, Style, std::void_t<decltype(std::declval<Comm&>().forward_comm_pair(std::declval<Style*>()))>> =
+    true;
+
+/// The same of a pair style.
+template <class Comm, class Style>
+void forward_communication_of_pair(Comm& comm, Style* pair) {
+  if constexpr (kNamesCommByPair<Comm, Style>) {
+    comm.forward_comm_pair(pair);
+  } else {
+    comm.forward_comm(pair);
+  }
+}
+
+/// Adds numbers of ghosts to those of owned atoms.
+template <class Comm, class Style>
+void reverse_communication(Comm& comm, Style* pair) {
+  if constexpr (kNamesCommByPair<Comm, Style>) {
+    comm.reverse_comm_pair(pair);
+  } else {
+    comm.reverse_comm(pair);
+  }
+}
+
 /// Copies whether the last coefficients come from mixing, which the log counts.
 template <class Style>
 void copy_mixing([[maybe_unused]] const Style& from, [[maybe_unused]] Style& to) {
