@@ -156,7 +156,6 @@ void PairEAMDCH::init_style() {
                           plain_name_ + " there");
   obstacle_ = reason_for_plain();
   computed_ = scaled_ = 0;
-  atoms_.reset();
 }
 
 void PairEAMDCH::init_list(int id, NeighList* neighbors) {

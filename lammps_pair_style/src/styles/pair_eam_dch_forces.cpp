@@ -90,9 +90,8 @@ void PairEAMDCH::add_forces() {
   const int all = atom->nlocal + atom->nghost;
   if (all == 0) return;
   const auto count = static_cast<std::size_t>(all);
-  const bool newton = force->newton_pair != 0;
-  const bool sums_pairs = (eflag_global && !newton) || eflag_atom || (vflag_either && !vflag_fdotr) ||
-                          vflag_atom || num_tally_compute > 0;
+  const bool sums_pairs = (eflag_global && !force->newton_pair) || eflag_atom ||
+                          (vflag_either && !vflag_fdotr) || vflag_atom || num_tally_compute > 0;
   dch::EmbeddedAtoms::PairVisitor visit;
   if (sums_pairs)
     visit = [&](dch::Span<const dch::EmbeddedPair> pairs) {

@@ -80,7 +80,12 @@ def finnis_sinclair():
     return crystal(f"pair_style eam/fs\npair_coeff * * {potential('AlFe_mm.eam.fs')} Al Fe", 2, TWO_KINDS, 4.0)
 
 
-SCENES = {"eam": (copper, two_files, one_file_for_two_types), "eam/alloy": (alloy,), "eam/fs": (finnis_sinclair,)}
+def densities_that_depend_on_both():
+    """In the file above, as in most, iron has the density from aluminum that aluminum has from iron."""
+    return crystal(f"pair_style eam/fs\npair_coeff * * {potential('NiAlH_jea.eam.fs')} Al Ni", 2, TWO_KINDS, 3.6)
+
+
+SCENES = {"eam": (copper, two_files, one_file_for_two_types), "eam/alloy": (alloy,), "eam/fs": (finnis_sinclair, densities_that_depend_on_both)}
 
 
 def forces_of(script, before="", ranks=1):
@@ -130,6 +135,12 @@ class Embedded(unittest.TestCase):
                             _, output = self.compare(f"newton {newton}\n" + scene() + "run 15\n", before, ranks=ranks)
                             self.assertIn(f"pair {style}/dch: {KERNELS}", output)
                             self.assertEqual("DCH takes pair " + style + "/dch in place of the plain style" in output, before == "dch on\n")
+
+    def test_energies_alone(self):
+        """Which steps want that do not want pressures."""
+        for newton, ranks in WAYS:
+            with self.subTest(newton=newton, ranks=ranks):
+                self.compare(f"newton {newton}\n" + alloy() + "thermo_style custom step temp epair\nthermo_modify format float %.15g\nrun 10\n", ranks=ranks)
 
     def test_tallies_at_every_step(self):
         for newton, ranks in WAYS:
@@ -189,6 +200,7 @@ class Embedded(unittest.TestCase):
         script = copper().replace("units metal", "units real").replace("timestep 0.002", "timestep 1.0")
         _, output = self.compare(script + "run 10\n")
         self.assertIn("pair eam/dch: plain style, as the units of the potential are those of 'units metal'", output)
+        self.compare(script + SINGLE + "run 0\n")
 
     def test_coefficients_that_change(self):
         self.compare(copper() + f"run 5\npair_coeff * * {potential('Cu_u6.eam')}\nrun 5\n")
