@@ -146,6 +146,12 @@ class Embedded(unittest.TestCase):
         for newton, ranks in WAYS:
             self.compare(f"newton {newton}\n" + alloy() + TALLIES + "run 10\n", ranks=ranks)
 
+    def test_computes_that_ask_for_each_pair(self):
+        """lmp_tally has one, as LAMMPS's package TALLY."""
+        for newton, ranks in WAYS[:2] + WAYS[3:5]:
+            script = f"newton {newton}\n" + alloy() + "compute each all each/pair\nthermo_style custom step temp epair press c_each c_each[*]\n"
+            self.compare(script + "thermo_modify format float %.15g\nrun 10\n", ranks=ranks, executable=host.tools / "lmp_tally")
+
     def test_numbers_of_a_pair_of_atoms(self):
         """compute pair/local asks single(). Rows of other lists have their pairs the other way around, where the energy of
         embedding is shared out among others: its sum is the same, and forces are those of the same rows."""
