@@ -6,6 +6,7 @@
 // More than 300 lines: one sweep a function of the chains' headers, all on the same melts.
 #include <functional>
 #include <memory>
+#include <numeric>
 
 #include <dch/necklace/contact_events.hpp>
 #include <dch/necklace/contact_finder.hpp>
@@ -222,18 +223,29 @@ TEST(NecklaceFaults, AContactFinderOnThreadsFindsThemTheNextTime) {
 TEST(NecklaceFaults, AContactFinderKeepsItsChainsIfItCannotTakeOthers) {
   const Melt melt(3), other(5);
   const auto expected = melt.expected(melt.positions), other_expected = other.expected(other.positions);
+  const auto names_of = [](const Melt& of) {
+    std::vector<std::uint64_t> names(of.positions.size());
+    std::iota(names.begin(), names.end(), std::uint64_t{7});
+    return names;
+  };
+  const std::vector<std::uint64_t> other_names = names_of(other);
   struct Kept {
     ContactFinder finder;
     bool replaced = false;
   };
   expect_sound(sweep(
                    [&] {
-                     Kept kept{ContactFinder(melt.chains)};
+                     ContactFinderParams params;
+                     params.to_dch = params.to_wrapped = 0;
+                     Kept kept{ContactFinder(Necklace(), params)};
+                     kept.finder.replace(melt.chains, names_of(melt));
                      kept.finder.update(melt.positions, melt.box);
+                     kept.finder.find_contacts(melt.query);  // from now on the DCH, which is to be kept
+                     kept.finder.find_contacts(melt.query);
                      return kept;
                    },
                    [&](Kept& kept) {
-                     kept.finder.replace(other.chains);
+                     kept.finder.replace(other.chains, other_names);
                      kept.replaced = true;
                    },
                    [&](Kept& kept, Ending ending) -> std::string {

@@ -47,14 +47,16 @@ void ComputeNecklaceContact::search(bool everything, const dch::Box& box, bool i
   if (is_new || !finder_ || known_beads_ != beads_.beads() ||
       !std::equal(beads_.radii().begin(), beads_.radii().end(), finder_->necklace().radii().begin())) {
     known_beads_.clear();
-    if (finder_ && !everything) {
-      finder_->replace(chains_here());
-    } else {
+    if (!finder_ || everything) {
       ContactFinderParams params;
       // A bond over half the box is one of a run that has gone wrong. Where beads are missing a long step is
       // none; then bonds_ looks at bonds.
       params.refuse_undetermined = everything;
-      finder_ = std::make_unique<ContactFinder>(chains_here(), params);
+      finder_ = std::make_unique<ContactFinder>(everything ? chains_here() : Necklace(), params);
+    }
+    if (!everything) {
+      const std::vector<std::uint64_t> names(beads_.beads().begin(), beads_.beads().end());
+      finder_->replace(chains_here(), names);
     }
     known_beads_ = beads_.beads();
   }

@@ -10,6 +10,7 @@
 #include <dch/necklace/contact_finder.hpp>
 
 #include "chains/bead_check.hpp"
+#include "contacts/beside_place.hpp"
 #include "contacts/contact_check.hpp"
 #include "contacts/contact_of.hpp"
 
@@ -27,29 +28,6 @@ void check(const ContactFinderParams& params) {
                            "; it has to be 1 or more");
   }
 }
-
-/// Which places are asked for beside a given one, as far as chains tell.
-class BesidePlace {
- public:
-  BesidePlace(const Necklace& necklace, const ContactQuery& query, std::int32_t place)
-      : query_(query), place_(place) {
-    const std::size_t chain = necklace.chain_at(place);
-    first_ = necklace.first_place(chain);
-    end_ = necklace.first_place(chain + 1);
-    is_closed_ = necklace.chains().closed(chain);
-  }
-  bool asks_for(std::int32_t other) const {
-    if (other < first_ || other >= end_) return query_.between_chains;
-    const std::int32_t along = std::abs(place_ - other);
-    const std::int32_t bonds = is_closed_ ? std::min(along, end_ - first_ - along) : along;
-    return query_.within_chains && bonds > query_.skip_bonds;
-  }
-
- private:
-  const ContactQuery& query_;
-  std::int32_t place_, first_, end_;
-  bool is_closed_;
-};
 
 std::string with_two_digits(double value) {
   const std::string text = std::to_string(value);
@@ -78,9 +56,23 @@ void ContactFinder::update(Span<const Vec3> positions, const Box& box) {
   ready_ = true;
 }
 
-void ContactFinder::replace(Necklace necklace) {
+void ContactFinder::replace(Necklace necklace, Span<const std::uint64_t> names) {
+  if (!names.empty() && names.size() != necklace.particles()) {
+    throw InvalidParameter("there are " + std::to_string(names.size()) + " names for " +
+                           std::to_string(necklace.particles()) + " particles; give one for each, or none");
+  }
   ContactFinder other(std::move(necklace), params_);
-  other.choice_ = choice_;
+  if (!names.empty()) {
+    for (const std::int32_t particle : other.necklace().particle())
+      other.names_.push_back(names[static_cast<std::size_t>(particle)]);
+  }
+  other.choice_ = choice_;  // the last that may throw
+  if (!names_.empty() && !other.names_.empty()) {
+    other.search_ = std::move(search_);
+    other.search_radius_ = search_radius_;
+    other.search_is_sized_ = search_is_sized_;
+    std::swap(other.list_, list_);
+  }
   other.since_measured_ = since_measured_;
   other.answered_by_ = answered_by_;
   *this = std::move(other);
@@ -113,7 +105,7 @@ std::size_t ContactFinder::memory_bytes() const {
   return wrapped_.memory_bytes() + (search_ != nullptr ? search_->stats().memory_bytes : 0) +
          list_.first.capacity() * sizeof(list_.first[0]) + list_.j.capacity() * sizeof(list_.j[0]) +
          list_.particle.capacity() * sizeof(list_.particle[0]) + radii_.capacity() * sizeof(double) +
-         (given_.capacity() + by_place_.capacity()) * sizeof(Vec3);
+         names_.capacity() * sizeof(names_[0]) + (given_.capacity() + by_place_.capacity()) * sizeof(Vec3);
 }
 
 bool ContactFinder::is_turn_of_wrapped() const {
@@ -225,19 +217,22 @@ std::optional<ListParams> ContactFinder::near_pairs(const ContactQuery& query) c
 /// Brings the DCH up to date. False for positions so far outside that their places in the box are uncertain.
 bool ContactFinder::dch_takes(const ListParams& request) {
   const double radius = request.list_radius();
-  const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff());
+  const bool is_sized = !request.radii.empty() && necklace().largest_radius() > 2 * smallest_radius_;
+  const bool fits = radius <= search_radius_ && search_radius_ <= std::min(2 * radius, box_.max_cutoff()) &&
+                    (names_.empty() || is_sized == search_is_sized_);
   if (search_ == nullptr || !fits) {
     HierarchyParams structure;
     structure.radius = radius;
     structure.executor = params_.executor;
-    structure.size_classes = !request.radii.empty() && necklace().largest_radius() > 2 * smallest_radius_;
+    structure.size_classes = is_sized;
     search_ = make_dch_search(structure);
+    search_is_sized_ = is_sized;
     search_radius_ = radius;
     search_is_new_ = false;
   }
   if (search_is_new_) return true;
   try {
-    search_->update(by_place_, box_);
+    search_->update(by_place_, box_, names_);
   } catch (const InvalidPosition&) {
     return false;
   }
@@ -263,7 +258,7 @@ bool ContactFinder::by_dch(const ListParams& request, const ContactQuery& query,
     detail::FoundPairs part(necklace().particle());
     for (std::size_t row = first; row < last && !(first_only && any); ++row) {
       const auto p = list_.particle.empty() ? static_cast<std::int32_t>(row) : list_.particle[row];
-      const BesidePlace beside(necklace(), query, p);
+      const detail::BesidePlace beside(necklace(), query, p);
       const Vec3 at = by_place_[static_cast<std::size_t>(p)];
       const double radius = radii_[static_cast<std::size_t>(p)];
       for (const std::int32_t q : list_.row(row)) {

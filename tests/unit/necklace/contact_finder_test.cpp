@@ -247,6 +247,35 @@ TEST(ContactFinder, OtherChainsTakeTheChoiceOver) {
   EXPECT_EQ(dch::test::pairs_of(found), dch::test::contact_oracle(part, positions, box, {}));
 }
 
+/// Of chains of beads of one size, of two, and of one again; each time others are missing.
+TEST(ContactFinder, BeadsThatComeAndGoKeepTheirNames) {
+  Random random(6);
+  const Box box = Box::orthorhombic({9, 9, 9});
+  std::vector<Vec3> all(90);
+  for (Vec3& p : all) p = random.in_ball(1.8);  // bonds stay below half the box
+  ContactFinder finder(Necklace(), always_dch());
+  for (std::uint64_t round = 0; round < 30; ++round) {
+    std::vector<std::uint64_t> names;
+    std::vector<Vec3> positions;
+    std::vector<double> radii;
+    for (std::uint64_t name = 0; name < all.size(); ++name) {
+      all[name] = all[name] + random.in_ball(0.05);
+      if ((name + round) % 5 == 0) continue;
+      names.push_back(name);
+      positions.push_back(all[name]);
+      radii.push_back(round / 5 % 2 == 1 && name % 3 == 0 ? 0.1 : 0.3);
+    }
+    if (round % 7 == 6) names.clear();
+    const Necklace chain = Necklace::chain(radii);
+    finder.replace(chain, names);
+    finder.update(positions, box);
+    const auto found = finder.find_contacts({});
+    EXPECT_EQ(finder.answered_by(), round == 0 ? Structure::wrapped : Structure::dch);
+    EXPECT_EQ(dch::test::pairs_of(found), dch::test::contact_oracle(chain, positions, box, {})) << round;
+  }
+  EXPECT_THROW(finder.replace(Necklace::chain({0.5, 0.5}), std::vector<std::uint64_t>{1}), InvalidParameter);
+}
+
 TEST(ContactFinder, BondsThatLeaveImagesUndeterminedDoNotHideContacts) {
   const Box box = Box::orthorhombic({9, 9, 9});
   const std::vector<double> radii(5, 0.6);

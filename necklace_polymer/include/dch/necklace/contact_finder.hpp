@@ -78,7 +78,11 @@ class ContactFinder {
 
   /// Goes on with other chains, as a part of a scene does whose beads come and go: a new finder to which the
   /// choice is left, so that it need not measure first. Positions are to be given anew. O(n), n beads.
-  void replace(Necklace necklace);
+  /// @param names by particle, all different: the DCH is kept, and repaired by the particles that have the
+  ///   names they had, if there were names before; made anew without.
+  /// @throws InvalidParameter for another number of names than particles. After a throw the chains are those
+  ///   before.
+  void replace(Necklace necklace, Span<const std::uint64_t> names = {});
 
   /// Brings the structure that the next search takes up to date, which that search would do itself: for
   /// callers who time the two apart.
@@ -121,8 +125,10 @@ class ContactFinder {
   WrappedHierarchy wrapped_;
   std::unique_ptr<PairSearch> search_;
   double search_radius_ = 0;
+  bool search_is_sized_ = false;
   NeighborList list_;
-  std::vector<double> radii_;  ///< by place
+  std::vector<double> radii_;         ///< by place
+  std::vector<std::uint64_t> names_;  ///< by place; none for the places themselves
   double smallest_radius_ = 0;
   std::vector<Vec3> given_;     ///< positions by particle
   std::vector<Vec3> by_place_;  ///< as the DCH has them
