@@ -212,12 +212,14 @@ class NecklaceContact(unittest.TestCase):
         for gap, contacts in ((0.0, 0), (2 * 1.9 * math.sin(math.pi / 6) - side + 1e-9, 12)):
             script = RING.replace("create_bonds single/bond 1 1 1\n", "")
             script += f"compute touch all necklace/contact {gap!r} radius {side / 2!r}\n"
+            script += f"compute far all necklace/contact 3.0 skip 3 radius {side / 2!r}\n"  # all but near ones
             script += "pair_style zero 3.0\npair_coeff * *\nbond_style zero\nbond_coeff *\n"
-            script += "thermo 1\nthermo_style custom step c_touch c_touch[1][1]\nrun 2\n"
+            script += "thermo 1\nthermo_style custom step c_touch c_touch[1][1] c_far\nrun 2\n"
             for ranks in (1, 2, 4):
                 self.check_ring(contacts, thermo_tables(run("processors * * 1\n" + script, ranks=ranks))[0])
 
     def check_ring(self, contacts, lines):
+        self.assertEqual([12 * (12 - 1 - 2 * 3) // 2] * 3, [line["c_far"] for line in lines])  # the shorter way around
         self.assertEqual([contacts] * 3, [line["c_touch"] for line in lines])
         self.assertEqual([0] * 3, [line["c_touch[1][1]"] for line in lines])  # little to search for
 
