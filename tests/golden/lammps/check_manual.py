@@ -34,6 +34,17 @@ angle_coeff 1 1.0 180
 neigh_modify delay 0 every 1 check yes
 fix move all nve
 """
+ALLOY = """
+units metal
+lattice fcc 3.6
+region box block 0 4 0 4 0 4
+create_box 2 box
+create_atoms 1 box
+set type 1 type/ratio 2 0.5 4711
+mass * 60.0
+velocity all create 300 87287
+fix move all nve
+"""
 GRAINS = """
 units lj
 atom_style sphere
@@ -47,6 +58,11 @@ neigh_modify delay 0 every 1 check yes
 fix move all nve/sphere
 """
 RUN = "thermo 1\nrun 4\n"
+SYSTEMS = {"pair_style gran/": GRAINS, "pair_style eam": ALLOY}  # others are chains
+
+
+def system_for(block):
+    return next((system for style, system in SYSTEMS.items() if style in block), CHAINS)
 
 
 def write_chains(path, types=2, has_angles=True, chains=36, beads=12):
@@ -95,7 +111,7 @@ class Manual(unittest.TestCase):
             program, block = [host.tools / "plugin_host", host.loader.parent / "libdch_lammps.so"], block.partition("\n")[2]
         block = re.sub(r"^include \S+", "include ${load}", block, flags=re.MULTILINE)
         write_chains(host.work / "chains.data")
-        self.check(*host.run_text((GRAINS if "pair_style gran/" in block else CHAINS) + block + RUN, executable=program), plain)
+        self.check(*host.run_text(system_for(block) + block + RUN, executable=program), plain)
 
     def write_scripts(self):
         """Those that command lines name, with the systems that they read."""
