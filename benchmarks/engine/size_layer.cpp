@@ -8,8 +8,9 @@
 
 namespace dch::bench {
 namespace {
-/// More cells than this many for each of its spheres take longer to go through than wider ones.
-constexpr double kMostCells = 8;
+/// Cells are counted in 32 bits, and where spheres are few, going through more of them takes longer than
+/// wider ones do: so many at most, or so many for each sphere.
+constexpr double kMostCells = 1 << 20, kMostCellsForEach = 8;
 }  // namespace
 
 void SizeLayer::set_up(std::vector<std::int32_t> members, Span<const double> radii, double largest_of_all,
@@ -25,8 +26,8 @@ void SizeLayer::set_up(std::vector<std::int32_t> members, Span<const double> rad
     const auto code = static_cast<std::int32_t>(std::lround(radius(i) / largest_of_all * kMaxCode));
     words_.push_back(code << kNumberBits | i);
   }
-  const double most_a_side = std::cbrt(kMostCells * static_cast<double>(members_.size()));
-  cells_ = std::max(1, static_cast<std::int32_t>(std::min(side / at_least, most_a_side)));
+  const double most_cells = std::max(kMostCells, kMostCellsForEach * static_cast<double>(members_.size()));
+  cells_ = std::max(1, static_cast<std::int32_t>(std::min(side / at_least, std::cbrt(most_cells))));
   width = side / cells_;
   const std::size_t room = members_.size() + detail::kChunk;
   for (auto* axis : {&x, &y, &z}) axis->assign(room, 0);

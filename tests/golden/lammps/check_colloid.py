@@ -6,7 +6,7 @@ import re
 import unittest
 
 from lammps_run import thermo_tables
-from script_tests import host, main, run
+from script_tests import forces_of, host, main, run
 
 # Type 1 is the solvent; types 2 and 3 are spheres, of diameters 3 and 2. Diameters are mixed unless pair_coeff says them.
 BOX = """
@@ -105,15 +105,6 @@ def error_of(script, before, ranks=1):
         raise AssertionError(f"no error\n{output}")
     said = [line for line in output.splitlines() if "ERROR" in line][0]
     return re.sub(r"^ERROR on proc \d+: | \(.*", "", said)
-
-
-def forces_of(script, before, ranks=1):
-    """At the first step, by atom, with energies and stresses."""
-    dump = host.work / "forces.dump"
-    run("include ${load}\n" + before + script + "compute pe all pe/atom\ncompute st all stress/atom NULL virial\n"
-        f"dump 1 all custom 1 {dump} fx fy fz c_pe c_st[*]\ndump_modify 1 sort id format float %.17g\nrun 0\n", ranks=ranks)
-    rows = dump.read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
-    return [list(map(float, row.split())) for row in rows]
 
 
 def difference(plain, ours):

@@ -7,7 +7,7 @@ import re
 import unittest
 
 from lammps_run import thermo_tables
-from script_tests import host, main, run
+from script_tests import forces_of, host, main, run
 
 CRYSTAL = """
 units metal
@@ -86,15 +86,6 @@ def densities_that_depend_on_both():
 
 
 SCENES = {"eam": (copper, two_files, one_file_for_two_types), "eam/alloy": (alloy,), "eam/fs": (finnis_sinclair, densities_that_depend_on_both)}
-
-
-def forces_of(script, before="", ranks=1):
-    """At the first step, by atom, with energies and stresses."""
-    dump = host.work / "forces.dump"
-    run("include ${load}\n" + before + script + "compute pe all pe/atom\ncompute st all stress/atom NULL virial\n"
-        f"dump 1 all custom 1 {dump} fx fy fz c_pe c_st[*]\ndump_modify 1 sort id format float %.17g\nrun 0\n", ranks=ranks)
-    rows = dump.read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
-    return [list(map(float, row.split())) for row in rows]
 
 
 class Embedded(unittest.TestCase):

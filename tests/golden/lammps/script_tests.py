@@ -35,6 +35,15 @@ def run(text, **options):
     return output
 
 
+def forces_of(script, before="", ranks=1):
+    """Of a script that has not run yet: by atom, with energies and stresses."""
+    dump = host.work / "forces.dump"
+    run("include ${load}\n" + before + script + "compute pe all pe/atom\ncompute st all stress/atom NULL virial\n"
+        f"dump 1 all custom 1 {dump} fx fy fz c_pe c_st[*]\ndump_modify 1 sort id format float %.17g\nrun 0\n", ranks=ranks)
+    rows = dump.read_text().split("ITEM: ATOMS")[1].splitlines()[1:]
+    return [list(map(float, row.split())) for row in rows]
+
+
 class ComparedWithStock(unittest.TestCase):
     """Scripts whose thermo output is the same with the suffix and without."""
 
