@@ -36,7 +36,9 @@ void ClusterListFiller::take_special_pair(const AtomPoints& points, int i, int i
                                           ClusterList& list) {
   const bool is_ghost = image >= atom->nlocal;
   const int owner = points.in_box() && is_ghost ? atom->map(atom->tag[image]) : image;
-  excluded_.push_back({i, owner});
+  const std::int32_t point = points.point_of(owner);
+  if (point < 0) return;  // another process takes the pair
+  excluded_.push_back({i, point});
   const bool twice =
       !is_ghost || points.in_box() ? owner < i : force->newton_pair && !rules_.stored_here(i, image);
   if (kind < 0 || twice) return;
@@ -67,105 +69,23 @@ void ClusterListFiller::take_special_pairs(const AtomPoints& points, ClusterList
   }
 }
 
-bool ClusterListFiller::leaves_out_any(const AtomPoints& points) const {
-  return rules_.excludes_any() || (!points.in_box() && force->newton_pair);
-}
-
-/// Pairs that `neigh_modify exclude` leaves out, and those with a ghost that another process takes.
-bool ClusterListFiller::is_left_out(const AtomPoints& points, int i, int j) const {
-  if (rules_.excludes_any() && rules_.excluded(i, j)) return true;
-  const bool takes_turns = !points.in_box() && force->newton_pair;
-  if (!takes_turns || (i < points.owned() && j < points.owned())) return false;
-  return i < points.owned() ? !rules_.stored_here(i, j) : !rules_.stored_here(j, i);
-}
-
-/// The pairs of two clusters that stay, asked about one by one.
-std::uint16_t ClusterListFiller::mask_by_pair(const AtomPoints& points, const std::int32_t* own,
-                                              const std::int32_t* other, std::uint16_t mask) const {
-  constexpr int kSlots = dch::ClusterPairs::kSlots;
-  for (int bit = 0; bit < kSlots * kSlots; ++bit) {
-    if ((mask >> bit & 1) != 0 && is_left_out(points, own[bit / kSlots], other[bit % kSlots]))
-      mask = static_cast<std::uint16_t>(mask & ~(1 << bit));
-  }
-  return mask;
-}
-
-void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& pairs) {
-  constexpr int kSlots = dch::ClusterPairs::kSlots;
-  if (!leaves_out_any(points)) return;
-  const bool by_turns = !rules_.excludes_any() && rules_.goes_by_parity();
-  if (by_turns) turns_.assign(pairs.particle, atom->tag, points.owned());
-  const auto mask_of = [&](std::int32_t own, const dch::ClusterPairs::Entry& entry) {
-    if (by_turns && turns_.can_tell(own, entry.cluster, entry.mask))
-      return static_cast<std::uint16_t>(entry.mask & turns_.mask(own, entry.cluster));
-    return mask_by_pair(points, &pairs.particle[kSlots * static_cast<std::size_t>(own)],
-                        &pairs.particle[kSlots * static_cast<std::size_t>(entry.cluster)], entry.mask);
-  };
-  std::int64_t from = 0, to = 0;
-  std::size_t rows = 0;
-  for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
-    const std::int64_t row_begins = to;
-    for (; from < pairs.rows[r + 1].first; ++from) {
-      dch::ClusterPairs::Entry entry = pairs.entries[static_cast<std::size_t>(from)];
-      entry.mask = mask_of(pairs.rows[r].cluster, entry);
-      if (entry.mask != 0) pairs.entries[static_cast<std::size_t>(to++)] = entry;
-    }
-    if (to > row_begins) pairs.rows[rows++] = {row_begins, pairs.rows[r].cluster, pairs.rows[r].first_shift};
-  }
-  pairs.rows.resize(rows);
-  pairs.rows.push_back({to, 0, 0});
-  pairs.entries.resize(static_cast<std::size_t>(to));
-}
-
-/// The same of rows: pairs of bonded atoms too, if exclusions have not kept these out. Without a branch for
-/// each pair, where IDs tell.
-void ClusterListFiller::leave_out(const AtomPoints& points, bool asks_bonds, dch::NeighborList& rows) const {
-  const bool excludes = rules_.excludes_any(), by_parity = rules_.goes_by_parity();
-  const bool takes_turns = !points.in_box() && force->newton_pair;
-  if (!excludes && !takes_turns && !asks_bonds) return;
-  const bool has_shell = !rows.near_end.empty();
-  const tagint* const tag = atom->tag;
-  const int owned = points.owned();
-  SpecialPairs::Marks marks = asks_bonds ? special_.marks() : SpecialPairs::Marks();
-  std::int64_t to = 0;
-  const auto keep = [&](int i, std::int64_t from, std::int64_t end) {
-    for (; from < end; ++from) {
-      const std::int32_t j = rows.j[static_cast<std::size_t>(from)];
-      const bool is_turn = by_parity && tag[i] != tag[j]
-                               ? !takes_turns | (j < owned) | PairRules::goes_to_first(tag[i], tag[j])
-                               : !takes_turns || j < owned || rules_.stored_here(i, j);
-      const bool stays = is_turn & (marks.of(tag[j]) != SpecialPairs::Marks::kInNoList);
-      rows.j[static_cast<std::size_t>(to)] = j;
-      to += stays && !(excludes && rules_.excluded(i, j)) ? 1 : 0;
-    }
-  };
-  std::int64_t begin = 0;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const std::int32_t i = rows.particle[r];
-    const std::int64_t end = rows.first[r + 1];
-    if (asks_bonds && end > begin) special_.take(i, marks);
-    if (has_shell) {
-      keep(i, begin, rows.near_end[r]);
-      begin = std::exchange(rows.near_end[r], to);
-    }
-    keep(i, begin, end);
-    begin = std::exchange(rows.first[r + 1], to);
-  }
-}
-
 namespace {
 
 /// As make_pair_list, row by row in the order of particles.
+template <class Accept>
 void make_whole_rows(const dch::NeighborList& rows, const dch::ListParams& params, AtomPoints& points,
-                     dch::PairList& out) try {
+                     const Accept& accept, dch::PairList& out) try {
   dch::detail::PairListMaker maker(rows, params.list_radius(), points.positions(), points.box(), params.types,
                                    out);
   std::vector<std::size_t> row_of(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r)
     row_of[rows.particle.empty() ? r : static_cast<std::size_t>(rows.particle[r])] = r;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::int64_t k = rows.first[row_of[i]]; k < rows.first[row_of[i] + 1]; ++k)
-      maker.add(static_cast<std::int32_t>(i), rows.j[static_cast<std::size_t>(k)]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::int64_t k = rows.first[row_of[i]]; k < rows.first[row_of[i] + 1]; ++k) {
+      const auto p = static_cast<std::int32_t>(i), q = rows.j[static_cast<std::size_t>(k)];
+      maker.add(p, q, accept(p, q));
+    }
+  }
   maker.finish();
 } catch (...) {
   out = dch::PairList();
@@ -174,21 +94,35 @@ void make_whole_rows(const dch::NeighborList& rows, const dch::ListParams& param
 
 }  // namespace
 
+/// Rows of pairs are of owned atoms, which are points of the same number.
 void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& search, dch::ListParams params,
                                        double skin, ClusterList& list) {
   params.order = dch::RowOrder::unsorted;
   params.superset = true;
   if (!list.has_whole_rows()) params.shell = skin;
   search.list(params, rows_);
+  const auto make = [&](const auto& accept) {
+    if (list.has_whole_rows()) {
+      make_whole_rows(rows_, params, points, accept, list.pair_list);
+    } else {
+      dch::make_pair_list(rows_, params.list_radius(), points.positions(), points.box(), params.types, accept,
+                          list.pair_list);
+    }
+  };
   const bool asks_bonds = params.exclusions == nullptr && !points.in_box() && atom->molecular != Atom::ATOMIC;
-  leave_out(points, asks_bonds, rows_);
-  if (list.has_whole_rows()) {
-    make_whole_rows(rows_, params, points, list.pair_list);
-    return;
+  const bool asks_rules = rules_.excludes_any() || takes_turns(points);
+  if (!asks_bonds && !asks_rules) {
+    make([](std::int32_t, std::int32_t) { return true; });
+  } else {
+    const SpecialPairs::Marks& marks = special_.take_marks();
+    const bool any_marked = asks_bonds && marks.any();
+    make([&](std::int32_t i, std::int32_t point) {
+      const bool is_bonded =
+          any_marked && marks.of(i, atom->tag[points.atom_of(point)]) == SpecialPairs::Marks::kInNoList;
+      return !is_bonded & !(asks_rules && is_left_out(points, i, point));
+    });
   }
-  dch::make_pair_list(
-      rows_, params.list_radius(), points.positions(), points.box(), params.types,
-      [](std::int32_t, std::int32_t) { return true; }, list.pair_list);
+  name_atoms(points, list.pair_list);
 }
 
 /// What the search is to leave out, for pairs of bonded atoms.
@@ -224,6 +158,7 @@ void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double
   search.cluster_pairs(params, list.pairs);
   leave_out(points, list.pairs);
   if (chooses) choose_kind(points, search, skin, params, list);
+  if (!list.one_by_one) name_atoms(points, list.pairs);
 }
 
 /// Whichever is not taken gives its memory back: pairs one by one take several times that of cluster pairs.

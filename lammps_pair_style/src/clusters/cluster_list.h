@@ -74,8 +74,8 @@ class ClusterListFiller : protected Pointers {
   /// @param search brought up to date with the points
   /// @param skin that the cutoffs have now [length]
   virtual void fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list);
-  /// Points in the order of the structure, as the last list that was filled has them; maybe with padding
-  /// (-1).
+  /// Atoms in the order of the structure, as the last list that was filled has them; maybe with padding
+  /// (-1). Ghosts among them may be others than it says.
   const std::vector<std::int32_t>& order(const ClusterList& list) const {
     return list.one_by_one ? rows_.particle : list.pairs.particle;
   }
@@ -85,12 +85,13 @@ class ClusterListFiller : protected Pointers {
   void take_special_pairs(const AtomPoints& points, ClusterList& list);
   void take_special_pair(const AtomPoints& points, int i, int image, int kind, ClusterList& list);
   const dch::Exclusions* bonded_pairs(const AtomPoints& points, bool by_pairs, ClusterList& list);
-  bool leaves_out_any(const AtomPoints& points) const;
-  bool is_left_out(const AtomPoints& points, int i, int j) const;
+  bool takes_turns(const AtomPoints& points) const;
+  bool is_left_out(const AtomPoints& points, std::int32_t p, std::int32_t q) const;
   std::uint16_t mask_by_pair(const AtomPoints& points, const std::int32_t* own, const std::int32_t* other,
                              std::uint16_t mask) const;
   void leave_out(const AtomPoints& points, dch::ClusterPairs& pairs);
-  void leave_out(const AtomPoints& points, bool asks_bonds, dch::NeighborList& rows) const;
+  void name_atoms(const AtomPoints& points, dch::ClusterPairs& pairs) const;
+  void name_atoms(const AtomPoints& points, dch::PairList& pairs) const;
   void choose_kind(AtomPoints& points, dch::PairSearch& search, double skin, const dch::ListParams& params,
                    ClusterList& list);
   static std::int64_t pairs_within(const dch::ListParams& params, const dch::ClusterPairs& pairs);

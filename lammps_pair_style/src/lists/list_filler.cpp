@@ -69,24 +69,22 @@ int ListFiller::edit_row(const Scene& scene, int i, const std::int32_t* row, int
 /// Whether turns of processes and bonds are all that rows have to be edited for.
 bool ListFiller::has_plain_rows(const Scene& scene) const {
   return !scene.points.in_box() && scene.served.newton && !scene.served.ghost && !scene.served.history &&
-         !rules_.excludes_any() && rules_.goes_by_parity() && !neighbor->includegroup &&
+         !rules_.excludes_any() && rules_.goes_by_side() && !neighbor->includegroup &&
          special_.are_near_ones();
 }
 
 /// The same where rows are plain, without a branch for each neighbor.
-int ListFiller::edit_plain_row(const SpecialPairs::Marks& marks, int i, const std::int32_t* row, int count,
-                               std::int32_t* to) const {
+int ListFiller::edit_plain_row(const Scene& scene, const SpecialPairs::Marks& marks, int i,
+                               const std::int32_t* row, int count, std::int32_t* to) const {
   const tagint* const tag = atom->tag;
-  const tagint own = tag[i];
-  const int owned = atom->nlocal;
+  const GhostSides& sides = rules_.sides();
+  const bool any_marked = marks.any();
   int n = 0;
   for (int k = 0; k < count; ++k) {
-    const std::int32_t j = row[k];
-    const int mark = marks.of(tag[j]);
+    const int j = scene.points.atom_of(row[k]);
+    const int mark = any_marked ? marks.of(i, tag[j]) : 0;
     to[n] = j ^ mark;
-    const bool is_taken =
-        own == tag[j] ? rules_.stored_here(i, j) : (j < owned) | PairRules::goes_to_first(own, tag[j]);
-    n += is_taken & (mark != SpecialPairs::Marks::kInNoList) ? 1 : 0;
+    n += sides.is_taken_here(j) & (mark != SpecialPairs::Marks::kInNoList) ? 1 : 0;
   }
   return n;
 }
@@ -133,7 +131,7 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
   served.has_short_rows = by_atom;
   if (by_atom) sort_rows(served);
   std::int32_t* next = served.by_atom.data();
-  SpecialPairs::Marks marks = special_.marks();
+  const SpecialPairs::Marks* const marks = is_plain ? &special_.take_marks() : nullptr;
   served.pairs = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (by_atom && k + kAhead < rows.size())
@@ -146,8 +144,7 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
     std::int32_t* const to = by_atom ? next : row;
     auto count = static_cast<int>(rows.first[r + 1] - rows.first[r]);
     if (is_plain) {
-      special_.take(i, marks);
-      count = edit_plain_row(marks, i, row, count, to);
+      count = edit_plain_row(scene, *marks, i, row, count, to);
     } else if (!stays_as_it_is(scene, i, rows.row(r))) {
       count = edit_row(scene, i, row, count, to);
     } else if (by_atom) {

@@ -42,7 +42,7 @@ struct ServedList {
 /// special bonds.
 class ListFiller : protected Pointers {
  public:
-  ListFiller(LAMMPS* lammps, const SpecialPairs& special, const PairRules& rules)
+  ListFiller(LAMMPS* lammps, SpecialPairs& special, const PairRules& rules)
       : Pointers(lammps), special_(special), rules_(rules) {}
 
   /// Fills `list` from served.rows, which it edits in place unless they are short. They hold the pairs of
@@ -60,8 +60,8 @@ class ListFiller : protected Pointers {
   };
   bool stays_as_it_is(const Scene& scene, int i, dch::Span<const std::int32_t> row) const;
   bool has_plain_rows(const Scene& scene) const;
-  int edit_plain_row(const SpecialPairs::Marks& marks, int i, const std::int32_t* row, int count,
-                     std::int32_t* to) const;
+  int edit_plain_row(const Scene& scene, const SpecialPairs::Marks& marks, int i, const std::int32_t* row,
+                     int count, std::int32_t* to) const;
   int edit_row(const Scene& scene, int i, const std::int32_t* row, int count, std::int32_t* to) const;
   static bool has_short_rows(const Scene& scene);
   void sort_rows(ServedList& served);
@@ -69,7 +69,7 @@ class ListFiller : protected Pointers {
   int mark_of(const ServedList& served, int i, int j) const;
   int neighbor_of(const Scene& scene, int i, std::int32_t point, bool inside) const;
 
-  const SpecialPairs& special_;
+  SpecialPairs& special_;
   const PairRules& rules_;
   std::vector<std::size_t> row_of_;  ///< by point, where rows are short
 };

@@ -84,7 +84,11 @@ std::string work_table(const RunReport& r) {
   text += std::string("  size classes            ") + (r.by_size ? "a structure for each: " : "none: ") +
           r.size_reason + "\n";
   text += std::string("  points                  ") +
-          (r.in_box ? "the atoms in the box" : "owned atoms and ghosts in open space") + "\n";
+          (r.in_box ? "the atoms in the box"
+           : r.leaves_ghosts_to_others
+               ? "owned atoms and ghosts in open space, but for ghosts whose pairs others take"
+               : "owned atoms and ghosts in open space") +
+          "\n";
   text += "  atoms in memory         " +
           (r.order_obstacle.empty() ? "in the order of the structure"
                                     : "in LAMMPS's order: " + r.order_obstacle) +

@@ -95,8 +95,9 @@ struct RunReport {
   bool skin_settled = false;
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
-  std::string instructions;     ///< name of the instruction set that the search uses
-  RunCounters counters;         ///< entries summed, builds and times the largest of any process
+  bool leaves_ghosts_to_others = false;  ///< of ghosts those alone are points whose pairs are taken here
+  std::string instructions;              ///< name of the instruction set that the search uses
+  RunCounters counters;                  ///< entries summed, builds and times the largest of any process
   std::string order_obstacle;   ///< why atoms are not in the order of the structure; empty if they are
   std::string ghosts_for;       ///< why LAMMPS makes ghosts; empty if there are none
   std::string expiry_obstacle;  ///< why half the skin ends lists; empty if missing pairs do

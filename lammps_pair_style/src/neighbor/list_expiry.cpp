@@ -38,6 +38,7 @@ std::array<double, 9> ListExpiry::box_now() const {
 void ListExpiry::remember(AtomPoints& points, bool by_radii) {
   box_ = box_now();
   points_ = points.size();
+  of_others_.remember(points.ghosts_of_others(), atom->x);
   radii_.clear();
   if (!by_radii) return;
   const dch::Span<const double> radii = points.radii();
@@ -145,6 +146,38 @@ dch::UnlistedPair ListExpiry::ask(AtomPoints& points, dch::PairSearch& search, c
   return answer;
 }
 
+/// Whether the pair of an atom and a ghost is within its cutoff and was in no list.
+/// @param then2  squared distance at the build
+bool ListExpiry::is_missing(int i, int ghost, double then2, const Wanted& wanted) const {
+  const double now2 = distance2(atom->x[i], atom->x[ghost]);
+  const auto is_missing_of = [&](double cutoff) {
+    const double listed = cutoff + wanted.skin - 4 * wanted.rounding;
+    return now2 <= cutoff * cutoff && then2 > listed * listed;
+  };
+  if (wanted.by_types) {
+    const int a = atom->type[i], b = atom->type[ghost];
+    const double with_skin = std::sqrt(std::max(neighbor->cutneighsq[a][b], neighbor->cutneighsq[b][a]));
+    if (with_skin > wanted.skin && is_missing_of(with_skin - wanted.skin + wanted.rounding)) return true;
+  }
+  return wanted.by_radii && is_missing_of(atom->radius[i] + atom->radius[ghost] + wanted.rounding);
+}
+
+/// The same of all atoms that are fast.
+bool ListExpiry::lacks_ghost(const AtomPoints& points, const double* const* before,
+                             const Wanted& wanted) const {
+  constexpr double kNothing[3] = {0, 0, 0};
+  const double cutoff = neighbor->cutneighmax - wanted.skin + 2 * wanted.rounding;
+  return std::any_of(fast_.begin(), fast_.end(), [&](const dch::MovedParticle& fast) {
+    const int i = points.atom_of(fast.particle);
+    const double *const at = atom->x[i], *const from = before[i];
+    if (is_inside(at, cutoff + fast.moved, kNothing)) return false;
+    const dch::Vec3 place{at[0], at[1], at[2]}, then{from[0], from[1], from[2]};
+    return of_others_.any_near(place, cutoff + fast.moved, [&](int ghost, dch::Vec3 ghost_then) {
+      return is_missing(i, ghost, norm2(ghost_then - then), wanted);
+    });
+  });
+}
+
 ListExpiry::Verdict ListExpiry::judge(AtomPoints& points, dch::PairSearch& search,
                                       const double* const* before, const Wanted& wanted) {
   if (has_changed(points, wanted.by_radii) || !keeps_images(points, wanted)) return Verdict::cannot_tell;
@@ -152,6 +185,7 @@ ListExpiry::Verdict ListExpiry::judge(AtomPoints& points, dch::PairSearch& searc
   if (fast_.empty()) return Verdict::kept;
   if (!points.in_box() && comm->mode != Comm::SINGLE) return Verdict::cannot_tell;
   if (!all_see(points, wanted)) return Verdict::near_end;
+  if (!of_others_.empty() && lacks_ghost(points, before, wanted)) return Verdict::pair_missing;
   const dch::UnlistedPair answer = ask(points, search, wanted);
   if (answer == dch::UnlistedPair::none) return Verdict::kept;
   return answer == dch::UnlistedPair::found ? Verdict::pair_missing : Verdict::cannot_tell;

@@ -10,6 +10,7 @@
 #include <dch/lists/stale_test.hpp>
 
 #include "atom_points.h"
+#include "ghosts_of_others.h"
 #include "run_report.h"
 
 namespace LAMMPS_NS {
@@ -20,8 +21,9 @@ namespace LAMMPS_NS {
 /// A pair within its cutoff c that the lists lack was beyond c + skin at the build. Of its two atoms one has
 /// moved as far as the other or farther, by m, which is more than half the skin; so the other one is within
 /// c + m of where it was, seen from where the first one is now. The process that owns the first atom asks its
-/// structure, as it was at the build, for such pairs (PairSearch::unlisted_pair). It can answer if it has had
-/// all atoms within c + m as points; else, and where it would cost more than a build, nobody is asked.
+/// structure, as it was at the build, for such pairs (PairSearch::unlisted_pair), and looks through the
+/// ghosts that are no points. It can answer if it has had all atoms within c + m as atoms or ghosts; else,
+/// and where it would cost more than a build, nobody is asked.
 class ListExpiry : protected Pointers {
  public:
   using Verdict = dch::lammps::ExpiryVerdict;
@@ -54,11 +56,14 @@ class ListExpiry : protected Pointers {
   bool all_see(const AtomPoints& points, const Wanted& wanted) const;
   std::array<double, 9> box_now() const;
   dch::TypeCutoffs force_cutoffs(const Wanted& wanted) const;
+  bool is_missing(int i, int ghost, double then2, const Wanted& wanted) const;
+  bool lacks_ghost(const AtomPoints& points, const double* const* before, const Wanted& wanted) const;
   dch::UnlistedPair ask(AtomPoints& points, dch::PairSearch& search, const Wanted& wanted);
 
   std::array<double, 9> box_{};  ///< at the build
   std::vector<double> radii_;    ///< by point, at the build
   int points_ = -1;
+  GhostsOfOthers of_others_;
   std::vector<dch::MovedParticle> fast_;
 };
 

@@ -17,6 +17,7 @@
 #include "cluster_list.h"
 #include "cluster_verifier.h"
 #include "ghost_images.h"
+#include "ghost_sides.h"
 #include "list_expiry.h"
 #include "list_filler.h"
 #include "list_verifier.h"
@@ -187,6 +188,7 @@ class NeighborDCH : public Neighbor {
   void fill_lists();
   void fill_clusters();
   bool may_use_box() const;
+  bool leaves_ghosts_to_others() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
   double present_skin() const;
@@ -246,6 +248,7 @@ class NeighborDCH : public Neighbor {
   std::unique_ptr<dch::Executor> pool_;  ///< null for one thread
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;
+  GhostSides sides_;
   PairRules rules_;
   ListFiller filler_;
   std::unique_ptr<ClusterListFiller> cluster_filler_;

@@ -4,6 +4,7 @@
 #include <atom.h>
 #include <cmath>
 #include <error.h>
+#include <force.h>
 #include <neigh_list.h>
 #include <new>
 #include <utility>
@@ -49,7 +50,9 @@ void NeighborDCH::build_ours() {
   double clock = MPI_Wtime();
   try {
     widen_search();
-    points_.gather(may_use_box());
+    const bool in_box = may_use_box();
+    if (!in_box || verifies_this_build()) sides_.gather();
+    points_.gather(in_box, leaves_ghosts_to_others() ? &sides_ : nullptr);
     if (points_.in_box() && fills_lists()) images_.gather(reach());
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
@@ -123,7 +126,9 @@ void NeighborDCH::order_atoms() {
       fills_lists() ? served_.front().rows.particle : cluster_filler_->order(*clusters_.back().list);
   std::vector<std::int32_t> atoms;
   atoms.reserve(points.size());
-  for (const std::int32_t point : points) atoms.push_back(point < 0 ? -1 : points_.atom_of(point));
+  // Those of cluster pairs are atoms, and owned atoms with cluster pairs are points of the same number.
+  for (const std::int32_t point : points)
+    atoms.push_back(point < 0 || !fills_lists() ? point : points_.atom_of(point));
   stock_builds_.follow(order_.apply(atoms));
 }
 
@@ -134,6 +139,14 @@ bool NeighborDCH::may_use_box() const {
   const bool is_exact = reach() + images_.error_within(reach()) <= params_.radius;
   // LAMMPS tells bonded atoms by image, and in a skewed box the nearest one may be a stranger to it.
   return !any_ghost_rows && is_exact && special_.are_near_ones() && points_.may_use_box(params_.radius);
+}
+
+/// Whether nobody asks for the pairs that other processes take.
+bool NeighborDCH::leaves_ghosts_to_others() const {
+  const bool takes_turns =
+      std::all_of(served_.begin(), served_.end(), [](const ServedList& s) { return s.newton; });
+  return rules_.goes_by_side() && (!fills_lists() || takes_turns) &&
+         (clusters_.empty() || force->newton_pair);
 }
 
 dch::ListParams NeighborDCH::list_params(const ServedList& served) {

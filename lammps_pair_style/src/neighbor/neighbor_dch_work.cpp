@@ -39,7 +39,7 @@ void add_rows(const NeighList& list, bool full, int owned, double* work) {
 }
 
 /// Pairs of slots of each entry, shared evenly among the owned atoms of its clusters.
-void add_clusters(const dch::ClusterPairs& pairs, const AtomPoints& points, double* work) {
+void add_clusters(const dch::ClusterPairs& pairs, int owned_atoms, double* work) {
   constexpr int kSlots = dch::ClusterPairs::kSlots;
   std::array<std::int32_t, 2 * std::size_t{kSlots}> owned{};
   for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
@@ -49,15 +49,15 @@ void add_clusters(const dch::ClusterPairs& pairs, const AtomPoints& points, doub
       std::size_t count = 0;
       const auto take = [&](std::int32_t cluster) {
         for (int slot = 0; slot < kSlots; ++slot) {
-          const std::int32_t point = pairs.particle[static_cast<std::size_t>(kSlots * cluster + slot)];
-          if (point >= 0 && point < points.owned()) owned[count++] = point;
+          const std::int32_t i = pairs.particle[static_cast<std::size_t>(kSlots * cluster + slot)];
+          if (i >= 0 && i < owned_atoms) owned[count++] = i;
         }
       };
       take(row);
       if (entry.cluster != row) take(entry.cluster);
       const double share =
           static_cast<double>(std::bitset<16>(entry.mask).count()) / static_cast<double>(count);
-      for (std::size_t n = 0; n < count; ++n) work[points.atom_of(owned[n])] += share;
+      for (std::size_t n = 0; n < count; ++n) work[owned[n]] += share;
     }
   }
 }
@@ -67,12 +67,11 @@ void add_clusters(const dch::ClusterPairs& pairs, const AtomPoints& points, doub
 void NeighborDCH::count_work(double* work) const {
   for (const ServedClusters& clusters : clusters_) {
     if (!clusters.list->one_by_one) {
-      add_clusters(clusters.list->pairs, points_, work);
+      add_clusters(clusters.list->pairs, atom->nlocal, work);
       continue;
     }
     const dch::PairList& pairs = clusters.list->pair_list;
-    for (std::size_t k = 0; k < pairs.i.size(); ++k)
-      share_pair(points_.atom_of(pairs.i[k]), points_.atom_of(pairs.j[k]), atom->nlocal, work);
+    for (std::size_t k = 0; k < pairs.i.size(); ++k) share_pair(pairs.i[k], pairs.j[k], atom->nlocal, work);
   }
   for (int m = 0; m < nlist; ++m) {
     const NeighList& list = *lists[m];

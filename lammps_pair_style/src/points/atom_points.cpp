@@ -70,23 +70,28 @@ bool AtomPoints::may_use_box(double radius) const {
 
 dch::Box AtomPoints::box() const { return in_box_ ? box_of(*domain) : dch::Box::none(); }
 
-void AtomPoints::select_atoms() {
+void AtomPoints::select_atoms(const GhostSides* sides) {
   const int all = in_box_ ? atom->nlocal : atom->nlocal + atom->nghost;
+  const bool of_group = neighbor->includegroup != 0;
   atoms_.clear();
-  if (!neighbor->includegroup) {
-    owned_ = atom->nlocal;
-    count_ = all;
-    return;
-  }
-  owned_ = count_ = atom->nfirst;
-  if (in_box_) return;  // the group's atoms come first
+  of_others_.clear();
+  owned_ = of_group ? atom->nfirst : atom->nlocal;  // the group's atoms come first
+  count_ = in_box_ ? owned_ : all;
+  if (in_box_ || (!of_group && !sides)) return;
   atoms_.resize(static_cast<std::size_t>(owned_));
   std::iota(atoms_.begin(), atoms_.end(), 0);
   const int bit = group->bitmask[neighbor->includegroup];
   for (int i = atom->nlocal; i < all; ++i) {
-    if (atom->mask[i] & bit) atoms_.push_back(i);
+    if ((atom->mask[i] & bit) == 0) continue;
+    (!sides || sides->is_taken_here(i) ? atoms_ : of_others_).push_back(i);
   }
   count_ = static_cast<int>(atoms_.size());
+}
+
+std::int32_t AtomPoints::point_of(int i) const {
+  if (are_atoms() || i < owned_) return i;
+  const auto found = std::lower_bound(atoms_.begin() + owned_, atoms_.end(), i);
+  return found != atoms_.end() && *found == i ? static_cast<std::int32_t>(found - atoms_.begin()) : -1;
 }
 
 void AtomPoints::take_positions() {
@@ -126,9 +131,9 @@ void AtomPoints::name_in_open_space() {
   keys_ = key_maker_.assign(positions_, tags_, images_, lattice_of(*domain));
 }
 
-void AtomPoints::gather(bool in_box) {
+void AtomPoints::gather(bool in_box, const GhostSides* sides) {
   in_box_ = in_box;
-  select_atoms();
+  select_atoms(sides);
   take_positions();
   if (in_box_) {
     name_in_box();

@@ -7,6 +7,7 @@
 
 #include <dch/geometry/box.hpp>
 
+#include "ghost_sides.h"
 #include "point_keys.h"
 
 namespace LAMMPS_NS {
@@ -18,7 +19,8 @@ class Domain;
 dch::Box box_of(const Domain& domain);
 
 /// The atoms of this process as the search sees them: either its own atoms in the periodic box, where it has
-/// that box to itself, or its own atoms and ghosts in open space, since ghosts stand where the images are.
+/// that box to itself, or its own atoms and ghosts in open space, since ghosts stand where the images are. Of
+/// the ghosts all are points, or those alone whose pairs are taken here.
 class AtomPoints : protected Pointers {
  public:
   explicit AtomPoints(LAMMPS* lammps) : Pointers(lammps) {}
@@ -30,7 +32,8 @@ class AtomPoints : protected Pointers {
 
   /// Takes the atoms as they are now, with `neigh_modify include` only those of its group. Positions are not
   /// copied unless some are left out, so they have to stay where they are while the points are used.
-  void gather(bool in_box);
+  /// @param sides  in open space: leaves out ghosts whose pairs are not taken here; null leaves out none
+  void gather(bool in_box, const GhostSides* sides);
 
   bool in_box() const { return in_box_; }
   dch::Box box() const;  ///< none in open space
@@ -44,6 +47,12 @@ class AtomPoints : protected Pointers {
   dch::Span<const double> radii();        ///< of spheres [length]
   int size() const { return static_cast<int>(positions_.size()); }
   int owned() const { return owned_; }  ///< the first so many points are owned atoms
+  /// Ghosts that are no points since other processes take their pairs; LAMMPS's indices, ascending.
+  dch::Span<const int> ghosts_of_others() const { return of_others_; }
+  /// Whether points are atoms with the same indices.
+  bool are_atoms() const { return atoms_.empty(); }
+  /// The point that an atom is; -1 if it is none. O(log points), and of owned atoms O(1).
+  std::int32_t point_of(int i) const;
   /// LAMMPS's index of a point.
   int atom_of(std::int32_t point) const {
     return atoms_.empty() ? point : atoms_[static_cast<std::size_t>(point)];
@@ -51,13 +60,14 @@ class AtomPoints : protected Pointers {
 
  private:
   bool is_flat() const;
-  void select_atoms();
+  void select_atoms(const GhostSides* sides);
   void take_positions();
   void name_in_box();
   void name_in_open_space();
 
   bool in_box_ = false;
   std::vector<int> atoms_;  ///< by point, ascending; empty if all are points
+  std::vector<int> of_others_;
   int owned_ = 0, count_ = 0;
   std::vector<dch::Vec3> gathered_;
   dch::Span<const dch::Vec3> positions_;

@@ -6,15 +6,9 @@
 #include <comm.h>
 #include <neighbor.h>
 
+#include "ghosts_sent.h"
+
 namespace LAMMPS_NS {
-namespace {
-
-/// Name of a protected member.
-struct Reach : Comm {
-  using Comm::multi_reduce;
-};
-
-}  // namespace
 
 void PairRules::copy_settings() {
   excludes_any_ = neighbor->exclude != 0;
@@ -46,16 +40,12 @@ bool PairRules::excluded(int i, int j) const {
   });
 }
 
-bool PairRules::goes_by_parity() const {
-  return comm->mode != Comm::MULTI || (comm->*(&Reach::multi_reduce)) == 0;
-}
+bool PairRules::goes_by_side() const { return !GhostsSent::on_one_side(*comm); }
 
 // With comm_modify mode multi and reduce/multi a process may have no ghost of a smaller atom where the larger
-// one's owner has: the owner of the smaller takes the pair. Else the parity of the IDs decides, which every
-// process sees alike; an atom and its own image are told apart by their coordinates, of which equal ones are
-// equal bit by bit, since ghosts are made by adding whole box vectors.
+// one's owner has: the owner of the smaller takes the pair.
 bool PairRules::stored_here(int i, int ghost) const {
-  if (!goes_by_parity()) {
+  if (!goes_by_side()) {
     const auto own_cutoff2 = [&](int k) {
       const int c = neighbor->collection[k];
       return neighbor->cutcollectionsq[c][c];
@@ -63,12 +53,7 @@ bool PairRules::stored_here(int i, int ghost) const {
     const double at_i = own_cutoff2(i), at_ghost = own_cutoff2(ghost);
     if (at_i != at_ghost) return at_i < at_ghost;
   }
-  const tagint tag_i = atom->tag[i], tag_j = atom->tag[ghost];
-  if (tag_i != tag_j) return goes_to_first(tag_i, tag_j);
-  const double *xi = atom->x[i], *xj = atom->x[ghost];
-  if (xj[2] != xi[2]) return xj[2] > xi[2];
-  if (xj[1] != xi[1]) return xj[1] > xi[1];
-  return xj[0] >= xi[0];
+  return sides_.is_taken_here(ghost);
 }
 
 }  // namespace LAMMPS_NS

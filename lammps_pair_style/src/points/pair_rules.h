@@ -2,8 +2,9 @@
 #pragma once
 
 #include <lammps_host.h>
-#include <lmptype.h>
 #include <vector>
+
+#include "ghost_sides.h"
 
 namespace LAMMPS_NS {
 
@@ -14,7 +15,7 @@ namespace LAMMPS_NS {
 /// that changes them later on does so for the next run.
 class PairRules : protected Pointers {
  public:
-  explicit PairRules(LAMMPS* lammps) : Pointers(lammps) {}
+  PairRules(LAMMPS* lammps, const GhostSides& sides) : Pointers(lammps), sides_(sides) {}
 
   void copy_settings();
   bool excludes_any() const { return excludes_any_; }
@@ -22,13 +23,9 @@ class PairRules : protected Pointers {
   /// Whether owned atom i takes the pair with a ghost; the ghost's owner, and what is this atom's ghost
   /// there, take it else.
   bool stored_here(int i, int ghost) const;
-  /// Whether IDs alone decide that, unless they are equal.
-  bool goes_by_parity() const;
-  /// Whether the first of two atoms with different IDs takes their pair then, if the other one is a ghost.
-  static bool goes_to_first(tagint first, tagint second) {
-    const bool even_sum = ((first ^ second) & 1) == 0;
-    return (first < second) == even_sum;
-  }
+  /// Whether the ghost alone decides that: GhostSides::is_taken_here().
+  bool goes_by_side() const;
+  const GhostSides& sides() const { return sides_; }
 
  private:
   struct GroupPair {
@@ -38,6 +35,7 @@ class PairRules : protected Pointers {
     int bit;
     bool intra;
   };
+  const GhostSides& sides_;
   bool excludes_any_ = false;
   int stride_ = 0;
   std::vector<char> types_;  ///< stride_ x stride_, by atom types

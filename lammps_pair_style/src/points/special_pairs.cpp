@@ -26,14 +26,26 @@ int SpecialPairs::kind(int i, int j) const {
   return 0;
 }
 
-SpecialPairs::Marks SpecialPairs::marks() const {
-  Marks marks;
-  const int* const flag = neighbor->special_flag;
-  for (int kind = 1; kind < 4 && atom->molecular != Atom::ATOMIC; ++kind)
-    marks.mark_[static_cast<std::size_t>(kind)] = flag[kind] == 0   ? Marks::kInNoList
-                                                  : flag[kind] == 1 ? 0
-                                                                    : kind << SBBITS;
-  return marks;
+const SpecialPairs::Marks& SpecialPairs::take_marks() {
+  marks_.partner_.clear();
+  if (atom->molecular == Atom::ATOMIC) return marks_;
+  int mark_of[4] = {};
+  for (int kind = 1; kind < 4; ++kind) {
+    const int flag = neighbor->special_flag[kind];
+    mark_of[kind] = flag == 0 ? Marks::kInNoList : flag == 1 ? 0 : kind << SBBITS;
+  }
+  marks_.first_.resize(static_cast<std::size_t>(atom->nlocal) + 1);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    marks_.first_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(marks_.partner_.size());
+    const int* const end = atom->nspecial[i];
+    for (int kind = 1; kind < 4; ++kind) {
+      if (mark_of[kind] == 0) continue;
+      for (int k = kind == 1 ? 0 : end[kind - 2]; k < end[kind - 1]; ++k)
+        marks_.partner_.push_back({atom->special[i][k], mark_of[kind]});
+    }
+  }
+  marks_.first_.back() = static_cast<std::int32_t>(marks_.partner_.size());
+  return marks_;
 }
 
 bool SpecialPairs::are_near_ones() const {

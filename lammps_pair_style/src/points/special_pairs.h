@@ -2,8 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atom.h>
+#include <cstddef>
+#include <cstdint>
 #include <lammps_host.h>
 #include <vector>
 
@@ -24,25 +25,31 @@ class SpecialPairs : protected Pointers {
  public:
   explicit SpecialPairs(LAMMPS* lammps) : Pointers(lammps) {}
 
-  /// What the bonds of an atom say of its neighbors.
+  /// What the bonds of atoms say of their neighbors, wherever the images of these are: right if
+  /// are_near_ones().
   class Marks {
    public:
     static constexpr int kInNoList = -1;
-    /// Bits of a list's entry of an atom with this ID: 0 of an ordinary neighbor.
-    int of(tagint tag) const {
+    /// Whether there are any.
+    bool any() const { return !partner_.empty(); }
+    /// Bits of a list's entry of owned atom i for the atom with this ID: 0 of an ordinary neighbor. Only if
+    /// any().
+    int of(int i, tagint tag) const {
       int mark = 0;
-      for (std::size_t kind = 1; kind < 4; ++kind) {
-        if (mark_[kind] == 0) continue;
-        for (int k = end_[kind - 1]; k < end_[kind]; ++k) mark |= tag == partner_[k] ? mark_[kind] : 0;
-      }
+      const auto last = static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1]);
+      for (auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]); k < last; ++k)
+        mark |= partner_[k].tag == tag ? partner_[k].mark : 0;
       return mark;
     }
 
    private:
     friend class SpecialPairs;
-    const tagint* partner_ = nullptr;
-    std::array<int, 4> end_{};   ///< by kind, from 1: of the 1-2, 1-3 and 1-4 partners
-    std::array<int, 4> mark_{};  ///< by kind, from 1
+    struct Partner {
+      tagint tag;
+      int mark;
+    };
+    std::vector<std::int32_t> first_;  ///< by owned atom; and one more, for the end of the last
+    std::vector<Partner> partner_;     ///< those alone that are marked, or in no list
   };
 
   /// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it
@@ -50,15 +57,9 @@ class SpecialPairs : protected Pointers {
   int kind(int i, int j) const;
   /// Whether owned atom i has such partners at all.
   bool has_partners(int i) const { return atom->molecular != Atom::ATOMIC && atom->nspecial[i][2] > 0; }
-  /// The marks of no atom yet, with the weights that `special_bonds` gives now.
-  Marks marks() const;
-  /// Makes them those of owned atom i, wherever the images of its partners are: right if are_near_ones().
-  /// Good until atoms move in memory.
-  void take(int i, Marks& marks) const {
-    if (atom->molecular == Atom::ATOMIC) return;
-    marks.partner_ = atom->special[i];
-    std::copy_n(atom->nspecial[i], 3, marks.end_.begin() + 1);
-  }
+  /// The marks of all owned atoms, with the weights that `special_bonds` gives now, side by side: rows of
+  /// pairs are not in the order of atoms. Good until atoms move in memory. O(atoms).
+  const Marks& take_marks();
   /// Whether no neighbor is a far image of a bonded atom, which is no bonded atom in LAMMPS's lists.
   bool are_near_ones() const;
   /// Whether there are pairs to be marked.
@@ -75,6 +76,7 @@ class SpecialPairs : protected Pointers {
       partners_;           ///< what the exclusions were made from: IDs, and the partners of all atoms
   std::vector<int> ends_;  ///< nspecial of all atoms
   int flags_[4] = {};      ///< from 1, as LAMMPS has them
+  Marks marks_;
   dch::Exclusions exclusions_;
 };
 

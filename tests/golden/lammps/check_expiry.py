@@ -106,6 +106,14 @@ class Oracle(unittest.TestCase):
         output = self.check("dch on\n" + TWO_ATOMS.format(first=9.4, second=12.758), ranks=2)
         self.assertIn("1 for a missing pair", output)
 
+    def test_ghosts_whose_pairs_others_take(self):
+        """The faster atom's process has the other one as a ghost, and no pair with it: the ghost is of a lower rank, or an
+        image across the lower face of the box."""
+        back = TWO_ATOMS.replace("set 3 0 0", "set -3 0 0").replace("set -1 0 0", "set 1 0 0")
+        for first, second in ((10.6, 7.242), (0.6, 17.242)):
+            output = self.check("dch on\n" + back.format(first=first, second=second), ranks=2)
+            self.assertIn("1 for a missing pair", output)
+
     def test_a_blind_search_is_found_out(self):
         for what, ranks in (("lists", 1), ("forces", 1), ("lists", 2)):
             code, output = self.look("dch on\n" + GAS, what, steps=200, ranks=ranks, fault="blind")

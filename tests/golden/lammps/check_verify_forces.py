@@ -21,6 +21,24 @@ NETWORK = MELT.replace("atom_style atomic", "atom_style bond\nspecial_bonds lj 0
     .replace("neighbor 0.3 bin", "neighbor 0.3 bin\ngroup some id 1:300\ncreate_bonds many some some 1 0.9 1.15\n"
              "special_bonds lj ${weights}")
 
+# The style of silicon asks for a full list.
+SILICON = """
+units metal
+atom_style atomic
+lattice diamond 5.43
+region box block 0 4 0 4 0 4
+create_box 1 box
+create_atoms 1 box
+mass 1 28.0
+displace_atoms all random 0.2 0.2 0.2 4711
+pair_style hybrid/overlay lj/cut CUTOFF sw
+pair_coeff * * sw Si.sw Si
+pair_coeff 1 1 lj/cut 0.001 1.0
+neighbor 0.5 bin
+neigh_modify delay 0 every 5 check no
+fix 1 all nve
+"""
+
 TWO_TYPES = MELT.replace("create_box 1", "create_box 2").replace("mass 1", "mass *") \
     .replace("pair_coeff 1 1 1.0 1.0", "set type 1 type/fraction 2 0.3 4711\npair_coeff * * 1.0 1.0")
 
@@ -106,6 +124,22 @@ class Silent(unittest.TestCase):
                     self.assertLess(largest_relative_difference(thermo_tables(plain)[0][-1], thermo_tables(output)[0][-1]),
                                     1e-12)
                     self.assertRegex(output, rf"verified +{5 if every == 'yes' else 2} builds, \d+ pairs, all equal")
+
+    def test_beside_a_full_list(self):
+        """Then all ghosts are points, and pairs that other processes take are left out of what is found."""
+        for cutoff in ("5.0", "3.0"):
+            script = SILICON.replace("CUTOFF", cutoff)
+            for ranks in (1, 2, 4):
+                with self.subTest(cutoff=cutoff, ranks=ranks):
+                    output = self.check("dch on\n" + script, ranks=ranks)
+                    if ranks > 1:
+                        self.assertRegex(output, r"points +owned atoms and ghosts in open space\n")
+
+    def test_ghosts_of_others_are_no_points(self):
+        for cutoff in CUTOFFS.values():
+            for ranks in (2, 4):
+                output = self.check("dch on\n" + with_cutoff(MELT, cutoff), ranks=ranks)
+                self.assertIn("but for ghosts whose pairs others take", output)
 
     def test_triclinic_and_narrow_boxes(self):
         tilted = MELT.replace("box block 0 6 0 6 0 6", "box prism 0 6 0 6 0 6 2 -1 1.5")

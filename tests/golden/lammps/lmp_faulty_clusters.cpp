@@ -43,13 +43,12 @@ std::size_t first_that(std::size_t count, const char* what, const std::function<
 }
 
 /// A pair of the home image that stays near: lists may hold some beyond their radius, which nobody misses.
-std::size_t near_pair(const ClusterList& list, const AtomPoints& points) {
+std::size_t near_pair(const ClusterList& list, const double* const* x) {
   const dch::PairList& pairs = list.pair_list;
   const double limit = 0.95 * pairs.list_radius;
   return first_that(static_cast<std::size_t>(pairs.groups[1].first), "near pair", [&](std::size_t k) {
-    const auto at = points.positions();
-    return norm2(at[static_cast<std::size_t>(pairs.i[k])] - at[static_cast<std::size_t>(pairs.j[k])]) <
-           limit * limit;
+    const double *const from = x[pairs.i[k]], *const to = x[pairs.j[k]];
+    return norm2(dch::Vec3{to[0] - from[0], to[1] - from[1], to[2] - from[2]}) < limit * limit;
   });
 }
 
@@ -61,7 +60,7 @@ std::size_t own_entry(const dch::ClusterPairs& pairs, std::size_t& row) {
   return static_cast<std::size_t>(pairs.rows[row].first);
 }
 
-void drop(const AtomPoints& points, ClusterList& list) {
+void drop(const double* const* x, ClusterList& list) {
   if (!list.one_by_one) {
     std::size_t row = 0;
     auto& mask = list.pairs.entries[own_entry(list.pairs, row)].mask;
@@ -69,13 +68,13 @@ void drop(const AtomPoints& points, ClusterList& list) {
     return;
   }
   dch::PairList& pairs = list.pair_list;
-  const auto k = static_cast<std::ptrdiff_t>(near_pair(list, points));
+  const auto k = static_cast<std::ptrdiff_t>(near_pair(list, x));
   pairs.i.erase(pairs.i.begin() + k);
   pairs.j.erase(pairs.j.begin() + k);
   for (std::size_t g = 1; g < pairs.groups.size(); ++g) --pairs.groups[g].first;
 }
 
-void repeat(const AtomPoints& points, ClusterList& list) {
+void repeat(const double* const* x, ClusterList& list) {
   if (!list.one_by_one) {
     std::size_t row = 0;
     const std::size_t k = own_entry(list.pairs, row);
@@ -87,7 +86,7 @@ void repeat(const AtomPoints& points, ClusterList& list) {
     return;
   }
   dch::PairList& pairs = list.pair_list;
-  const auto k = static_cast<std::ptrdiff_t>(near_pair(list, points));
+  const auto k = static_cast<std::ptrdiff_t>(near_pair(list, x));
   pairs.i.insert(pairs.i.begin() + k, pairs.i[static_cast<std::size_t>(k)]);
   pairs.j.insert(pairs.j.begin() + k, pairs.j[static_cast<std::size_t>(k)]);
   for (std::size_t g = 1; g < pairs.groups.size(); ++g) ++pairs.groups[g].first;
@@ -123,7 +122,7 @@ class FaultyFiller : public ClusterListFiller {
  public:
   FaultyFiller(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::SpecialPairs& special, const LAMMPS_NS::PairRules& rules)
       : ClusterListFiller(lammps, special, rules),
-        forgotten_(lammps),
+        forgotten_(rules),
         forgetful_(lammps, special, forgotten_) {}
 
   void fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list) override {
@@ -134,8 +133,8 @@ class FaultyFiller : public ClusterListFiller {
     ClusterListFiller::fill(points, search, skin, list);
     neighbor->special_flag[1] = flag_of_bonds;
     if (!is_faulty) return;
-    if (fault == "drop") drop(points, list);
-    if (fault == "repeat") repeat(points, list);
+    if (fault == "drop") drop(atom->x, list);
+    if (fault == "repeat") repeat(atom->x, list);
     if (fault == "image") other_image(points, list);
     if (fault == "weights") other_weight(list);
   }

@@ -79,12 +79,13 @@ class PairListMaker {
   /// @throws InvalidParameter as make_pair_list()
   PairListMaker(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,
                 Span<const std::int32_t> types, PairList& out);
-  void add(std::int32_t i, std::int32_t j) {
+  /// @param is_wanted  else it is left out, without a branch, as nobody can guess which pairs are
+  void add(std::int32_t i, std::int32_t j, bool is_wanted) {
     const bool is_near = !has_images_ || is_nearest(i, j);
-    out_.i[near_] = i;  // there is room; what is far is overwritten by the next
+    out_.i[near_] = i;  // there is room; what is far or left out is overwritten by the next
     out_.j[near_] = j;
-    near_ += is_near ? 1 : 0;
-    if (!is_near) far_.push_back({i, j});
+    near_ += is_near & is_wanted ? 1 : 0;
+    if (!is_near && is_wanted) far_.push_back({i, j});
   }
   void finish();
 
@@ -112,7 +113,7 @@ void make_pair_list(const NeighborList& list, double list_radius, Span<const Vec
     const std::int32_t i = list.particle.empty() ? static_cast<std::int32_t>(row) : list.particle[row];
     for (std::int64_t k = first; k < last; ++k) {
       const std::int32_t j = list.j[static_cast<std::size_t>(k)];
-      if (accept(i, j)) maker.add(i, j);
+      maker.add(i, j, accept(i, j));
     }
   };
   const bool has_shell = !list.near_end.empty();

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ghost_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <atom.h>
+#include <comm.h>
+#include <cstring>
+
+#include "lammps_versions.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+constexpr std::int64_t kRanks = std::int64_t{1} << 31;
+constexpr std::int64_t kImages = 1 << 10;  ///< LAMMPS makes ghosts of far fewer boxes along an axis
+
+std::array<char*, 3> words_of_fix() {
+  static char name[] = "DCH_SIDES", group[] = "all";
+  return {name, group, name};
+}
+
+}  // namespace
+
+GhostSides::GhostSides(LAMMPS* lammps) : Fix(lammps, 3, words_of_fix().data()) { comm_forward = 1; }
+
+void GhostSides::gather() {
+  const auto owned = static_cast<std::size_t>(atom->nlocal);
+  place_.assign(owned + static_cast<std::size_t>(atom->nghost), comm->me);
+  dch::lammps::forward_communication(*comm, static_cast<Fix*>(this), comm_forward);
+  is_taken_.resize(place_.size());
+  std::transform(place_.begin(), place_.end(), is_taken_.begin(),
+                 [&](std::int64_t place) { return place >= comm->me ? 1 : 0; });
+}
+
+// Ghosts are sent on as ghosts of others, so vectors add up. The bits of an integer travel as a double's.
+int GhostSides::pack_forward_comm(int n, int* atoms, double* to, int pbc_flag, int* pbc) {
+  const std::int64_t images = pbc_flag ? (pbc[2] * kImages + pbc[1]) * kImages + pbc[0] : 0;
+  for (int k = 0; k < n; ++k) {
+    const std::int64_t place = place_[static_cast<std::size_t>(atoms[k])] + images * kRanks;
+    std::memcpy(to + k, &place, sizeof place);
+  }
+  return n;
+}
+
+void GhostSides::unpack_forward_comm(int n, int first, double* from) {
+  if (n > 0)
+    std::memcpy(&place_[static_cast<std::size_t>(first)], from, static_cast<std::size_t>(n) * sizeof(double));
+}
+
+}  // namespace LAMMPS_NS
