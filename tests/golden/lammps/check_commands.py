@@ -271,7 +271,7 @@ class Engines(unittest.TestCase):
 
     # A melt whose box widens around it: its density is even at first, and no longer so later.
     WIDENING = MELT.replace("every 5 check no", "every 1 check yes") + \
-        "fix 2 all deform 1 x scale 2 y scale 2 z scale 2 remap none\n"
+        "fix 2 all deform 1 x scale 2.5 y scale 2.5 z scale 2.5 remap none\n"
 
     def run_on(self, text, ranks):
         code, output = host.run_text(text, ranks=ranks)

@@ -30,7 +30,7 @@ region box block 0 4 0 4 0 4
 create_box 1 box
 create_atoms 1 box
 mass 1 28.0
-displace_atoms all random 0.2 0.2 0.2 4711
+displace_atoms all random 0.02 0.02 0.02 4711
 pair_style hybrid/overlay lj/cut CUTOFF sw
 pair_coeff * * sw Si.sw Si
 pair_coeff 1 1 lj/cut 0.001 1.0
@@ -100,6 +100,22 @@ class Silent(unittest.TestCase):
     def test_cutoffs_by_type(self):
         script = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 1.6\npair_coeff 2 2 1.0 1.0 1.2\nneighbor 0.3")
         self.check(script)
+
+    def test_bonds_of_weight_zero_alone(self):
+        """Those of pairs one by one are asked about pair by pair, and no exclusions are made for them."""
+        script = NETWORK.replace("special_bonds lj ${weights}", "special_bonds lj/coul 0.0 1.0 1.0")
+        for cutoff in (*CUTOFFS.values(), "1.2"):
+            for ranks in (1, 2, 4):
+                with self.subTest(cutoff=cutoff, ranks=ranks):
+                    self.check(script, ranks=ranks, variables={"cutoff": cutoff})
+
+    def test_types_of_pairs_one_by_one(self):
+        """Points are not atoms of the same number there; types and forces are of the atoms that are meant."""
+        script = with_cutoff(TWO_TYPES, "1.2") + "pair_coeff 1 2 0.5 0.9 1.1\npair_coeff 2 2 0.2 1.1 1.2\n"
+        for ranks in (1, 2, 4):
+            stock = run("include ${load}\n" + script + "run 20\n", ranks=ranks)
+            ours = self.check(script, ranks=ranks)
+            self.assertLess(largest_relative_difference(thermo_tables(stock)[0][-1], thermo_tables(ours)[0][-1]), 1e-9)
 
     def test_hybrid(self):
         """The lists that are compared with are parts of one that LAMMPS makes for them alone, or of others'."""
