@@ -9,7 +9,7 @@ namespace LAMMPS_NS {
 
 /// Whether there are ghosts among the points whose pairs other processes take.
 bool ClusterListFiller::takes_turns(const AtomPoints& points) const {
-  return !points.in_box() && force->newton_pair && (points.are_atoms() || !rules_.goes_by_side());
+  return points.has_ghosts_of_others() && force->newton_pair;
 }
 
 /// Of points: pairs that `neigh_modify exclude` leaves out, and those with a ghost that another process
@@ -38,7 +38,8 @@ void ClusterListFiller::leave_out(const AtomPoints& points, dch::ClusterPairs& p
   if (!rules_.excludes_any() && !takes_turns) return;
   const bool by_side = !rules_.excludes_any() && rules_.goes_by_side();
   if (by_side)
-    turns_.assign(pairs.particle, [&](std::int32_t point) { return rules_.sides().is_taken_here(point); });
+    turns_.assign(pairs.particle,
+                  [&](std::int32_t point) { return rules_.sides().is_taken_here(points.atom_of(point)); });
   const auto mask_of = [&](std::int32_t own, const dch::ClusterPairs::Entry& entry) {
     if (by_side) return static_cast<std::uint16_t>(entry.mask & turns_.mask(own, entry.cluster));
     return mask_by_pair(points, &pairs.particle[kSlots * static_cast<std::size_t>(own)],

@@ -71,6 +71,15 @@ std::string expiry_lines(const RunReport& r) {
   return reasons.empty() ? text : text + "                          given up " + reasons + "\n";
 }
 
+std::string points_of(const RunReport& r) {
+  if (r.in_box) return "the atoms in the box";
+  std::string text = "owned atoms and ghosts in open space";
+  if (r.leaves_ghosts_to_others) text += ", but for ghosts whose pairs others take";
+  if (r.leaves_far_ghosts)
+    text += std::string(r.leaves_ghosts_to_others ? " and" : ", but for") + " those too far for their types";
+  return text;
+}
+
 std::string work_table(const RunReport& r) {
   const RunCounters& n = r.counters;
   std::string text;
@@ -83,12 +92,7 @@ std::string work_table(const RunReport& r) {
       static_cast<long long>(r.refreshes));
   text += std::string("  size classes            ") + (r.by_size ? "a structure for each: " : "none: ") +
           r.size_reason + "\n";
-  text += std::string("  points                  ") +
-          (r.in_box ? "the atoms in the box"
-           : r.leaves_ghosts_to_others
-               ? "owned atoms and ghosts in open space, but for ghosts whose pairs others take"
-               : "owned atoms and ghosts in open space") +
-          "\n";
+  text += "  points                  " + points_of(r) + "\n";
   text += "  atoms in memory         " +
           (r.order_obstacle.empty() ? "in the order of the structure"
                                     : "in LAMMPS's order: " + r.order_obstacle) +

@@ -96,6 +96,7 @@ struct RunReport {
   bool in_box =
       false;  ///< points are the atoms in the periodic box, not owned atoms and ghosts in open space
   bool leaves_ghosts_to_others = false;  ///< of ghosts those alone are points whose pairs are taken here
+  bool leaves_far_ghosts = false;        ///< and those alone that may be in a pair
   std::string instructions;              ///< name of the instruction set that the search uses
   RunCounters counters;                  ///< entries summed, builds and times the largest of any process
   std::string order_obstacle;   ///< why atoms are not in the order of the structure; empty if they are

@@ -38,7 +38,7 @@ std::array<double, 9> ListExpiry::box_now() const {
 void ListExpiry::remember(AtomPoints& points, bool by_radii) {
   box_ = box_now();
   points_ = points.size();
-  of_others_.remember(points.ghosts_of_others(), atom->x);
+  remember_left_out(points.ghosts_left_out());
   radii_.clear();
   if (!by_radii) return;
   const dch::Span<const double> radii = points.radii();
@@ -116,15 +116,17 @@ bool ListExpiry::all_see(const AtomPoints& points, const Wanted& wanted) const {
   });
 }
 
-/// Those of the lists without their skin, wider by rounding; 0 where types do not interact.
+/// That of the lists without its skin, wider by rounding; negative where types do not interact.
+double ListExpiry::cutoff_by_types(int a, int b, const Wanted& wanted) const {
+  const double with_skin = std::sqrt(std::max(neighbor->cutneighsq[a][b], neighbor->cutneighsq[b][a]));
+  return wanted.by_types && with_skin > wanted.skin ? with_skin - wanted.skin + wanted.rounding : -1;
+}
+
 dch::TypeCutoffs ListExpiry::force_cutoffs(const Wanted& wanted) const {
   const int n = atom->ntypes;
   std::vector<double> matrix;
   for (int a = 1; a <= n; ++a) {
-    for (int b = 1; b <= n; ++b) {
-      const double with_skin = std::sqrt(std::max(neighbor->cutneighsq[a][b], neighbor->cutneighsq[b][a]));
-      matrix.push_back(with_skin > wanted.skin ? with_skin - wanted.skin + wanted.rounding : 0.0);
-    }
+    for (int b = 1; b <= n; ++b) matrix.push_back(std::max(cutoff_by_types(a, b, wanted), 0.0));
   }
   return dch::TypeCutoffs(n, std::move(matrix));
 }
@@ -146,33 +148,37 @@ dch::UnlistedPair ListExpiry::ask(AtomPoints& points, dch::PairSearch& search, c
   return answer;
 }
 
+void ListExpiry::remember_left_out(dch::Span<const int> ghosts) {
+  left_out_.clear();
+  std::vector<std::vector<int>> of_type(static_cast<std::size_t>(atom->ntypes) + 1);
+  for (const int ghost : ghosts) of_type[static_cast<std::size_t>(atom->type[ghost])].push_back(ghost);
+  for (int type = 1; type <= atom->ntypes; ++type) {
+    const std::vector<int>& same = of_type[static_cast<std::size_t>(type)];
+    if (!same.empty()) left_out_.emplace_back(type, same, atom->x);
+  }
+}
+
 /// Whether the pair of an atom and a ghost is within its cutoff and was in no list.
 /// @param then2  squared distance at the build
 bool ListExpiry::is_missing(int i, int ghost, double then2, const Wanted& wanted) const {
   const double now2 = distance2(atom->x[i], atom->x[ghost]);
   const auto is_missing_of = [&](double cutoff) {
     const double listed = cutoff + wanted.skin - 4 * wanted.rounding;
-    return now2 <= cutoff * cutoff && then2 > listed * listed;
+    return cutoff >= 0 && now2 <= cutoff * cutoff && then2 > listed * listed;
   };
-  if (wanted.by_types) {
-    const int a = atom->type[i], b = atom->type[ghost];
-    const double with_skin = std::sqrt(std::max(neighbor->cutneighsq[a][b], neighbor->cutneighsq[b][a]));
-    if (with_skin > wanted.skin && is_missing_of(with_skin - wanted.skin + wanted.rounding)) return true;
-  }
-  return wanted.by_radii && is_missing_of(atom->radius[i] + atom->radius[ghost] + wanted.rounding);
+  return is_missing_of(cutoff_by_types(atom->type[i], atom->type[ghost], wanted)) ||
+         (wanted.by_radii && is_missing_of(atom->radius[i] + atom->radius[ghost] + wanted.rounding));
 }
 
-/// The same of all atoms that are fast.
-bool ListExpiry::lacks_ghost(const AtomPoints& points, const double* const* before,
-                             const Wanted& wanted) const {
+/// The same of an atom that is fast and of all ghosts that were no points.
+bool ListExpiry::lacks_ghost(int i, double moved, const double* before, const Wanted& wanted) const {
   constexpr double kNothing[3] = {0, 0, 0};
-  const double cutoff = neighbor->cutneighmax - wanted.skin + 2 * wanted.rounding;
-  return std::any_of(fast_.begin(), fast_.end(), [&](const dch::MovedParticle& fast) {
-    const int i = points.atom_of(fast.particle);
-    const double *const at = atom->x[i], *const from = before[i];
-    if (is_inside(at, cutoff + fast.moved, kNothing)) return false;
-    const dch::Vec3 place{at[0], at[1], at[2]}, then{from[0], from[1], from[2]};
-    return of_others_.any_near(place, cutoff + fast.moved, [&](int ghost, dch::Vec3 ghost_then) {
+  const double largest = neighbor->cutneighmax - wanted.skin + 2 * wanted.rounding;
+  if (is_inside(atom->x[i], largest + moved, kNothing)) return false;
+  const dch::Vec3 place{atom->x[i][0], atom->x[i][1], atom->x[i][2]}, then{before[0], before[1], before[2]};
+  return std::any_of(left_out_.begin(), left_out_.end(), [&](const GhostsLeftOut& ghosts) {
+    const double cutoff = wanted.by_radii ? largest : cutoff_by_types(atom->type[i], ghosts.type(), wanted);
+    return cutoff >= 0 && ghosts.any_near(place, cutoff + moved, [&](int ghost, dch::Vec3 ghost_then) {
       return is_missing(i, ghost, norm2(ghost_then - then), wanted);
     });
   });
@@ -185,7 +191,11 @@ ListExpiry::Verdict ListExpiry::judge(AtomPoints& points, dch::PairSearch& searc
   if (fast_.empty()) return Verdict::kept;
   if (!points.in_box() && comm->mode != Comm::SINGLE) return Verdict::cannot_tell;
   if (!all_see(points, wanted)) return Verdict::near_end;
-  if (!of_others_.empty() && lacks_ghost(points, before, wanted)) return Verdict::pair_missing;
+  const bool lacks_any = std::any_of(fast_.begin(), fast_.end(), [&](const dch::MovedParticle& fast) {
+    const int i = points.atom_of(fast.particle);
+    return lacks_ghost(i, fast.moved, before[i], wanted);
+  });
+  if (lacks_any) return Verdict::pair_missing;
   const dch::UnlistedPair answer = ask(points, search, wanted);
   if (answer == dch::UnlistedPair::none) return Verdict::kept;
   return answer == dch::UnlistedPair::found ? Verdict::pair_missing : Verdict::cannot_tell;

@@ -10,7 +10,7 @@
 #include <dch/lists/stale_test.hpp>
 
 #include "atom_points.h"
-#include "ghosts_of_others.h"
+#include "ghosts_left_out.h"
 #include "run_report.h"
 
 namespace LAMMPS_NS {
@@ -56,14 +56,16 @@ class ListExpiry : protected Pointers {
   bool all_see(const AtomPoints& points, const Wanted& wanted) const;
   std::array<double, 9> box_now() const;
   dch::TypeCutoffs force_cutoffs(const Wanted& wanted) const;
+  void remember_left_out(dch::Span<const int> ghosts);
+  double cutoff_by_types(int a, int b, const Wanted& wanted) const;
   bool is_missing(int i, int ghost, double then2, const Wanted& wanted) const;
-  bool lacks_ghost(const AtomPoints& points, const double* const* before, const Wanted& wanted) const;
+  bool lacks_ghost(int i, double moved, const double* before, const Wanted& wanted) const;
   dch::UnlistedPair ask(AtomPoints& points, dch::PairSearch& search, const Wanted& wanted);
 
   std::array<double, 9> box_{};  ///< at the build
   std::vector<double> radii_;    ///< by point, at the build
   int points_ = -1;
-  GhostsOfOthers of_others_;
+  std::vector<GhostsLeftOut> left_out_;  ///< by type
   std::vector<dch::MovedParticle> fast_;
 };
 

@@ -56,6 +56,7 @@ NeighborDCH::NeighborDCH(Neighbor* retired, const NeighborParts& parts)
       stock_builds_(lmp),
       special_(lmp),
       sides_(lmp),
+      reach_(lmp),
       rules_(lmp, sides_),
       filler_(lmp, special_, rules_),
       cluster_filler_(parts.cluster_filler(lmp, special_, rules_)),

@@ -17,6 +17,7 @@
 #include "cluster_list.h"
 #include "cluster_verifier.h"
 #include "ghost_images.h"
+#include "ghost_reach.h"
 #include "ghost_sides.h"
 #include "list_expiry.h"
 #include "list_filler.h"
@@ -188,7 +189,9 @@ class NeighborDCH : public Neighbor {
   void fill_lists();
   void fill_clusters();
   bool may_use_box() const;
+  GhostChoice ghosts_to_search();
   bool leaves_ghosts_to_others() const;
+  bool leaves_far_ghosts() const;
   dch::ListParams list_params(const ServedList& served);
   dch::TypeCutoffs type_cutoffs() const;
   double present_skin() const;
@@ -249,6 +252,7 @@ class NeighborDCH : public Neighbor {
   std::unique_ptr<dch::PairSearch> search_;
   SpecialPairs special_;
   GhostSides sides_;
+  GhostReach reach_;
   PairRules rules_;
   ListFiller filler_;
   std::unique_ptr<ClusterListFiller> cluster_filler_;

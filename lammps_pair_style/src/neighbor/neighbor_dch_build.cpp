@@ -52,7 +52,7 @@ void NeighborDCH::build_ours() {
     widen_search();
     const bool in_box = may_use_box();
     if (!in_box || verifies_this_build()) sides_.gather();
-    points_.gather(in_box, leaves_ghosts_to_others() ? &sides_ : nullptr);
+    points_.gather(in_box, in_box ? GhostChoice() : ghosts_to_search());
     if (points_.in_box() && fills_lists()) images_.gather(reach());
     run_.points_seconds += seconds_since(clock);
     search_->update(points_.positions(), points_.box(), points_.keys());
@@ -147,6 +147,25 @@ bool NeighborDCH::leaves_ghosts_to_others() const {
       std::all_of(served_.begin(), served_.end(), [](const ServedList& s) { return s.newton; });
   return rules_.goes_by_side() && (!fills_lists() || takes_turns) &&
          (clusters_.empty() || force->newton_pair);
+}
+
+/// Whether LAMMPS has ghosts that are too far for pairs of their types, and nobody asks for what is around
+/// these.
+bool NeighborDCH::leaves_far_ghosts() const {
+  constexpr int kManyTypes = 32;  // ghosts are compared with each
+  const bool has_ghost_rows = fills_lists() && std::any_of(served_.begin(), served_.end(),
+                                                           [](const ServedList& s) { return s.ghost; });
+  return cutneighmin < cutneighmax && atom->ntypes <= kManyTypes && !any_by_radius() && !has_ghost_rows;
+}
+
+GhostChoice NeighborDCH::ghosts_to_search() {
+  GhostChoice choice;
+  if (leaves_ghosts_to_others()) choice.sides = &sides_;
+  if (leaves_far_ghosts()) {
+    reach_.gather();
+    choice.reach = &reach_;
+  }
+  return choice;
 }
 
 dch::ListParams NeighborDCH::list_params(const ServedList& served) {

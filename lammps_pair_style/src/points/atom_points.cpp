@@ -70,20 +70,23 @@ bool AtomPoints::may_use_box(double radius) const {
 
 dch::Box AtomPoints::box() const { return in_box_ ? box_of(*domain) : dch::Box::none(); }
 
-void AtomPoints::select_atoms(const GhostSides* sides) {
+void AtomPoints::select_atoms(const GhostChoice& choice) {
   const int all = in_box_ ? atom->nlocal : atom->nlocal + atom->nghost;
   const bool of_group = neighbor->includegroup != 0;
   atoms_.clear();
-  of_others_.clear();
+  left_out_.clear();
+  has_ghosts_of_others_ = !choice.sides;
   owned_ = of_group ? atom->nfirst : atom->nlocal;  // the group's atoms come first
   count_ = in_box_ ? owned_ : all;
-  if (in_box_ || (!of_group && !sides)) return;
+  if (in_box_ || (!of_group && !choice.sides && !choice.reach)) return;
   atoms_.resize(static_cast<std::size_t>(owned_));
   std::iota(atoms_.begin(), atoms_.end(), 0);
   const int bit = group->bitmask[neighbor->includegroup];
   for (int i = atom->nlocal; i < all; ++i) {
     if ((atom->mask[i] & bit) == 0) continue;
-    (!sides || sides->is_taken_here(i) ? atoms_ : of_others_).push_back(i);
+    const bool is_point =
+        (!choice.sides || choice.sides->is_taken_here(i)) && (!choice.reach || choice.reach->is_within(i));
+    (is_point ? atoms_ : left_out_).push_back(i);
   }
   count_ = static_cast<int>(atoms_.size());
 }
@@ -131,9 +134,9 @@ void AtomPoints::name_in_open_space() {
   keys_ = key_maker_.assign(positions_, tags_, images_, lattice_of(*domain));
 }
 
-void AtomPoints::gather(bool in_box, const GhostSides* sides) {
+void AtomPoints::gather(bool in_box, const GhostChoice& choice) {
   in_box_ = in_box;
-  select_atoms(sides);
+  select_atoms(choice);
   take_positions();
   if (in_box_) {
     name_in_box();

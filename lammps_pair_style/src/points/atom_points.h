@@ -7,6 +7,7 @@
 
 #include <dch/geometry/box.hpp>
 
+#include "ghost_reach.h"
 #include "ghost_sides.h"
 #include "point_keys.h"
 
@@ -18,9 +19,15 @@ class Domain;
 /// @throws dch::InvalidBox
 dch::Box box_of(const Domain& domain);
 
+/// Ghosts that are points in open space.
+struct GhostChoice {
+  const GhostSides* sides =
+      nullptr;  ///< those alone whose pairs are taken here; null: those of others as well
+  const GhostReach* reach = nullptr;  ///< those alone that may be in a pair; null: all
+};
+
 /// The atoms of this process as the search sees them: either its own atoms in the periodic box, where it has
-/// that box to itself, or its own atoms and ghosts in open space, since ghosts stand where the images are. Of
-/// the ghosts all are points, or those alone whose pairs are taken here.
+/// that box to itself, or its own atoms and ghosts in open space, since ghosts stand where the images are.
 class AtomPoints : protected Pointers {
  public:
   explicit AtomPoints(LAMMPS* lammps) : Pointers(lammps) {}
@@ -32,8 +39,7 @@ class AtomPoints : protected Pointers {
 
   /// Takes the atoms as they are now, with `neigh_modify include` only those of its group. Positions are not
   /// copied unless some are left out, so they have to stay where they are while the points are used.
-  /// @param sides  in open space: leaves out ghosts whose pairs are not taken here; null leaves out none
-  void gather(bool in_box, const GhostSides* sides);
+  void gather(bool in_box, const GhostChoice& choice);
 
   bool in_box() const { return in_box_; }
   dch::Box box() const;  ///< none in open space
@@ -47,8 +53,10 @@ class AtomPoints : protected Pointers {
   dch::Span<const double> radii();        ///< of spheres [length]
   int size() const { return static_cast<int>(positions_.size()); }
   int owned() const { return owned_; }  ///< the first so many points are owned atoms
-  /// Ghosts that are no points since other processes take their pairs; LAMMPS's indices, ascending.
-  dch::Span<const int> ghosts_of_others() const { return of_others_; }
+  /// Ghosts that the choice has left out; LAMMPS's indices, ascending.
+  dch::Span<const int> ghosts_left_out() const { return left_out_; }
+  /// Whether ghosts are among the points whose pairs other processes take.
+  bool has_ghosts_of_others() const { return !in_box_ && has_ghosts_of_others_; }
   /// Whether points are atoms with the same indices.
   bool are_atoms() const { return atoms_.empty(); }
   /// The point that an atom is; -1 if it is none. O(log points), and of owned atoms O(1).
@@ -60,14 +68,15 @@ class AtomPoints : protected Pointers {
 
  private:
   bool is_flat() const;
-  void select_atoms(const GhostSides* sides);
+  void select_atoms(const GhostChoice& choice);
   void take_positions();
   void name_in_box();
   void name_in_open_space();
 
   bool in_box_ = false;
   std::vector<int> atoms_;  ///< by point, ascending; empty if all are points
-  std::vector<int> of_others_;
+  std::vector<int> left_out_;
+  bool has_ghosts_of_others_ = true;
   int owned_ = 0, count_ = 0;
   std::vector<dch::Vec3> gathered_;
   dch::Span<const dch::Vec3> positions_;

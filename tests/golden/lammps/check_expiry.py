@@ -114,6 +114,17 @@ class Oracle(unittest.TestCase):
             output = self.check("dch on\n" + back.format(first=first, second=second), ranks=2)
             self.assertIn("1 for a missing pair", output)
 
+    def test_ghosts_that_are_too_far_for_their_types(self):
+        """Of two atoms of a type with a small cutoff, beside a pair of another that has LAMMPS send ghosts from farther off."""
+        script = TWO_ATOMS.replace("create_box 1", "create_box 2").replace("mass 1", "create_atoms 2 single 2 1 1\n"
+                                                                           "create_atoms 2 single 2 8 8\nmass *") \
+            .replace("pair_coeff 1 1 1.0 1.0", "pair_coeff * * 1.0 1.0 2.5\npair_coeff 2 2 1 1 4.4")
+        back = script.replace("set 3 0 0", "set -3 0 0").replace("set -1 0 0", "set 1 0 0")
+        for text, first, second in ((script, 9.4, 12.76), (back, 10.66, 7.3), (back, 0.66, 17.3)):
+            for ranks in (1, 2):
+                output = self.check("dch on\n" + text.format(first=first, second=second), ranks=ranks)
+                self.assertIn("1 for a missing pair", output)
+
     def test_a_blind_search_is_found_out(self):
         for what, ranks in (("lists", 1), ("forces", 1), ("lists", 2)):
             code, output = self.look("dch on\n" + GAS, what, steps=200, ranks=ranks, fault="blind")

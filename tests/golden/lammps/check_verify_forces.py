@@ -99,7 +99,21 @@ class Silent(unittest.TestCase):
 
     def test_cutoffs_by_type(self):
         script = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 1.6\npair_coeff 2 2 1.0 1.0 1.2\nneighbor 0.3")
-        self.check(script)
+        for ranks in (1, 2, 4):
+            for newton in ("on", "off"):
+                with self.subTest(ranks=ranks, newton=newton):
+                    self.check(f"newton {newton}\n" + script, ranks=ranks)
+
+    def test_ghosts_too_far_for_their_types(self):
+        """Of few atoms with a large cutoff some processes have none; on one process LAMMPS's own lists say what is right."""
+        script = TWO_TYPES.replace("type/fraction 2 0.3", "type/fraction 2 0.005").replace("lj/cut 2.5", "lj/cut 1.2") \
+            .replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 2.0\npair_coeff 2 2 1.0 1.0 3.3\nneighbor 0.3")
+        for lists in ("", "dch on\n"):
+            for newton, ranks in (("on", 1), ("on", 2), ("on", 4), ("off", 2)):
+                with self.subTest(lists=lists, newton=newton, ranks=ranks):
+                    output = self.check(f"newton {newton}\n{lists}" + script, ranks=ranks)
+                    if ranks > 1:
+                        self.assertRegex(output, "points .* those too far for their types")
 
     def test_bonds_of_weight_zero_alone(self):
         """Those of pairs one by one are asked about pair by pair, and no exclusions are made for them."""

@@ -10,19 +10,18 @@
 
 namespace LAMMPS_NS {
 
-/// Ghosts that the search does not have, since other processes take their pairs, by where they were when
-/// lists were made: in slabs along the axis on which they lie farthest apart.
-class GhostsOfOthers {
+/// Ghosts of one type that the search does not have, by where they were when lists were made: in slabs along
+/// the axis on which they lie farthest apart.
+class GhostsLeftOut {
  public:
   /// O(n)
   /// @param ghosts  LAMMPS's indices
   /// @param x  positions by index [length]
-  void remember(dch::Span<const int> ghosts, const double* const* x);
-  bool empty() const { return ghosts_.empty(); }
+  GhostsLeftOut(int type, dch::Span<const int> ghosts, const double* const* x);
+  int type() const { return type_; }
   /// Whether `test` holds for one of them that was within `radius` of a place [length].
   template <class Test>
   bool any_near(dch::Vec3 place, double radius, const Test& test) const {
-    if (ghosts_.empty()) return false;
     const auto at = [&](std::size_t k) { return ghosts_.begin() + static_cast<std::ptrdiff_t>(k); };
     return std::any_of(at(first_[slab_of(place[axis_] - radius)]),
                        at(first_[slab_of(place[axis_] + radius) + 1]), [&](const Ghost& ghost) {
@@ -40,7 +39,7 @@ class GhostsOfOthers {
   };
   std::vector<Ghost> ghosts_;       ///< by slab
   std::vector<std::size_t> first_;  ///< by slab; and one more, for the end of the last
-  int axis_ = 0;
+  int type_, axis_ = 0;
   double low_ = 0, per_length_ = 0;  ///< of slabs
 };
 

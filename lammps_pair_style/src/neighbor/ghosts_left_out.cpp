@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ghosts_of_others.h"
+#include "ghosts_left_out.h"
 
 #include <algorithm>
 #include <numeric>
@@ -11,14 +11,13 @@ constexpr std::size_t kSlabs = 64;
 
 }  // namespace
 
-std::size_t GhostsOfOthers::slab_of(double coordinate) const {
+std::size_t GhostsLeftOut::slab_of(double coordinate) const {
   const double slab = (coordinate - low_) * per_length_;
   return slab > 0 ? static_cast<std::size_t>(std::min(slab, double{kSlabs - 1})) : 0;
 }
 
-void GhostsOfOthers::remember(dch::Span<const int> ghosts, const double* const* x) {
-  ghosts_.resize(ghosts.size());
-  first_.assign(kSlabs + 1, 0);
+GhostsLeftOut::GhostsLeftOut(int type, dch::Span<const int> ghosts, const double* const* x)
+    : ghosts_(ghosts.size()), first_(kSlabs + 1), type_(type) {
   if (ghosts.empty()) return;
   dch::Vec3 low{x[ghosts[0]][0], x[ghosts[0]][1], x[ghosts[0]][2]}, high = low;
   for (const int g : ghosts) {
