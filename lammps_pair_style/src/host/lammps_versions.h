@@ -79,6 +79,16 @@ void reverse_communication(Comm& comm, Style* pair) {
   }
 }
 
+/// The same of a fix, so many for each atom.
+template <class Comm, class Style>
+void reverse_communication_of_fix(Comm& comm, Style* fix, int numbers) {
+  if constexpr (kNamesCommByStyle<Comm, Style>) {
+    comm.reverse_comm_fix(fix, numbers);
+  } else {
+    comm.reverse_comm(fix, numbers);
+  }
+}
+
 /// Copies whether the last coefficients come from mixing, which the log counts.
 template <class Style>
 void copy_mixing([[maybe_unused]] const Style& from, [[maybe_unused]] Style& to) {

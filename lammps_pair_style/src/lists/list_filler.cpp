@@ -97,7 +97,7 @@ bool ListFiller::stays_as_it_is(const Scene& scene, int i, dch::Span<const std::
     return !is_halved && !is_marked && scene.images.is_inside(i);
   }
   if (neighbor->includegroup || special_.has_partners(i)) return false;
-  return !scene.served.newton ||
+  return (!scene.served.newton && scene.points.are_atoms()) ||
          std::none_of(row.begin(), row.end(), [&](std::int32_t q) { return q >= scene.points.owned(); });
 }
 

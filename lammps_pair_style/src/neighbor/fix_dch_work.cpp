@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <atom.h>
+#include <comm.h>
 #include <compute.h>
 #include <cstring>
 #include <modify.h>
 #include <update.h>
 
+#include "lammps_versions.h"
 #include "neighbor_dch.h"
 
 namespace LAMMPS_NS {
@@ -15,6 +17,7 @@ namespace LAMMPS_NS {
 FixDCHWork::FixDCHWork(LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg) {
   create_attribute = 1;  // set_arrays() for atoms that commands make
   maxexchange = 1;
+  comm_reverse = 1;
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
 }
@@ -45,7 +48,9 @@ int FixDCHWork::setmask() { return FixConst::POST_NEIGHBOR | FixConst::MIN_POST_
 
 void FixDCHWork::post_neighbor() {
   std::fill_n(work_.begin(), atom->nlocal, kOwn);
+  std::fill_n(work_.begin() + atom->nlocal, atom->nghost, 0.0);
   if (const auto* ours = dynamic_cast<const NeighborDCH*>(neighbor)) ours->count_work(work_.data());
+  dch::lammps::reverse_communication_of_fix(*comm, static_cast<Fix*>(this), comm_reverse);
 }
 
 void FixDCHWork::grow_arrays(int nmax) {
@@ -64,6 +69,15 @@ int FixDCHWork::pack_exchange(int i, double* buf) {
 int FixDCHWork::unpack_exchange(int i, double* buf) {
   of(i) = buf[0];
   return 1;
+}
+
+int FixDCHWork::pack_reverse_comm(int n, int first, double* buf) {
+  std::copy_n(work_.begin() + first, n, buf);
+  return n;
+}
+
+void FixDCHWork::unpack_reverse_comm(int n, int* atoms, double* buf) {
+  for (int k = 0; k < n; ++k) of(atoms[k]) += buf[k];
 }
 
 double FixDCHWork::memory_usage() { return static_cast<double>(work_.capacity() * sizeof(double)); }

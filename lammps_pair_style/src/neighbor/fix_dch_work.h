@@ -40,6 +40,8 @@ class FixDCHWork : public Fix {
   void set_arrays(int i) override;
   int pack_exchange(int i, double* buf) override;
   int unpack_exchange(int i, double* buf) override;
+  int pack_reverse_comm(int n, int first, double* buf) override;
+  void unpack_reverse_comm(int n, int* atoms, double* buf) override;
   double memory_usage() override;
 
  private:

@@ -122,7 +122,8 @@ class NeighborDCH : public Neighbor {
 
   /// Adds, to the number of each owned atom, the pairs of the lists just built that pair styles go through
   /// for it: neighbors in rows, LAMMPS's own lists included, and pairs of slots of cluster pairs. Both atoms
-  /// of a pair have half of it; with a ghost the owned one has the whole.
+  /// of a pair have half of it, ghosts too, which are for their owners; with newton off, where the other
+  /// process computes the pair as well, the owned one has the whole.
   void count_work(double* work) const;
 
   void init() override;

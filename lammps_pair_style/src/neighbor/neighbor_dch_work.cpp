@@ -4,6 +4,7 @@
 #include <array>
 #include <atom.h>
 #include <bitset>
+#include <force.h>
 #include <lmptype.h>
 #include <neigh_list.h>
 
@@ -12,10 +13,10 @@
 namespace LAMMPS_NS {
 namespace {
 
-/// Half of a pair's work to each of two owned atoms: which of them holds the pair says nothing of where the
-/// work is. A ghost's owner does none of it.
-void share_pair(int i, int j, int owned, double* work) {
-  if (i < owned && j < owned) {
+/// Half of a pair's work to each of its atoms: which of them holds the pair says nothing of where the work
+/// is, and which of two processes computes it changes as soon as atoms go from one to the other.
+void share_pair(int i, int j, int sharers, double* work) {
+  if (i < sharers && j < sharers) {
     work[i] += 0.5;
     work[j] += 0.5;
   } else {
@@ -30,18 +31,18 @@ const NeighList& origin(const NeighList& list) {
   return list.listskip ? origin(*list.listskip) : list;
 }
 
-void add_rows(const NeighList& list, bool full, int owned, double* work) {
+void add_rows(const NeighList& list, bool full, int sharers, double* work) {
   for (int k = 0; k < list.inum; ++k) {
     const int i = list.ilist[k], n = list.numneigh[i];
     if (full) work[i] += n;
-    for (int m = 0; m < n && !full; ++m) share_pair(i, list.firstneigh[i][m] & NEIGHMASK, owned, work);
+    for (int m = 0; m < n && !full; ++m) share_pair(i, list.firstneigh[i][m] & NEIGHMASK, sharers, work);
   }
 }
 
-/// Pairs of slots of each entry, shared evenly among the owned atoms of its clusters.
-void add_clusters(const dch::ClusterPairs& pairs, int owned_atoms, double* work) {
+/// Pairs of slots of each entry, shared evenly among the atoms of its clusters.
+void add_clusters(const dch::ClusterPairs& pairs, int sharers, double* work) {
   constexpr int kSlots = dch::ClusterPairs::kSlots;
-  std::array<std::int32_t, 2 * std::size_t{kSlots}> owned{};
+  std::array<std::int32_t, 2 * std::size_t{kSlots}> atoms{};
   for (std::size_t r = 0; r + 1 < pairs.rows.size(); ++r) {
     const std::int32_t row = pairs.rows[r].cluster;
     for (std::int64_t k = pairs.rows[r].first; k < pairs.rows[r + 1].first; ++k) {
@@ -50,14 +51,14 @@ void add_clusters(const dch::ClusterPairs& pairs, int owned_atoms, double* work)
       const auto take = [&](std::int32_t cluster) {
         for (int slot = 0; slot < kSlots; ++slot) {
           const std::int32_t i = pairs.particle[static_cast<std::size_t>(kSlots * cluster + slot)];
-          if (i >= 0 && i < owned_atoms) owned[count++] = i;
+          if (i >= 0 && i < sharers) atoms[count++] = i;
         }
       };
       take(row);
       if (entry.cluster != row) take(entry.cluster);
       const double share =
           static_cast<double>(std::bitset<16>(entry.mask).count()) / static_cast<double>(count);
-      for (std::size_t n = 0; n < count; ++n) work[owned[n]] += share;
+      for (std::size_t n = 0; n < count; ++n) work[atoms[n]] += share;
     }
   }
 }
@@ -65,21 +66,24 @@ void add_clusters(const dch::ClusterPairs& pairs, int owned_atoms, double* work)
 }  // namespace
 
 void NeighborDCH::count_work(double* work) const {
+  const int owned = atom->nlocal, all = atom->nlocal + atom->nghost;
+  const int sharers = force->newton_pair ? all : owned;
   for (const ServedClusters& clusters : clusters_) {
     if (!clusters.list->one_by_one) {
-      add_clusters(clusters.list->pairs, atom->nlocal, work);
+      add_clusters(clusters.list->pairs, sharers, work);
       continue;
     }
     const dch::PairList& pairs = clusters.list->pair_list;
-    for (std::size_t k = 0; k < pairs.i.size(); ++k) share_pair(pairs.i[k], pairs.j[k], atom->nlocal, work);
+    for (std::size_t k = 0; k < pairs.i.size(); ++k) share_pair(pairs.i[k], pairs.j[k], sharers, work);
   }
   for (int m = 0; m < nlist; ++m) {
     const NeighList& list = *lists[m];
     const bool is_for_verify = !clusters_.empty() && !is_needed(m);
     if (list.requestor_type != NeighList::PAIR || list.occasional || is_for_verify) continue;
     const NeighList& made = origin(list);
-    const bool full = !made.listfull && (pairmasks[made.pair_method - 1] & NeighConst::NP_FULL) != 0;
-    add_rows(list, full, atom->nlocal, work);
+    const int mask = pairmasks[made.pair_method - 1];
+    const bool full = !made.listfull && (mask & NeighConst::NP_FULL) != 0;
+    add_rows(list, full, mask & NeighConst::NP_NEWTOFF ? owned : all, work);
   }
 }
 

@@ -44,7 +44,7 @@ SCENES = {
     "melt": {"lattice": "fcc 0.8442", "cells": 7, "tilt": 2, "temperature": 20, "skin": 1.0, "steps": 60, "fix": ""},
     # `auto` changes from the grid to the hierarchy.
     "widening": {"lattice": "fcc 0.8442", "cells": 6, "tilt": 0, "temperature": 1.44, "skin": 0.3, "steps": 100,
-                 "fix": "fix 2 all deform 1 x scale 2 y scale 2 z scale 2 remap none"},
+                 "fix": "fix 2 all deform 1 x scale 2.5 y scale 2.5 z scale 2.5 remap none"},
 }
 
 
