@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lammps_versions.h"
+#include "level_rows.h"
 
 namespace LAMMPS_NS {
 // The neighbor that a point of row i stands for, -1 if it is none of this row.
@@ -160,6 +161,8 @@ void ListFiller::fill(const AtomPoints& points, const GhostImages& images, Serve
   list.gnum = served.ghost ? points.size() - points.owned() : 0;
   // LAMMPS keeps its atoms sorted: pair styles are fastest in that order, wherever the rows are.
   for (int point = 0; point < list.inum + list.gnum; ++point) list.ilist[point] = points.atom_of(point);
+  fill_levels(*atom, *neighbor, served, list);
+  served.pairs += static_cast<std::int64_t>(served.inner.size() + served.middle.size());
 }
 
 }  // namespace LAMMPS_NS

@@ -26,20 +26,23 @@ struct ServedList {
   bool by_radius = false;  ///< granular: the cutoff of a pair is the sum of the radii
   bool history = false;    ///< of those that touch, entries are marked for FixNeighHistory
   dch::NeighborList rows;  ///< of points; when LAMMPS's list is filled its pointers lead here or into by_atom
-  std::vector<std::int32_t> by_atom;  ///< short rows, in the order of the atoms
-  std::int64_t pairs = 0;             ///< entries at the last build
+  std::vector<std::int32_t> by_atom;        ///< short rows, in the order of the atoms
+  std::vector<std::int32_t> inner, middle;  ///< rows of r-RESPA's levels, if LAMMPS's list has these
+  std::int64_t pairs = 0;                   ///< entries at the last build, of levels too
   /// Whether rows took a line of the cache or less on average. Then it costs a pair style more to look for
   /// the next row than to read it, so rows are put in the order in which it goes through atoms.
   bool has_short_rows = false;
 
   std::size_t memory_bytes() const {
-    return (rows.j.capacity() + rows.particle.capacity() + by_atom.capacity()) * sizeof(std::int32_t) +
+    return (rows.j.capacity() + rows.particle.capacity() + by_atom.capacity() + inner.capacity() +
+            middle.capacity()) *
+               sizeof(std::int32_t) +
            rows.first.capacity() * sizeof(std::int64_t);
   }
 };
 
 /// Turns rows of points into a NeighList: which image of a neighbor, which side stores a pair, exclusions,
-/// special bonds.
+/// special bonds, levels of r-RESPA.
 class ListFiller : protected Pointers {
  public:
   ListFiller(LAMMPS* lammps, SpecialPairs& special, const PairRules& rules)

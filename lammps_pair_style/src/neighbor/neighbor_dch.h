@@ -259,7 +259,7 @@ class NeighborDCH : public Neighbor {
   std::unique_ptr<ClusterListFiller> cluster_filler_;
   ListVerifier verifier_;
   ClusterVerifier cluster_verifier_;
-  /// By served list, by cluster pairs, while one build is verified.
+  /// By served list and its levels, by cluster pairs, while one build is verified.
   std::vector<std::vector<dch::lammps::ListEntry>> native_entries_, reference_entries_;
 
   dch::lammps::RunCounters run_;

@@ -109,6 +109,8 @@ void NeighborDCH::classify_lists() {
     if (old != served_.end()) {
       ours.rows = std::move(old->rows);
       ours.by_atom = std::move(old->by_atom);
+      if (list.respainner) ours.inner = std::move(old->inner);
+      if (list.respamiddle) ours.middle = std::move(old->middle);
     }
     served.push_back(std::move(ours));
     served_plist_.push_back(m);
@@ -137,14 +139,16 @@ std::string NeighborDCH::list_name(const NeighList& list) const {
   const bool full = (mask & NP_FULL) != 0;
   if (full && (mask & NP_HALF)) return owner;  // a builder of derived lists, which takes either kind
   const std::string kind = full ? ", full" : mask & NP_NEWTOFF ? ", half, newton off" : ", half, newton on";
-  return owner + kind + (list.ghost ? ", with ghost rows" : "");
+  const std::string levels = !list.respainner   ? ""
+                             : list.respamiddle ? ", with inner and middle levels"
+                                                : ", with an inner level";
+  return owner + kind + (list.ghost ? ", with ghost rows" : "") + levels;
 }
 
 /// What the builder that LAMMPS has chosen for a list does that ours do not.
 Obstacle NeighborDCH::reason_of_style(const NeighList& list) const {
   const int mask = pairmasks[list.pair_method - 1];
   if (mask & NP_SIZE && !atom->radius_flag) return {"cutoffs by radius, but atoms have none", {}};
-  if (mask & NP_RESPA) return levels_of_respa();
   if (mask & (NP_ONESIDE | NP_OFF2ON)) return {"one-sided", {}};
   if (mask & NP_BOND) return {"bonds in the list", {}};
   if (mask & (NP_SSA | NP_INTEL | NP_KOKKOS_DEVICE | NP_KOKKOS_HOST))

@@ -33,7 +33,8 @@ void NeighborDCH::build_native_reference() {
   if (were_hidden) hide_bins();
   native_entries_.clear();
   for (const ServedList& served : served_)
-    native_entries_.push_back(ListVerifier::entries(*lists[served.index], served));
+    for (const PairLevel level : levels_of(*lists[served.index]))
+      native_entries_.push_back(ListVerifier::entries(*lists[served.index], served, level));
   reference_entries_.clear();
   for (const ServedClusters& clusters : clusters_) {
     reference_entries_.emplace_back();
@@ -51,15 +52,19 @@ void NeighborDCH::check_against_native() {
 }
 
 void NeighborDCH::check_lists() {
-  for (std::size_t k = 0; k < served_.size(); ++k) {
-    const NeighList& list = *lists[served_[k].index];
-    const std::string difference =
-        verifier_.compare(std::move(native_entries_[k]), ListVerifier::entries(list, served_[k]), served_[k],
-                          images_.error_within(cutneighmax));
-    if (!difference.empty())
-      stop_at("the native and the DCH list (" + list_name(list) + ") are not the same: " + difference,
-              "'dch off'");
-    run_.verified_entries += served_[k].pairs;
+  auto native = native_entries_.begin();
+  for (const ServedList& served : served_) {
+    const NeighList& list = *lists[served.index];
+    for (const PairLevel level : levels_of(list)) {
+      const std::string difference =
+          verifier_.compare(std::move(*native++), ListVerifier::entries(list, served, level), served, level,
+                            images_.error_within(cutneighmax));
+      const std::string name =
+          list_name(list) + (level == PairLevel::all ? "" : std::string("; the ") + name_of(level));
+      if (!difference.empty())
+        stop_at("the native and the DCH list (" + name + ") are not the same: " + difference, "'dch off'");
+    }
+    run_.verified_entries += served.pairs;
   }
 }
 

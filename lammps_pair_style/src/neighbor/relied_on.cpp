@@ -53,6 +53,9 @@ struct NeighborDCH::ReliedOn {
   DCH_OF_NEIGHBOR(cutneighghostsq, double**);
   DCH_OF_NEIGHBOR(collection, int*);
   DCH_OF_NEIGHBOR(cutcollectionsq, double**);
+  DCH_OF_NEIGHBOR(cut_inner_sq, double);
+  DCH_OF_NEIGHBOR(cut_middle_sq, double);
+  DCH_OF_NEIGHBOR(cut_middle_inside_sq, double);
   DCH_OF_NEIGHBOR(includegroup, int);
   DCH_OF_NEIGHBOR(exclude, int);
   DCH_OF_NEIGHBOR(nex_type, int);
@@ -86,5 +89,9 @@ DCH_RELIES_ON(Atom, Atom, special, tagint**);
 DCH_RELIES_ON(NeighList, NeighList, ilist, int*);
 DCH_RELIES_ON(NeighList, NeighList, numneigh, int*);
 DCH_RELIES_ON(NeighList, NeighList, firstneigh, int**);
+DCH_RELIES_ON(NeighList, NeighList, respainner, int);
+DCH_RELIES_ON(NeighList, NeighList, respamiddle, int);
+DCH_RELIES_ON(NeighList, NeighList, firstneigh_inner, int**);
+DCH_RELIES_ON(NeighList, NeighList, firstneigh_middle, int**);
 
 }  // namespace LAMMPS_NS

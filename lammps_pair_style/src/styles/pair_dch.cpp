@@ -19,6 +19,7 @@
 
 #include "ghosts_sent.h"
 #include "lammps_versions.h"
+#include "neigh_history.h"
 #include "neighbor_dch.h"
 #include "plain_pair.h"
 #include "stock_name.h"
@@ -182,7 +183,14 @@ dch::lammps::Obstacle PairDCH::reason_for_plain() const {
 /// Whether r-RESPA may ask for inner, middle and outer forces. Which levels there are its class does not
 /// tell, but the list that the plain style asks for does.
 bool PairDCH::may_have_levels() const {
-  return force->pair == this && plain_->respa_enable && std::strcmp(update->integrate_style, "respa") == 0;
+  return plain_->respa_enable && std::strncmp(update->integrate_style, "respa", 5) == 0;
+}
+
+/// Has the lists that the plain style has just asked for be ours, unless they are taken back: pair_style
+/// hybrid looks for the style that it made.
+void PairDCH::take_requests(int first) {
+  has_lists_of_plain_ = may_have_levels() && turn_over_requests(*neighbor, first, *plain_, *this);
+  if (!has_lists_of_plain_) withdraw_requests(*neighbor, first);
 }
 
 void PairDCH::init_style() {
@@ -190,18 +198,16 @@ void PairDCH::init_style() {
   pairs_of_types_.clear();
   kernel_.reset();
   computed_ = pair_by_pair_ = 0;
-  has_lists_of_plain_ = may_have_levels();
   // The plain style checks its settings, and asks for a list, which is taken back. `dch verify` wants one, in
   // this style's name, to compare with.
   const int requests = neighbor->nrequest;
   plain_->init_style();
-  if (!has_lists_of_plain_) withdraw_requests(*neighbor, requests);
+  take_requests(requests);
   NeighborDCH* const neighbor_dch = NeighborDCH::install(lmp);
   obstacle_ = reason_for_plain();
   if (obstacle_.empty()) obstacle_ = obstacle_of_settings();
   if (is_chosen_ && obstacle_.empty()) obstacle_ = neighbor_dch->obstacle_to_styles();
-  const Pair& asker = has_lists_of_plain_ ? *plain_ : *this;
-  clusters_ = neighbor_dch->request_clusters(asker, plain_name_ + "/dch", obstacle_);
+  clusters_ = neighbor_dch->request_clusters(*this, plain_name_ + "/dch", obstacle_);
   if (clusters_) clusters_->wants_rows = style_.by_rows;
   if (!has_lists_of_plain_ && (!clusters_ || neighbor_dch->verifies())) neighbor->request(this, instance_me);
 }

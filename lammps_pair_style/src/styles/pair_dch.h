@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 /// the plain style's, of which it keeps an object: arguments, coefficients, mixing, tail corrections,
 /// restarts, single().
 ///
-/// With r-RESPA that splits the forces of pairs into levels the plain style computes, on its own lists.
+/// With r-RESPA that splits the forces of pairs into levels the plain style computes, on its lists.
 ///
 /// Pairs go through a SIMD kernel, weighted ones of bonded atoms too; a style says what it is made of. The
 /// kernel tallies energies and virials by atom at steps that want these, and where newton is off and there
@@ -108,6 +108,7 @@ class PairDCH : public Pair, public Explained {
 
   dch::lammps::Obstacle reason_for_plain() const;
   bool may_have_levels() const;
+  void take_requests(int first);
   Pair& plain_of_levels() const;
   std::string way() const;
   void take_flags();

@@ -47,12 +47,12 @@ void PairDCH::compute(int eflag, int vflag) {
   }
 }
 
-/// Only where the plain style has lists with these levels.
+/// Only where it has the lists with these levels that it has asked for.
 Pair& PairDCH::plain_of_levels() const {
   if (!has_lists_of_plain_)
     error->all(FLERR, "Pair style " + plain_name_ +
-                          "/dch has no inner, middle and outer forces for r-RESPA under pair_style hybrid; "
-                          "give 'suffix off' before the pair_style, or all pair forces one level");
+                          "/dch does not know how this LAMMPS asks for lists with levels of r-RESPA; give "
+                          "'suffix off' before the pair_style, or all pair forces one level");
   return *plain_;
 }
 

@@ -17,12 +17,14 @@ using dch::lammps::ListEntry;
 
 static_assert(std::is_trivially_copyable_v<AtomPair>, "pairs travel between processes as bytes");
 
-std::vector<ListEntry> ListVerifier::entries(const NeighList& list, const ServedList& served) {
+std::vector<ListEntry> ListVerifier::entries(const NeighList& list, const ServedList& served,
+                                             PairLevel level) {
   std::vector<ListEntry> out;
+  const LevelRows rows = rows_of(list, level);
   for (int row = 0; row < list.inum + (served.ghost ? list.gnum : 0); ++row) {
-    const int i = list.ilist[row];
-    for (int k = 0; k < list.numneigh[i]; ++k) {
-      const int stored = list.firstneigh[i][k];
+    const int i = rows.ilist[row];
+    for (int k = 0; k < rows.numneigh[i]; ++k) {
+      const int stored = rows.firstneigh[i][k];
       ListEntry entry{i, stored & NEIGHMASK, stored >> SBBITS & 3};
       if (!served.full && entry.i > entry.j) std::swap(entry.i, entry.j);
       out.push_back(entry);
@@ -31,14 +33,19 @@ std::vector<ListEntry> ListVerifier::entries(const NeighList& list, const Served
   return out;
 }
 
-bool ListVerifier::may_differ(const ListEntry& entry, const ServedList& served, double rounding) const {
+bool ListVerifier::may_differ(const ListEntry& entry, const ServedList& served, PairLevel level,
+                              double rounding) const {
   const double *xi = atom->x[entry.i], *xj = atom->x[entry.j];
   const double distance = std::sqrt(norm2(dch::Vec3{xj[0] - xi[0], xj[1] - xi[1], xj[2] - xi[2]}));
   const double cutoff = served.by_radius
                             ? atom->radius[entry.i] + atom->radius[entry.j] + neighbor->skin
                             : std::sqrt(neighbor->cutneighsq[atom->type[entry.i]][atom->type[entry.j]]);
   const bool is_beyond = served.by_radius && distance > neighbor->cutneighmax - rounding;
-  return is_beyond || std::abs(distance - cutoff) <= rounding;
+  if (is_beyond || std::abs(distance - cutoff) <= rounding) return true;
+  if (level == PairLevel::all) return false;
+  const LevelBounds bounds = bounds_of(level, *neighbor);
+  return std::abs(distance - std::sqrt(bounds.below)) <= rounding ||
+         (bounds.above >= 0 && std::abs(distance - std::sqrt(bounds.above)) <= rounding);
 }
 
 void ListVerifier::append_pairs(const std::vector<ListEntry>& entries, bool native,
@@ -100,11 +107,11 @@ std::string ListVerifier::first_difference(const std::vector<AtomPair>& differen
 }
 
 std::string ListVerifier::compare(std::vector<ListEntry> native, std::vector<ListEntry> ours,
-                                  const ServedList& served, double rounding) const {
+                                  const ServedList& served, PairLevel level, double rounding) const {
   dch::lammps::ListDifference local = dch::lammps::compare_entries(std::move(native), std::move(ours));
   for (std::vector<ListEntry>* const entries : {&local.native_only, &local.dch_only}) {
     entries->erase(std::remove_if(entries->begin(), entries->end(),
-                                  [&](const ListEntry& e) { return may_differ(e, served, rounding); }),
+                                  [&](const ListEntry& e) { return may_differ(e, served, level, rounding); }),
                    entries->end());
   }
   std::vector<AtomPair> differences;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "level_rows.h"
 #include "list_compare.h"
 #include "list_filler.h"
 
@@ -15,9 +16,10 @@ class ListVerifier : protected Pointers {
  public:
   explicit ListVerifier(LAMMPS* lammps) : Pointers(lammps) {}
 
-  /// The list's entries as it stands. In a half list a pair of owned atoms stands in the row of the smaller
-  /// index.
-  static std::vector<dch::lammps::ListEntry> entries(const NeighList& list, const ServedList& served);
+  /// The entries of a level of the list as it stands. In a half list a pair of owned atoms stands in the row
+  /// of the smaller index.
+  static std::vector<dch::lammps::ListEntry> entries(const NeighList& list, const ServedList& served,
+                                                     PairLevel level = PairLevel::all);
 
   /// Every process has to call it. Returns an empty string if the lists are equal, else a message that names
   /// the number of differing pairs and one of them; the same message on every process.
@@ -26,12 +28,12 @@ class ListVerifier : protected Pointers {
   /// choose the side by different rules: such pairs are sent to a process chosen by their atoms and compared
   /// there.
   ///
-  /// Pairs at their very cutoff, to within `rounding`, may be in either list: in crystals there are many, and
-  /// which of them LAMMPS lists depends on the image that it looks at, and so on the number of processes
-  /// [length]. Of grains farther apart than its largest cutoff, frozen or grown ones, LAMMPS lists those that
-  /// its bins show.
+  /// Pairs at their very cutoff or a bound of the level, to within `rounding`, may be in either list: in
+  /// crystals there are many, and which of them LAMMPS lists depends on the image that it looks at, and so on
+  /// the number of processes [length]. Of grains farther apart than its largest cutoff, frozen or grown ones,
+  /// LAMMPS lists those that its bins show.
   std::string compare(std::vector<dch::lammps::ListEntry> native, std::vector<dch::lammps::ListEntry> ours,
-                      const ServedList& served, double rounding) const;
+                      const ServedList& served, PairLevel level, double rounding) const;
 
   /// The same message for pairs, of which each native one needs one of ours and the reverse.
   /// @param over_processes whether the two may be with different processes
@@ -43,7 +45,8 @@ class ListVerifier : protected Pointers {
   double image_tolerance() const;
 
  private:
-  bool may_differ(const dch::lammps::ListEntry& entry, const ServedList& served, double rounding) const;
+  bool may_differ(const dch::lammps::ListEntry& entry, const ServedList& served, PairLevel level,
+                  double rounding) const;
   void append_pairs(const std::vector<dch::lammps::ListEntry>& entries, bool native,
                     std::vector<dch::lammps::AtomPair>& out) const;
   std::vector<dch::lammps::AtomPair> exchange(const std::vector<dch::lammps::AtomPair>& pairs) const;

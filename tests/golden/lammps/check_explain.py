@@ -144,42 +144,14 @@ class Explain(unittest.TestCase):
         self.assertIn(shown, output)
 
 
-class Levels(unittest.TestCase):
-    """r-RESPA that splits the forces of pairs into levels: the plain style computes them, and says so."""
-
-    STYLES = ("respa 2 2 inner 1 1.5 2.0 outer 2", "respa 3 2 2 inner 1 1.2 1.5 middle 2 1.8 2.0 outer 3")
-
-    def test_same_as_stock(self):
-        for style in (*self.STYLES, "respa 2 2 pair 2"):
-            for ranks in (1, 2):
-                rest = f"{MELT}run_style {style}\nrun 20\nrun_style verlet\nrun 20\nrun_style {style}\nrun 20\n"
-                tables = []
-                for words in ("", "suffix dch\ndch on\ndch verify yes\n"):
-                    code, output = host.run_text("include ${load}\n" + words + rest, ranks=ranks)
-                    self.assertEqual(code, 0, output)
-                    tables.append(thermo_tables(output))
-                for stock, ours in zip(*tables):
-                    self.assertLess(largest_relative_difference(stock[-1], ours[-1]), 1e-9)
-
-    def test_is_explained(self):
-        for style in self.STYLES:
-            found, output = explained(f"suffix dch\n{MELT}dch on\nrun_style {style}\nrun 20\n")
-            self.assertIn("plain style on a neighbor list, as r-RESPA splits the forces", found["pair lj/cut/dch"])
-            self.assertIn("native, inner and middle levels of r-RESPA; give all pair forces one level",
-                          found["list 1, pair lj/cut/dch, half, newton on"])
-            self.assertIn("plain style", found["fix 1, nve/dch"])
+class OneLevel(unittest.TestCase):
+    def test_all_pair_forces_in_one_level_of_respa(self):
+        """Those of several are in check_levels.py."""
         found, _ = explained(f"suffix dch\n{MELT}dch on\nrun_style respa 2 2 pair 2\nrun 20\n")
         self.assertRegex(found["pair lj/cut/dch"], "^cluster pairs")
+        self.assertIn("plain style", found["fix 1, nve/dch"])
         self.assertIn("run_style respa does not look at lists at each step",
                       explained(f"suffix dch\n{LATEST}run_style respa 2 2 pair 2\nrun 20\n")[0]["expiry of lists"])
-
-    def test_under_hybrid_is_refused_by_name(self):
-        script = (f"suffix dch\n{MELT}pair_style hybrid/overlay lj/cut 2.5 lj/cut 2.4\npair_coeff 1 1 lj/cut 1 1.0 1.0\n"
-                  f"pair_coeff 1 1 lj/cut 2 0.1 1.0\nrun_style {self.STYLES[0]}\nrun 20\n")
-        code, output = host.run_text("include ${load}\n" + script)
-        self.assertNotEqual(code, 0)
-        self.assertIn("lj/cut/dch has no inner, middle and outer forces for r-RESPA under pair_style hybrid; give 'suffix off'",
-                      output)
 
 
 class Sizes(unittest.TestCase):
