@@ -10,7 +10,8 @@ from lammps_run import largest_relative_difference, thermo_tables
 from script_tests import MELT, host, main
 
 INNER = "respa 2 2 inner 1 1.5 2.0 outer 2"
-MIDDLE = "respa 3 2 2 inner 1 1.2 1.5 middle 2 1.8 2.0 outer 3"
+# The middle level begins beyond the nearest neighbors, the skin taken off.
+MIDDLE = "respa 3 2 2 inner 1 1.5 1.7 middle 2 1.9 2.1 outer 3"
 NAMES = {INNER: "with an inner level", MIDDLE: "with inner and middle levels"}
 OURS = {"lists": "dch styles no\n", "styles": "", "suffix": "suffix dch\n"}
 
@@ -23,7 +24,7 @@ NETWORK = MELT.replace("atom_style atomic", "atom_style molecular\nspecial_bonds
     .replace("pair_style lj/cut 2.5", "pair_style lj/cut 2.5\nbond_style harmonic\nbond_coeff 1 50.0 1.1") \
     .replace("neighbor 0.3 bin", "neighbor 0.3 bin\ngroup some id 1:300\ncreate_bonds many some some 1 0.9 1.15\n"
              "special_bonds lj {weights}\nset group some mol 1")
-BONDED = "respa 4 2 2 2 bond 1 inner 2 1.2 1.5 middle 3 1.8 2.0 outer 4"
+BONDED = "respa 4 2 2 2 bond 1 inner 2 1.5 1.7 middle 3 1.9 2.1 outer 4"
 
 
 def overlay(second):
@@ -112,7 +113,15 @@ class Lists(Levels):
 
     def test_a_skin_wider_than_the_middle_level_begins(self):
         """Then it has no bound inside."""
-        self.check(MELT.replace("neighbor 0.3", "neighbor 1.3"), MIDDLE, 1)
+        self.check(MELT.replace("neighbor 0.3", "neighbor 1.6"), MIDDLE, 1)
+
+    def test_pairs_at_the_bounds(self):
+        """In a crystal many pairs are at a bound to within rounding, which side has them decides."""
+        crystal = MELT.replace("fcc 0.8442", "sc 0.7513148009015778").replace("0 6 0 6 0 6", "0 8 0 8 0 8") \
+            .replace("velocity all create 1.44", "velocity all create 0.01")
+        for style in ("respa 2 2 inner 1 1.5 1.9 outer 2", "respa 3 2 2 inner 1 1.4 1.6 middle 2 1.7 1.9 outer 3"):
+            for ranks in (1, 2, 4):
+                self.check(crystal, style, ranks, name=NAMES[MIDDLE if "middle" in style else INNER], ours=("lists",))
 
     def test_few_neighbors(self):
         """Short rows stand in the order of atoms."""

@@ -33,7 +33,13 @@ class BondActs:
                      f"neigh_modify exclude molecule/{self.random.choice(('intra', 'inter'))} all")
 
     def levels(self):
-        self.add("run_style respa 2 2 bond 1 pair 2" if self.bonded() else "run_style respa 2 2 pair 1")
+        bonds = "bond 1 " * self.bonded()
+        ways = [f"2 2 {bonds}pair {2 if bonds else 1}"]
+        if self.levels_within:
+            first, second, third, last = (f"{part * self.levels_within:.4f}" for part in (0.5, 0.65, 0.75, 0.95))
+            ways = [f"2 2 {bonds}inner 1 {first} {last} outer 2",
+                     f"3 2 2 {bonds}inner 1 {first} {second} middle 2 {third} {last} outer 3"]
+        self.add(f"run_style respa {self.random.choice(ways)}")
         self.run()
         self.add("run_style verlet")
 

@@ -30,6 +30,7 @@ class PairStyles:
         uniform, largest = self.random.uniform, 7.5
         pairs = list(self.numbers(largest))
         depth = self.between(0.2, 1.2)
+        self.levels_within = min(c for t, s, c in pairs) if style == "lj/cut" else 0
 
         def lj(name=""):
             return [f"pair_coeff {t} {name} {depth} {s:.3f} {c:.4f}" for t, s, c in pairs]

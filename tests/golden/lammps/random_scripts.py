@@ -290,4 +290,4 @@ ACTS = [Script.engine, Script.engine, Script.scale, Script.tilt, Script.kind_of_
         Script.velocities, Script.pair, Script.balance, Script.deform, Script.shear, Script.barostat,
         Script.thermostat, Script.other_fix, Script.walls, Script.minimize, Script.clock, Script.more_copies,
         Script.groups, Script.weights, Script.cut_bonds, Script.tie_bonds, Script.break_bonds, Script.molecules,
-        Script.levels, Script.restart]
+        Script.levels, Script.levels, Script.restart]
