@@ -92,7 +92,7 @@ class Lists(Levels):
         self.check(parts, MIDDLE, 2)
 
     def test_cutoffs_by_type(self):
-        script = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 2.2\npair_coeff 2 2 1.0 1.0 2.0\nneighbor 0.3")
+        script = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 2.3\npair_coeff 2 2 1.0 1.0 2.15\nneighbor 0.3")
         for ranks in (1, 2):
             self.check(script, MIDDLE, ranks)
 
