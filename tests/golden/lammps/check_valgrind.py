@@ -76,6 +76,8 @@ LISTS = {
     "full": SILICON + "run 4\n",
     "history": GRAINS + "run 6\n",
     "special bonds": NETWORK + "special_bonds lj 0.0 0.3 1.0\nrun 10\n",
+    "levels of r-RESPA": SMALL + "run_style respa 3 2 2 inner 1 1.5 1.7 middle 2 1.9 2.1 outer 3\nrun 5\n"
+                         "run_style respa 2 2 inner 1 1.5 2.0 outer 2\nrun 5\nrun_style verlet\nrun 5\n",
     "skin auto": "dch skin auto\n" + SMALL.replace("every 5 check no", "every 1 check yes") + "run 40\ndch skin fixed\n",
     "threads": "dch threads 2\n" + SMALL + "run 5\ndch threads 1\n",
 }
