@@ -72,8 +72,9 @@ class NeighborSearch:
     def update(self, positions: Any, cell: Any = None, pbc: Any = None) -> None:
         """Takes positions (n, 3), the cell and pbc as VerletList.update() does, however far they have moved.
         CutoffTooLarge if the cutoff exceeds half the smallest height."""
-        vectors, periodic = arguments.box(cell, pbc)
-        self._search.update(arguments.points(positions), vectors, periodic)
+        if not self._search.update_as_given(positions, cell, pbc):
+            vectors, periodic = arguments.box(cell, pbc)
+            self._search.update(arguments.points(positions), vectors, periodic)
 
     def csr(self, full: bool = False) -> Rows:
         """first (n + 1,) int64 and j int32: the neighbors of i are j[first[i]:first[i + 1]], ascending. Each pair in the

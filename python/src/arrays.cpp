@@ -107,6 +107,31 @@ Box box_of(const Doubles& cell, std::array<bool, 3> periodic) {
   return Box::triclinic(vectors[0], vectors[1], vectors[2], periodic);
 }
 
+const Box& LastBox::of(const Doubles& cell, std::array<bool, 3> periodic) {
+  const bool is_same = cell.size() == static_cast<py::ssize_t>(cell_.size()) && periodic == periodic_ &&
+                       std::equal(cell_.begin(), cell_.end(), cell.data());
+  if (is_same) return box_;
+  box_ = box_of(cell, periodic);
+  periodic_ = {false, false, false};
+  if (cell.size() == static_cast<py::ssize_t>(cell_.size())) {
+    std::copy_n(cell.data(), cell_.size(), cell_.begin());
+    periodic_ = periodic;
+  }
+  return box_;
+}
+
+bool is_plain(py::handle value, py::ssize_t rows) {
+  if (!py::isinstance<py::array>(value)) return false;
+  const auto array = py::reinterpret_borrow<py::array>(value);
+  constexpr int kWanted = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
+  return (array.flags() & kWanted) == kWanted && array.dtype().is(py::dtype::of<double>()) &&
+         array.ndim() == 2 && array.shape(1) == 3 && (rows < 0 || array.shape(0) == rows);
+}
+
+bool are_finite(const Doubles& array) {
+  return std::all_of(array.data(), array.data() + array.size(), [](double x) { return std::isfinite(x); });
+}
+
 TypeCutoffs cutoffs_of(const Doubles& matrix) {
   const auto types = static_cast<int>(matrix.ndim() == 2 ? matrix.shape(0) : 0);
   return TypeCutoffs(types, std::vector<double>(matrix.data(), matrix.data() + matrix.size()));
@@ -135,10 +160,24 @@ void check_memory(double things, double bytes_each, const char* what, const char
   throw NotEnoughMemory(text.str());
 }
 
-bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair) {
+double RecentMemory::available() {
+  constexpr std::chrono::milliseconds kRecent(100);
+  if (const auto now = std::chrono::steady_clock::now(); now >= until_) {
+    bytes_ = available_memory();
+    until_ = now + kRecent;
+  }
+  return bytes_;
+}
+
+bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair, RecentMemory& memory) {
   constexpr std::size_t kFewParticles = 1000;
   const auto n = static_cast<double>(particles);
-  return particles <= kFewParticles || bytes_per_pair * n * n <= 0.5 * available_memory();
+  return particles <= kFewParticles || bytes_per_pair * n * n <= 0.5 * memory.available();
+}
+
+bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair) {
+  RecentMemory now;
+  return fits_if_all_are_near(particles, bytes_per_pair, now);
 }
 
 double PairOutput::bytes_per_pair() const {

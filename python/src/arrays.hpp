@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -39,8 +40,34 @@ Span<const std::int32_t> numbers_of(const std::optional<Ints>& array);
 /// @throws InvalidBox as Box::triclinic
 Box box_of(const Doubles& cell, std::array<bool, 3> periodic);
 
+/// box_of() for who asks again and again, mostly about the same cell: a box is made where the cell is another
+/// one.
+class LastBox {
+ public:
+  const Box& of(const Doubles& cell, std::array<bool, 3> periodic);
+  const Box& last() const { return box_; }
+
+ private:
+  Box box_;
+  std::array<double, 9> cell_{};
+  std::array<bool, 3> periodic_{false, false, false};
+};
+
+/// Whether it is a contiguous array of float64 of so many rows (any number: -1) and three columns, as numpy
+/// makes them, in the order of this machine's bytes.
+bool is_plain(py::handle value, py::ssize_t rows);
+bool are_finite(const Doubles& array);
+
 /// A symmetric matrix of cutoffs. @throws InvalidParameter as TypeCutoffs
 TypeCutoffs cutoffs_of(const Doubles& matrix);
+
+/// What deletes an object when the last array over its elements is gone.
+template <class T>
+py::capsule owner_of(std::unique_ptr<T> owned) {
+  py::capsule owner(owned.get(), [](void* p) { delete static_cast<T*>(p); });
+  owned.release();
+  return owner;
+}
 
 /// An array over the elements of a vector, which lives as long as the array does.
 template <class T>
@@ -48,14 +75,30 @@ py::array array_of(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
   if (shape.empty()) shape = {static_cast<py::ssize_t>(values.size())};
   auto owned = std::make_unique<std::vector<T>>(std::move(values));
   const T* const data = owned->data();
-  const py::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  owned.release();
+  const py::capsule owner = owner_of(std::move(owned));
   return py::array_t<T>(std::move(shape), data, owner);
+}
+
+/// An array over the elements of a vector that somebody else owns.
+template <class T>
+py::array array_in(const std::vector<T>& values, const py::capsule& owner) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data(), owner);
 }
 
 /// Bytes that may be taken before the machine swaps, the container is full, or the process is at its limit
 /// (ulimit -v); a large number where nobody says.
 double available_memory();
+
+/// available_memory() as it was a tenth of a second ago or less. To ask the system takes as long as an update
+/// of 10,000 particles.
+class RecentMemory {
+ public:
+  double available();
+
+ private:
+  double bytes_ = 0;
+  std::chrono::steady_clock::time_point until_{};
+};
 
 /// A MemoryError of Python, before memory is taken.
 class NotEnoughMemory : public std::runtime_error {
@@ -69,6 +112,7 @@ void check_memory(double things, double bytes_each, const char* what, const char
 /// Whether all pairs of so many particles take less than half of what is free: nobody needs to know then how
 /// many are near.
 bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair);
+bool fits_if_all_are_near(std::size_t particles, double bytes_per_pair, RecentMemory& memory);
 
 /// Which arrays of pairs are asked for.
 struct PairOutput {

@@ -23,8 +23,11 @@ namespace {
 ListKind kind_of(bool full) { return full ? ListKind::full : ListKind::half; }
 
 py::tuple csr_of(NeighborList list) {
-  py::array first = array_of(std::move(list.first));
-  return py::make_tuple(std::move(first), array_of(std::move(list.j)));
+  auto owned = std::make_unique<NeighborList>(std::move(list));
+  const NeighborList& rows = *owned;
+  const py::capsule owner = owner_of(std::move(owned));  // one for both arrays takes less time than two
+  py::array first = array_in(rows.first, owner);
+  return py::make_tuple(std::move(first), array_in(rows.j, owner));
 }
 
 /// Rows as they lie in the structure, with the particle of each.
@@ -52,7 +55,7 @@ class Search {
   void update(const Doubles& positions, const Doubles& cell, std::array<bool, 3> periodic) {
     const InUse in_use(used_, "NeighborSearch");
     const Span<const Vec3> points = points_of(positions);
-    const Box box = box_of(cell, periodic);
+    const Box& box = box_.of(cell, periodic);
     if (Executor* const executor = threads_.executor();
         executor != params_.executor) {  // in a forked process
       params_.executor = executor;
@@ -60,13 +63,24 @@ class Search {
     }
     particles_ = -1;
     const py::gil_scoped_release release;
-    request_.pairs_of(points.size(), 0);  // throws if it does not fit
+    request_.check(points.size());
     search_->update(points, box);
     sampled_.clear();
-    if (!fits_if_all_are_near(points.size(), bytes_per_pair(true)))
+    if (!fits_if_all_are_near(points.size(), bytes_per_pair(true), memory_))
       sampled_.assign(points.begin(), points.end());
-    box_ = box;
     particles_ = static_cast<std::int64_t>(points.size());
+  }
+
+  /// The same for what a caller hands in, if it can be read as it is. @returns whether it can; else nothing
+  /// is done
+  bool update_as_given(py::handle positions, py::handle cell, py::handle periodic) {
+    const bool is_open = periodic.ptr() == Py_False;
+    if (!is_open && periodic.ptr() != Py_True && !periodic.is_none()) return false;
+    if (!is_plain(positions, -1) || !is_plain(cell, 3)) return false;
+    const auto vectors = py::reinterpret_borrow<Doubles>(cell);
+    if (!are_finite(vectors)) return false;
+    update(py::reinterpret_borrow<Doubles>(positions), vectors, {!is_open, !is_open, !is_open});
+    return true;
   }
 
   py::tuple csr(bool full) { return csr_of(list(full, RowOrder::by_index)); }
@@ -85,7 +99,7 @@ class Search {
     if (sampled_.empty() || fits_if_all_are_near(n, bytes_per_pair(full))) return;
     NeighborPairsParams params = request_.pairs_of(n, 0);
     params.kind = kind_of(full);
-    check_memory(expected_pairs(sampled_, box_, params), kRowBytes, "pairs", "take a smaller cutoff");
+    check_memory(expected_pairs(sampled_, box_.last(), params), kRowBytes, "pairs", "take a smaller cutoff");
   }
 
   NeighborList list(bool full, RowOrder order) {
@@ -108,7 +122,8 @@ class Search {
   std::unique_ptr<PairSearch> search_;
   std::int64_t particles_ = -1;
   std::vector<Vec3> sampled_;  ///< positions, where a list of all pairs might not fit into memory
-  Box box_;
+  LastBox box_;
+  RecentMemory memory_;
   std::atomic<bool> used_{false};
 };
 
@@ -178,6 +193,7 @@ void bind_queries(py::module_& m) {
       .def(py::init<Request, int>(), py::arg("request"), py::arg("threads"))
       .def("update", &Search::update, py::arg("positions").noconvert(), py::arg("cell").noconvert(),
            py::arg("pbc"))
+      .def("update_as_given", &Search::update_as_given, py::arg("positions"), py::arg("cell"), py::arg("pbc"))
       .def("csr", &Search::csr, py::arg("full"))
       .def("unsorted", &Search::unsorted, py::arg("full"))
       .def_property_readonly("particles", &Search::particles);

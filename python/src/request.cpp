@@ -28,6 +28,11 @@ void Request::check_types(std::size_t n) const {
                            " particles; give one each");
 }
 
+void Request::check(std::size_t n) {
+  check_types(n);
+  exclusions_of(n);
+}
+
 NeighborPairsParams Request::pairs_of(std::size_t n, double skin) {
   check_types(n);
   NeighborPairsParams out;

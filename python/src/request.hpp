@@ -21,6 +21,8 @@ class Request {
   Request(const Doubles& cutoffs, std::optional<Ints> types, std::optional<Doubles> radii, bool half,
           std::optional<Ints> exclusions);
 
+  /// @throws InvalidParameter if pairs_of() does
+  void check(std::size_t n);
   /// For n particles; holds until the next call for another number of them.
   /// @throws InvalidParameter for another number of types, for exclusions as Exclusions::from_pairs
   NeighborPairsParams pairs_of(std::size_t n, double skin);

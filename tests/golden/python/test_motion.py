@@ -163,6 +163,31 @@ class Queries(unittest.TestCase):
                     np.testing.assert_array_equal(a, b)
         self.assertEqual(repr(search), "NeighborSearch(cutoff=2.0: 150 particles)")
 
+    def test_what_is_read_in_place_and_what_is_converted_give_the_same_rows(self):
+        """One search over cells that come and go, in forms that are read as they are and in others."""
+        random = np.random.default_rng(11)
+        cell = np.array([[7.0, 0, 0], [2, 6, 0], [-1, 1, 8]])
+        search = dch.NeighborSearch(2)
+        forms = (np.asarray, np.asfortranarray, np.ndarray.tolist, lambda a: a.astype(">f8"), lambda a: np.repeat(a, 2, axis=0)[::2])
+        for step, (of_points, of_cell) in enumerate((a, b) for a in forms for b in forms):
+            cell[step % 3] *= (1, 1.01, 0.98)[step % 3]  # in place, at times the same again
+            points = random.random((100, 3)) @ cell
+            for pbc in (None, True, False, np.True_, [True, False, True]):
+                search.update(of_points(points), of_cell(cell), pbc)
+                for a, b in zip(search.csr(), dch.all_pairs(points, 2, cell, pbc)):
+                    np.testing.assert_array_equal(a, b)
+        lengths = np.array([6.0, 7, 8])
+        for of_cell in (lengths, np.diag(lengths), np.diag(lengths).astype(np.float32)):
+            search.update(points, of_cell)
+            for a, b in zip(search.csr(), dch.all_pairs(points, 2, lengths)):
+                np.testing.assert_array_equal(a, b)
+        for wrong in ((points, cell * np.nan), (points, np.zeros((3, 3))), (points, cell[:2]), (points.T, cell), (points * 1j, cell),
+                      (points, None, True), (points, cell, "yes"), (points * np.inf, cell)):
+            with self.assertRaises(dch.InvalidParameter):
+                search.update(*wrong)
+        search.update(points, cell)
+        np.testing.assert_array_equal(search.csr()[1], dch.all_pairs(points, 2, cell)[1])
+
     def test_nearest_neighbors(self):
         random = np.random.default_rng(8)
         points, queries, side = random.random((200, 3)) * 6, random.random((20, 3)) * 9, 6
