@@ -68,7 +68,7 @@ PairPotential::PairPotential(const PairPotentialParams& params) : params_(params
   }
   take_way();
   if (has_charges()) take_charges();
-  if (params.form == PairForm::table) take_tables();
+  if (has_tables()) take_tables();
   for (auto& table : full_)
     table.resize(std::max(side * side, std::size_t{detail::kFewTypes * detail::kFewTypes}));
   for (std::size_t a = 0; a < side; ++a)

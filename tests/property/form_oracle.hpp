@@ -17,6 +17,7 @@
 #include "list_params.hpp"
 #include "lj_oracle.hpp"
 #include "scenes.hpp"
+#include "table_oracle.hpp"
 
 namespace dch::forms {
 
@@ -48,18 +49,6 @@ inline double force_switched(const std::array<double, 4>& n, double r, double fr
   return 4 * n[0] * sigma6 * (sigma6 * term(6) - term(3));
 }
 
-/// Between the knots of a table; the force is a number of its own.
-inline Dual tabulated(const PairTable& table, Dual r) {
-  const std::size_t n = table.energy.size();
-  const double first = table.inner * table.inner, square = r.value * r.value;
-  const double apart = (table.outer * table.outer - first) / static_cast<double>(n - 1);
-  std::size_t k = 1;
-  while (k + 1 < n && square > first + static_cast<double>(k) * apart) ++k;
-  const double of_first = (first + static_cast<double>(k) * apart - square) / apart;
-  const auto mean = [&](const std::vector<double>& v) { return of_first * v[k - 1] + (1 - of_first) * v[k]; };
-  return {mean(table.energy), -mean(table.force_over_r) * r.value};
-}
-
 inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair, Dual r) {
   const auto& n = pair.numbers;
   const Dual r6 = r * r * r * r * r * r;
@@ -85,6 +74,8 @@ inline Dual energy_of_form(const PairPotentialParams& all, const FormPair& pair,
       return n[0] * exp(-all.of_all * r) / r;
     case PairForm::table:
       return tabulated(all.tables[static_cast<std::size_t>(n[0])], r);
+    case PairForm::spline:
+      return splined(all.tables[static_cast<std::size_t>(n[0])], r);
     case PairForm::colloid:
       return energy_of_colloids(n, r);
   }
@@ -157,7 +148,7 @@ inline void add(const PairPotentialParams& all, const Scene& scene, std::size_t 
   Dual own = 0, charged = 0;
   if (r.value < pair.cutoff) {
     own = energy_of_form(all, pair, r);
-    if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft && all.form != PairForm::table)
+    if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft && all.tables.empty())
       own = own - energy_of_form(all, pair, {pair.cutoff, 1}).value;
     own = weights.own * own;
   }
@@ -229,6 +220,13 @@ inline PairPotentialParams params_with_tables(int types) {
   return all;
 }
 
+inline PairPotentialParams params_with_splines(int types) {
+  PairPotentialParams all = params_with_tables(types);
+  all.form = PairForm::spline;
+  for (PairTable& table : all.tables) bend(table);
+  return all;
+}
+
 inline std::vector<Case> cases() {
   constexpr double kExact = 2e-13, kFormula = 1e-6;
   using F = PairForm;
@@ -263,7 +261,10 @@ inline std::vector<Case> cases() {
   take("Morse", F::morse, C::none, 2, {{1, 5, 1.1}, 2.4, 0});
   take("soft", F::soft, C::none, 2, {{20, 0, 0}, 2.4, 0});
   take("Yukawa", F::yukawa, C::none, 2, {{10, 0, 0}, 2.4, 0}, 1.2);
-  for (const int types : {1, 2, 6}) all.push_back({"tables", params_with_tables(types), kExact});
+  for (const int types : {1, 2, 6}) {
+    all.push_back({"tables", params_with_tables(types), kExact});
+    all.push_back({"splines", params_with_splines(types), kExact});
+  }
   for (const int types : {1, 2, 3, 6}) {
     const PairPotentialParams all_alike = params(F::colloid, C::none, types, {{144, 0.9, 0, 0}, 2.4, 0});
     all.push_back({"colloids", with_diameters(all_alike), kExact});

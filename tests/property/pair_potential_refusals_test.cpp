@@ -90,11 +90,33 @@ TEST(PairPotential, WrongTablesAreRefused) {
   refuse("give finite ones", [](auto& p) { p.tables[1].energy[1] = std::nan(""); });
   refuse("give finite ones", [](auto& p) { p.tables[2].force_over_r[96] = std::nan(""); });
   refuse("too near to its end", [](auto& p) { p.tables[1].inner = std::nextafter(p.tables[1].outer, 0); });
+  refuse("give 0 of each", [](auto& p) { p.tables[1].force_bend.push_back(1); });
+  refuse("give 0 of each",
+         [](auto& p) { p.form = PairForm::table, p.tables = params_with_splines(2).tables; });
+  refuse("give 150 of each", [](auto& p) { p.form = PairForm::spline; });
   PairPotentialParams of_all = params_with_tables(2);
   EXPECT_TRUE(PairPotential(of_all).fits_single());
   of_all.tables[2].energy[3] = 1e-60;
   EXPECT_TRUE(PairPotential(of_all).fits_single());
   of_all.tables[2].energy[3] = -1e39;
+  EXPECT_FALSE(PairPotential(of_all).fits_single());
+}
+
+TEST(PairPotential, WrongSplinesAreRefused) {
+  const auto refuse = [](const std::string& words, const std::function<void(PairPotentialParams&)>& change) {
+    PairPotentialParams all = params_with_splines(2);
+    change(all);
+    expect_refused(all, words);
+  };
+  refuse("149 second derivatives of forces", [](auto& p) { p.tables[0].force_bend.pop_back(); });
+  refuse("151 of energies", [](auto& p) { p.tables[0].energy_bend.push_back(1); });
+  refuse("give finite ones", [](auto& p) { p.tables[2].energy_bend[96] = std::nan(""); });
+  refuse("give finite ones", [](auto& p) { p.tables[1].force_bend[0] = std::nan(""); });
+  refuse("overflow double precision", [](auto& p) { p.tables[1].force_bend[0] = -1e308; });
+  refuse("none is number 3", [](auto& p) { p.pairs[0].numbers[0] = 3; });
+  PairPotentialParams of_all = params_with_splines(2);
+  EXPECT_TRUE(PairPotential(of_all).fits_single());
+  of_all.tables[1].energy_bend[0] = -1e39;
   EXPECT_FALSE(PairPotential(of_all).fits_single());
 }
 

@@ -16,7 +16,7 @@ struct BatchTask {
   const double *weight, *charge_weight;
 };
 
-inline constexpr int kPairForms = 10, kChargeForms = 5;
+inline constexpr int kPairForms = 11, kChargeForms = 5;
 
 /// The loops of PairPotential, compiled for one instruction set; null where a form does not go with charges
 /// that act so.

@@ -2,6 +2,7 @@
 #include "clusters/simd/vectors_avx512.hpp"
 #include "simd/form_kernels_loops.hpp"
 #include "simd/form_kernels_sets.hpp"
+#include "simd/forms/knots_avx512.hpp"
 
 namespace dch::detail {
 

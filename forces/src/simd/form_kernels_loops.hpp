@@ -126,6 +126,7 @@ constexpr FormKernels form_kernels_of{
      {style_kernels<F, D, SoftForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, YukawaForm, NoCharges>(), {}, {}, {}, {}},
      {style_kernels<F, D, TableForm, NoCharges, true>(), {}, {}, {}, {}},
+     {style_kernels<F, D, SplineForm, NoCharges, true>(), {}, {}, {}, {}},
      {style_kernels<F, D, ColloidForm, NoCharges, false, false, true>(), {}, {}, {}, {}}},
     kWantsLanes<F>,
     kWantsLanes<D>};

@@ -99,7 +99,7 @@ struct LjConstants {
   /// Of a form of PairPotential, and of its charges.
   Real of_form[kNumbersOfForm]{}, of_charges[kNumbersOfCharges]{};
   const Real *table_force = nullptr,
-             *table_energy = nullptr;  ///< of TableForm, whose tables stand side by side
+             *table_energy = nullptr;  ///< of TableForm and SplineForm, whose tables stand side by side
 };
 
 /// Lennard-Jones and Coulomb forces of cluster pairs.

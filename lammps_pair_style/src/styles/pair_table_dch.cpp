@@ -12,19 +12,14 @@
 
 #include "restart_numbers.h"
 #include "table_file.h"
+#include "table_knots.h"
 
 namespace LAMMPS_NS {
 namespace {
 
 /// In the order in which the plain style counts them in restart files.
 constexpr const char* kWays[] = {"lookup", "linear", "spline", "bitmap"};
-constexpr int kLinear = 1;
-
-/// Whether the number in the middle is that between two knots next to each other, of so many.
-bool is_linear(double first, double middle, double second, int knots) {
-  const double off = std::abs(middle - 0.5 * (first + second));
-  return off <= std::max(1e-9, 1e-15 * knots) * (std::abs(first) + std::abs(second));
-}
+constexpr int kLinear = 1, kSpline = 2;
 
 }  // namespace
 
@@ -84,34 +79,18 @@ double PairTableDCH::first_distance(const std::string& file, const std::string& 
   return found;
 }
 
-/// Asks the plain style, from the cutoff inwards: where knots are not where they are thought to be, that
-/// shows before a distance is asked for that the table does not have. At the last knot it has no numbers.
-/// @returns whether it is linear between knots
-bool PairTableDCH::ask_for_knots(int a, int b, int length, Given& given) {
-  dch::PairTable& knots = given.knots;
-  auto &energy = knots.energy, &forces = knots.force_over_r;
-  knots.inner = given.inner;
-  knots.outer = plain().init_one(a, b);
-  if (!(knots.inner < knots.outer)) return false;
-  const auto n = static_cast<std::size_t>(length);
-  energy.resize(n);
-  forces.resize(n);
-  const double first2 = knots.inner * knots.inner;
-  const double apart = (knots.outer * knots.outer - first2) / (length - 1);
-  for (std::size_t k = n - 1; k-- > 0;) {
-    const double r2 = first2 + static_cast<double>(k) * apart;
-    double middle_force = 0;
-    const double middle = plain().single(0, 0, a, b, r2 + 0.5 * apart, 1, 1, middle_force);
-    energy[k] = plain().single(0, 0, a, b, r2, 1, 1, forces[k]);
-    if (k == n - 2) {
-      energy[k + 1] = 2 * middle - energy[k];
-      forces[k + 1] = 2 * middle_force - forces[k];
-    } else if (!is_linear(energy[k], middle, energy[k + 1], length) ||
-               !is_linear(forces[k], middle_force, forces[k + 1], length)) {
-      return false;
-    }
-  }
-  return true;
+/// @returns whether the plain style's table is what it is thought to be
+bool PairTableDCH::ask_for_knots(int a, int b, bool is_spline, int length, Given& given) {
+  given.knots.inner = given.inner;
+  given.knots.outer = plain().init_one(a, b);
+  if (!(given.knots.inner < given.knots.outer)) return false;
+  const dch::lammps::AskTable ask = [this, a, b](double r2) {
+    dch::lammps::TablePoint at;
+    at.energy = plain().single(0, 0, a, b, r2, 1, 1, at.force_over_r);
+    return at;
+  };
+  return is_spline ? dch::lammps::take_splines(ask, length, given.knots)
+                   : dch::lammps::take_lines(ask, length, given.knots);
 }
 
 dch::lammps::Obstacle PairTableDCH::obstacle_of_settings() {
@@ -121,7 +100,7 @@ dch::lammps::Obstacle PairTableDCH::obstacle_of_settings() {
   int numbers[2] = {-1, 0};  // how a table is read, and its length
   if (settings.size() >= sizeof numbers) std::memcpy(numbers, settings.data(), sizeof numbers);
   const auto [way, length] = numbers;
-  if (way != kLinear)
+  if (way != kLinear && way != kSpline)
     return {std::string("pair_style table ") + (way >= 0 && way < 4 ? kWays[way] : "of an unknown kind"),
             "'pair_style table linear N'"};
   for (const auto& [types, k] : given_of_types_) {
@@ -129,9 +108,11 @@ dch::lammps::Obstacle PairTableDCH::obstacle_of_settings() {
     if (!given.knots.energy.empty()) continue;
     if (given.inner == 0)
       return {"a file does not tell where its table begins", "a file with one distance a line"};
-    if (!ask_for_knots(types.first, types.second, length, given)) {
+    if (!ask_for_knots(types.first, types.second, way == kSpline, length, given)) {
       given.knots = {};
-      return {"a table of pair_style table linear that is not linear in r^2", "'pair_style table/stock'"};
+      return {way == kSpline ? "a table of pair_style table spline that is no cubic spline of r^2"
+                             : "a table of pair_style table linear that is not linear in r^2",
+              "'pair_style table/stock'"};
     }
   }
   return {};
@@ -144,6 +125,7 @@ void PairTableDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialPar
     const std::size_t k = given_of_types_.at({a, b});
     const auto [entry, is_new] = numbers.emplace(k, params.tables.size());
     if (is_new) params.tables.push_back(given_[k].knots);
+    if (!given_[k].knots.energy_bend.empty()) params.form = dch::PairForm::spline;
     dch::FormPair pair;
     pair.numbers[0] = static_cast<double>(entry->second);
     pair.cutoff = given_[k].knots.outer;

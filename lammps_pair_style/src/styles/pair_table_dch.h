@@ -16,10 +16,11 @@ PairStyle(table/dch,PairTableDCH);
 
 namespace LAMMPS_NS {
 
-/// table/dch, whose tables are those of `pair_style table linear`. The plain style keeps them to itself and
-/// writes none to restart files, so its single() is asked between the distances where a table begins, which
-/// its file tells, and ends, the cutoff. Two atoms that are closer than a table begins have no number as
-/// their force, and then the plain style is asked about each pair, which stops the run with its message.
+/// table/dch, whose tables are those of `pair_style table linear` and `spline`. The plain style keeps them to
+/// itself and writes none to restart files, so its single() is asked between the distances where a table
+/// begins, which its file tells, and ends, the cutoff. Two atoms that are closer than a table begins have no
+/// number as their force, and then the plain style is asked about each pair, which stops the run with its
+/// message.
 class PairTableDCH : public PairDCH {
  public:
   explicit PairTableDCH(LAMMPS* lammps)
@@ -39,7 +40,7 @@ class PairTableDCH : public PairDCH {
 
   void forget();
   double first_distance(const std::string& file, const std::string& keyword) const;
-  bool ask_for_knots(int a, int b, int length, Given& given);
+  bool ask_for_knots(int a, int b, bool is_spline, int length, Given& given);
   dch::lammps::Obstacle obstacle_of_settings() override;
   void take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& params) const override;
   void check_forces() override;

@@ -47,7 +47,7 @@ class PairStyles:
         elif style == "yukawa":
             self.add("pair_style yukawa 1.5 2.5", *(f"pair_coeff {t} 4.0 {c:.4f}" for t, s, c in pairs))
         elif style == "table":
-            self.add(f"pair_style table linear {len(pairs)}00",
+            self.add(f"pair_style table {'spline' if len(pairs) % 2 else 'linear'} {len(pairs)}00",
                      *(f"pair_coeff {t} random.table {'LOW' if k % 2 else 'HIGH'} {c:.4f}" for k, (t, s, c) in enumerate(pairs)))
         elif style == "lj/expand":
             self.add("pair_style lj/expand 2.5",

@@ -36,7 +36,8 @@ enum class PairForm {
   morse,          ///< d (e^(-2 alpha (r - r0)) - 2 e^(-alpha (r - r0))): d, alpha, r0
   soft,           ///< a (1 + cos(pi r / cutoff)): a
   yukawa,         ///< a e^(-kappa r) / r: a; for all kappa
-  table,          ///< a PairTable: its number, from 0
+  table,          ///< a PairTable, linear between knots: its number, from 0
+  spline,         ///< a PairTable of cubic splines: its number, from 0
   colloid  ///< spheres made of Lennard-Jones particles, and such particles, by Everaers and Ejtehadi, Phys.
            ///< Rev. E 67, 041710 (2003): A (Hamaker) [energy], sigma, diameters d1 and d2 [length], both >=
            ///< 0, 0 of a particle. Where spheres overlap, or a particle's center is within a sphere, forces
@@ -57,12 +58,14 @@ struct FormPair {
   double charge_cutoff = 0;         ///< >= 0; of charges, the same [length]
 };
 
-/// A force and an energy that are linear in r^2 between knots, which are equally far from each other in r^2.
-/// Pairs closer than the first knot have no number (NaN) as their force and energy. The force need not be the
-/// slope of the energy.
+/// A force and an energy between knots that are equally far from each other in r^2: linear in r^2, or cubic
+/// splines of it. Pairs closer than the first knot have no number (NaN) as their force and energy. The force
+/// need not be the slope of the energy.
 struct PairTable {
   double inner = 0, outer = 0;  ///< distances of the first knot and of the last, 0 <= inner < outer [length]
   std::vector<double> force_over_r, energy;  ///< at the knots; two or more, and as many of each
+  /// Second derivatives of both by r^2 at the knots, as many, of PairForm::spline; else none.
+  std::vector<double> force_bend{}, energy_bend{};
 };
 
 struct PairPotentialParams {
@@ -70,7 +73,7 @@ struct PairPotentialParams {
   ChargeForm charges = ChargeForm::none;
   int types = 1;
   std::vector<FormPair> pairs;    ///< symmetric matrix of pairs of types, row-major
-  std::vector<PairTable> tables;  ///< of PairForm::table; no cutoff is beyond the last knot
+  std::vector<PairTable> tables;  ///< of table and spline; no cutoff is beyond the last knot
   double of_all = 0;              ///< the form's number for all pairs
   double constant = 1;            ///< of charges, >= 0 [energy length / charge^2]
   double splitting = 0;           ///< of charges, >= 0 [1/length]
@@ -155,7 +158,8 @@ class PairPotential {
   template <class Real>
   using Tables = std::array<std::vector<Real>, 7>;
 
-  /// Tables side by side, as TableForm has them.
+  bool has_tables() const { return params_.form == PairForm::table || params_.form == PairForm::spline; }
+  /// Tables side by side, as TableForm or SplineForm has them.
   template <class Real>
   struct Knots {
     std::vector<Real> force, energy;

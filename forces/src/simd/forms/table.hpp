@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "simd/forms/knots.hpp"
 #include "simd/forms/style.hpp"
 
 namespace dch::detail {
 namespace {
 
-/// A PairTable: linear in r^2 between knots. Given are the square of the first one's distance, knots per
-/// length^2, and where the table begins among all: with a knot of its own that is no number, so that no pair
+/// Where pairs stand in a PairTable. Given are the square of the first knot's distance, knots per length^2,
+/// and where the table begins among the knots of all: with one of its own that is no number, so that no pair
 /// closer than the first one of PairTable has a force. Beyond the last one are more, as many as rounding may
 /// be off.
-struct TableForm {
+struct OfTables {
   static constexpr int kGiven = 3;
   static constexpr bool kActsAtZero = true, kMayBeShifted = false;
 
@@ -18,24 +19,64 @@ struct TableForm {
     for (int n = 0; n < kGiven; ++n) numbers[n] = given[n];
     return 0;
   }
+
+ protected:
+  template <class S>
+  struct Place {
+    typename S::V knot, part;  ///< among the knots of all; of the way to the next one
+
+    template <class Coefficients>
+    Place(const Coefficients& coefficient, int p, const PairDistance<S>& at) {
+      using V = typename S::V;
+      const V beyond_first = S::sub(S::keep(at.acts, at.r2), form_number<S>(coefficient, 0, p));
+      const V along = S::madd(beyond_first, form_number<S>(coefficient, 1, p), S::set1(1));
+      const V within = S::max(along, S::zero()), whole = S::floor(within);
+      part = S::sub(within, whole);
+      knot = S::add(whole, form_number<S>(coefficient, 2, p));
+    }
+  };
+};
+
+/// Linear in r^2 between knots.
+struct TableForm : OfTables {
   template <class S, class Coefficients>
   static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
                             const Constants<S>& constants) {
-    using V = typename S::V;
-    const V beyond_first = S::sub(S::keep(at.acts, at.r2), form_number<S>(coefficient, 0, p));
-    const V along = S::madd(beyond_first, form_number<S>(coefficient, 1, p), S::set1(1));
-    const V within = S::max(along, S::zero()), knot = S::floor(within), part = S::sub(within, knot);
-    const V place = S::add(knot, form_number<S>(coefficient, 2, p));
-    return {S::keep(at.acts, between<S>(constants.series->table_force, place, part)),
-            between<S>(constants.series->table_energy, place, part)};
+    const Place<S> place(coefficient, p, at);
+    return {S::keep(at.acts, between<S>(constants.series->table_force, place)),
+            between<S>(constants.series->table_energy, place)};
   }
 
  private:
   template <class S>
-  static typename S::V between(const typename S::Real* table, typename S::V place, typename S::V part) {
+  static typename S::V between(const typename S::Real* table, const Place<S>& place) {
     typename S::V first, second;
-    S::gather_two(table, place, first, second);
-    return S::madd(part, S::sub(second, first), first);
+    S::gather_two(table, place.knot, first, second);
+    return S::madd(place.part, S::sub(second, first), first);
+  }
+};
+
+/// A cubic spline of r^2. A knot has two numbers: its value y, and its bend, the second derivative by r^2
+/// times -d^2 / 6, where d is the step in r^2 from knot to knot. At the part b of a step, with a = 1 - b, it
+/// is a y0 + b y1 + a b ((1 + a) bend0 + (1 + b) bend1).
+struct SplineForm : OfTables {
+  template <class S, class Coefficients>
+  static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
+                            const Constants<S>& constants) {
+    const Place<S> place(coefficient, p, at);
+    return {S::keep(at.acts, between<S>(constants.series->table_force, place)),
+            between<S>(constants.series->table_energy, place)};
+  }
+
+ private:
+  template <class S>
+  static typename S::V between(const typename S::Real* table, const Place<S>& place) {
+    using V = typename S::V;
+    V knots[4];  // value and bend of the first, and of the second
+    TwoKnots<S>::load(table, place.knot, knots);
+    const V b = place.part, a = S::sub(S::set1(1), b);
+    const V bends = S::add(S::madd(a, knots[1], knots[1]), S::madd(b, knots[3], knots[3]));
+    return S::madd(S::mul(a, b), bends, S::madd(b, S::sub(knots[2], knots[0]), knots[0]));
   }
 };
 
