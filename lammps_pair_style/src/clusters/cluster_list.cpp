@@ -114,11 +114,11 @@ void ClusterListFiller::fill_pair_list(AtomPoints& points, dch::PairSearch& sear
   if (!asks_bonds && !asks_rules) {
     make([](std::int32_t, std::int32_t) { return true; });
   } else {
-    const SpecialPairs::Marks& marks = special_.take_marks();
-    const bool any_marked = asks_bonds && marks.any();
+    const SpecialPairs::Marks* const marks = asks_bonds ? &special_.take_marks() : nullptr;
+    const bool any_marked = marks != nullptr && marks->any();
     make([&](std::int32_t i, std::int32_t point) {
       const bool is_bonded =
-          any_marked && marks.of(i, atom->tag[points.atom_of(point)]) == SpecialPairs::Marks::kInNoList;
+          any_marked && marks->of(i, atom->tag[points.atom_of(point)]) == SpecialPairs::Marks::kInNoList;
       return !is_bonded & !(asks_rules && is_left_out(points, i, point));
     });
   }

@@ -47,7 +47,7 @@ struct ClusterList {
   bool by_size = false;      ///< each class of sizes has a structure, of which there are no cluster pairs
   bool wants_rows = false;   ///< of the style: pairs one by one are best in whole rows, if by_size decides
   double chosen_for = 0;     ///< radius at which that was chosen [length]
-  dch::PairList pair_list;   ///< of points: LAMMPS's indices
+  dch::PairList pair_list;   ///< of atoms: LAMMPS's indices
   dch::ClusterPairs pairs;   ///< of the same
   Special special;
   /// Whether pairs of these types, from 1, are wanted.
@@ -58,7 +58,8 @@ struct ClusterList {
 
   /// Whether pairs stand row by row in the order of atoms.
   bool has_whole_rows() const { return by_size && wants_rows; }
-  std::size_t points() const { return one_by_one ? pair_list.particles : pairs.particles; }
+  /// How many have numbers in them: owned ones in the box, else ghosts as well.
+  std::size_t atoms() const { return one_by_one ? pair_list.particles : pairs.particles; }
   std::int64_t count() const { return one_by_one ? pair_list.pairs() : pairs.slot_pairs(); }
   std::size_t memory_bytes() const { return pair_list.memory_bytes() + pairs.memory_bytes(); }
 

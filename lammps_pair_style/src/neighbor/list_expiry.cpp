@@ -35,7 +35,9 @@ std::array<double, 9> ListExpiry::box_now() const {
   return {low[0], low[1], low[2], high[0], high[1], high[2], domain->xy, domain->xz, domain->yz};
 }
 
-void ListExpiry::remember(AtomPoints& points, bool by_radii) {
+void ListExpiry::remember(AtomPoints& points, bool by_radii, bool may_be_asked) {
+  points_ = -1;
+  if (!may_be_asked) return;
   box_ = box_now();
   points_ = points.size();
   remember_left_out(points.ghosts_left_out());
@@ -104,8 +106,9 @@ bool ListExpiry::is_inside(const double* at, double reach, const double* beyond)
   return true;
 }
 
-/// Whether all atoms within their cutoffs of the fast ones were points: owned, or ghosts, which LAMMPS sends
-/// up to Comm::cutghost around this process's part of the box.
+/// Whether all atoms within their cutoffs of the fast ones were known here, as points or as ghosts that were
+/// left out: owned ones, and ghosts, which LAMMPS sends up to Comm::cutghost around this process's part of
+/// the box.
 bool ListExpiry::all_see(const AtomPoints& points, const Wanted& wanted) const {
   constexpr double kNothing[3] = {0, 0, 0};
   const double cutoff = neighbor->cutneighmax - wanted.skin + 2 * wanted.rounding;

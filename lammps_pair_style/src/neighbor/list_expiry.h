@@ -39,7 +39,8 @@ class ListExpiry : protected Pointers {
   explicit ListExpiry(LAMMPS* lammps) : Pointers(lammps) {}
 
   /// Lists are being made, of these points.
-  void remember(AtomPoints& points, bool by_radii);
+  /// @param may_be_asked  else judge() cannot tell
+  void remember(AtomPoints& points, bool by_radii, bool may_be_asked);
   /// What this process says of its atoms. Ghosts have to be where their owners are.
   /// @param before positions of the owned points at the build
   Verdict judge(AtomPoints& points, dch::PairSearch& search, const double* const* before,

@@ -58,7 +58,8 @@ void NeighborDCH::build_ours() {
     search_->update(points_.positions(), points_.box(), points_.keys());
     points_.forget_keys();
     run_.structure_seconds += seconds_since(clock);
-    expiry_.remember(points_, wanted_pairs().by_radii);
+    expiry_.remember(points_, wanted_pairs().by_radii, expiry_obstacle_.empty() && every == 1);
+    run_.points_seconds += seconds_since(clock);
     run_.entries = 0;
     if (fills_lists()) fill_lists();
     fill_clusters();
@@ -126,7 +127,7 @@ void NeighborDCH::order_atoms() {
       fills_lists() ? served_.front().rows.particle : cluster_filler_->order(*clusters_.back().list);
   std::vector<std::int32_t> atoms;
   atoms.reserve(points.size());
-  // Those of cluster pairs are atoms, and owned atoms with cluster pairs are points of the same number.
+  // With cluster pairs owned atoms are points of the same number; no ghost is put in order.
   for (const std::int32_t point : points)
     atoms.push_back(point < 0 || !fills_lists() ? point : points_.atom_of(point));
   stock_builds_.follow(order_.apply(atoms));
@@ -143,10 +144,9 @@ bool NeighborDCH::may_use_box() const {
 
 /// Whether nobody asks for the pairs that other processes take.
 bool NeighborDCH::leaves_ghosts_to_others() const {
-  const bool takes_turns =
+  const bool all_newton =
       std::all_of(served_.begin(), served_.end(), [](const ServedList& s) { return s.newton; });
-  return rules_.goes_by_side() && (!fills_lists() || takes_turns) &&
-         (clusters_.empty() || force->newton_pair);
+  return rules_.goes_by_side() && (!fills_lists() || all_newton) && (clusters_.empty() || force->newton_pair);
 }
 
 /// Whether LAMMPS has ghosts that are too far for pairs of their types, and nobody asks for what is around

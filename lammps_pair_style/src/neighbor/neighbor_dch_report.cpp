@@ -43,8 +43,8 @@ dch::lammps::RunReport NeighborDCH::settings_of_run() const {
   report.script_skin = skin;
   report.skin_obstacle = skin_obstacle_;
   report.in_box = points_.in_box();
-  report.leaves_ghosts_to_others = !points_.in_box() && leaves_ghosts_to_others();
-  report.leaves_far_ghosts = !points_.in_box() && leaves_far_ghosts();
+  report.leaves_ghosts_to_others = !points_.in_box() && !points_.has_ghosts_of_others();
+  report.leaves_far_ghosts = !points_.in_box() && !points_.has_far_ghosts();
   report.order_obstacle = order_.obstacle();
   report.ghosts_for = ghosts_for_;
   report.expiry_obstacle = expiry_obstacle_;

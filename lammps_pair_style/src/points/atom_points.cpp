@@ -76,9 +76,11 @@ void AtomPoints::select_atoms(const GhostChoice& choice) {
   atoms_.clear();
   left_out_.clear();
   has_ghosts_of_others_ = !choice.sides;
+  has_far_ghosts_ = !choice.reach;
   owned_ = of_group ? atom->nfirst : atom->nlocal;  // the group's atoms come first
   count_ = in_box_ ? owned_ : all;
-  if (in_box_ || (!of_group && !choice.sides && !choice.reach)) return;
+  are_atoms_ = in_box_ || (!of_group && !choice.sides && !choice.reach);
+  if (are_atoms_) return;
   atoms_.resize(static_cast<std::size_t>(owned_));
   std::iota(atoms_.begin(), atoms_.end(), 0);
   const int bit = group->bitmask[neighbor->includegroup];
@@ -100,7 +102,7 @@ std::int32_t AtomPoints::point_of(int i) const {
 void AtomPoints::take_positions() {
   const auto n = static_cast<std::size_t>(count_);
   const auto* const all = n > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
-  if (atoms_.empty()) {
+  if (are_atoms_) {
     positions_ = {all, n};
     return;
   }

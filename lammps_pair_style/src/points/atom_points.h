@@ -55,15 +55,16 @@ class AtomPoints : protected Pointers {
   int owned() const { return owned_; }  ///< the first so many points are owned atoms
   /// Ghosts that the choice has left out; LAMMPS's indices, ascending.
   dch::Span<const int> ghosts_left_out() const { return left_out_; }
-  /// Whether ghosts are among the points whose pairs other processes take.
+  /// Whether ghosts are among the points whose pairs other processes take, and ghosts that are in none.
   bool has_ghosts_of_others() const { return !in_box_ && has_ghosts_of_others_; }
-  /// Whether points are atoms with the same indices.
-  bool are_atoms() const { return atoms_.empty(); }
+  bool has_far_ghosts() const { return !in_box_ && has_far_ghosts_; }
+  /// Whether all atoms, or in the box all owned ones, are points with the same indices.
+  bool are_atoms() const { return are_atoms_; }
   /// The point that an atom is; -1 if it is none. O(log points), and of owned atoms O(1).
   std::int32_t point_of(int i) const;
   /// LAMMPS's index of a point.
   int atom_of(std::int32_t point) const {
-    return atoms_.empty() ? point : atoms_[static_cast<std::size_t>(point)];
+    return are_atoms_ ? point : atoms_[static_cast<std::size_t>(point)];
   }
 
  private:
@@ -74,9 +75,9 @@ class AtomPoints : protected Pointers {
   void name_in_open_space();
 
   bool in_box_ = false;
-  std::vector<int> atoms_;  ///< by point, ascending; empty if all are points
+  std::vector<int> atoms_;  ///< by point, ascending; empty where are_atoms_
   std::vector<int> left_out_;
-  bool has_ghosts_of_others_ = true;
+  bool are_atoms_ = true, has_ghosts_of_others_ = true, has_far_ghosts_ = true;
   int owned_ = 0, count_ = 0;
   std::vector<dch::Vec3> gathered_;
   dch::Span<const dch::Vec3> positions_;

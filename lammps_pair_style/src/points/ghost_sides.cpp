@@ -6,6 +6,8 @@
 #include <atom.h>
 #include <comm.h>
 #include <cstring>
+#include <error.h>
+#include <string>
 
 #include "lammps_versions.h"
 
@@ -22,12 +24,19 @@ std::array<char*, 3> words_of_fix() {
 
 }  // namespace
 
+// Comm has room for one number of each atom, as it has for three coordinates: it asks only fixes in the list
+// of fixes how many they send.
 GhostSides::GhostSides(LAMMPS* lammps) : Fix(lammps, 3, words_of_fix().data()) { comm_forward = 1; }
 
 void GhostSides::gather() {
   const auto owned = static_cast<std::size_t>(atom->nlocal);
   place_.assign(owned + static_cast<std::size_t>(atom->nghost), comm->me);
   dch::lammps::forward_communication(*comm, static_cast<Fix*>(this), comm_forward);
+  if (std::find(place_.begin() + atom->nlocal, place_.end(), comm->me) != place_.end())
+    error->one(
+        FLERR,
+        std::string("DCH neighbor lists: this LAMMPS does not say across which faces it sends ghosts to ") +
+            "their own process; give 'dch off', and please report its version and comm_style");
   is_taken_.resize(place_.size());
   std::transform(place_.begin(), place_.end(), is_taken_.begin(),
                  [&](std::int64_t place) { return place >= comm->me ? 1 : 0; });

@@ -38,7 +38,7 @@ const SpecialPairs::Marks& SpecialPairs::take_marks() {
   for (int i = 0; i < atom->nlocal; ++i) {
     marks_.first_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(marks_.partner_.size());
     const int* const end = atom->nspecial[i];
-    for (int kind = 1; kind < 4; ++kind) {
+    for (int kind = 3; kind > 0; --kind) {
       if (mark_of[kind] == 0) continue;
       for (int k = kind == 1 ? 0 : end[kind - 2]; k < end[kind - 1]; ++k)
         marks_.partner_.push_back({atom->special[i][k], mark_of[kind]});

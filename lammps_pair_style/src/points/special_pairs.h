@@ -35,10 +35,10 @@ class SpecialPairs : protected Pointers {
     /// Bits of a list's entry of owned atom i for the atom with this ID: 0 of an ordinary neighbor. Only if
     /// any().
     int of(int i, tagint tag) const {
-      int mark = 0;
+      int mark = 0;  // the last that fits: partners stand in reverse, and the nearest kind of pair counts
       const auto last = static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1]);
       for (auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]); k < last; ++k)
-        mark |= partner_[k].tag == tag ? partner_[k].mark : 0;
+        mark = partner_[k].tag == tag ? partner_[k].mark : mark;
       return mark;
     }
 

@@ -70,13 +70,13 @@ void PairDCH::take_sums_of_plain() {
 }
 
 dch::Span<const dch::Vec3> PairDCH::positions() const {
-  const std::size_t points = clusters_->points();
+  const std::size_t points = clusters_->atoms();
   return {points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr, points};
 }
 
 dch::Span<const double> PairDCH::charges() const {
   if (!has_charges()) return {};
-  return {atom->q, clusters_->points()};
+  return {atom->q, clusters_->atoms()};
 }
 
 dch::Box PairDCH::box() const { return clusters_->in_box ? box_of(*domain) : dch::Box::none(); }
@@ -124,7 +124,7 @@ dch::PairPotentialParams PairDCH::kernel_params() const {
 /// LAMMPS would send the other half home where newton is on for bonds.
 void PairDCH::compute_clusters() {
   const ClusterList& wanted = *clusters_;
-  const std::size_t points = wanted.points();
+  const std::size_t points = wanted.atoms();
   const dch::Span<dch::Vec3> f{points > 0 ? reinterpret_cast<dch::Vec3*>(atom->f[0]) : nullptr, points};
   const bool keeps_ghosts = force->newton && !force->newton_pair && !wanted.in_box;
   if (keeps_ghosts) of_ghosts_.assign(f.begin() + atom->nlocal, f.end());

@@ -52,7 +52,7 @@ void ClusterVerifier::take_ours(const ClusterList& ours, double rounding, std::v
     take(pair_of(i, j, from_i_to_j, 0, rounding), i, j, from_i_to_j, out);
   };
   if (ours.one_by_one) {
-    const std::size_t points = ours.points();
+    const std::size_t points = ours.atoms();
     const auto* const x = points > 0 ? reinterpret_cast<const dch::Vec3*>(atom->x[0]) : nullptr;
     ours.pair_list.for_each({x, points}, ours.in_box ? box_of(*domain) : dch::Box::none(), take_pair);
   } else {

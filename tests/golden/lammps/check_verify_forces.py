@@ -4,6 +4,7 @@
 each mistake that lmp_faulty_clusters plants into the third search, which is at step 10, or 5 if bonds were made before
 the run."""
 
+import math
 import re
 import unittest
 
@@ -179,6 +180,39 @@ class Silent(unittest.TestCase):
                 for newton in ("on", "off"):
                     with self.subTest(script=script, ranks=ranks, newton=newton):
                         self.check(f"newton {newton}\n" + script, ranks=ranks)
+
+    def test_processes_of_many_shapes(self):
+        """Ghosts come over several processes, and of several images of a box, with shifts of either sign."""
+        narrow = MELT.replace("0 6 0 6 0 6", "0 2 0 2 0 8")
+        tiled = MELT.replace("fix 1 all nve", "comm_style tiled\nbalance 1.0 rcb\nfix 1 all nve")
+        types = TWO_TYPES.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 1.6\npair_coeff 2 2 1.0 1.0 1.2\nneighbor 0.3")
+        for script, layouts in ((narrow, ("1 1 2", "2 2 1", "2 1 2")), (tiled, ("1 1 2", "2 1 2")),
+                                (types, ("2 2 1",)), (MELT, ("4 1 1", "1 2 2"))):
+            for layout in layouts:
+                for cutoff in CUTOFFS.values():
+                    ranks = math.prod(map(int, layout.split()))
+                    with self.subTest(script=script, layout=layout, cutoff=cutoff):
+                        self.check(f"processors {layout}\n" + with_cutoff(script, cutoff), ranks=ranks)
+                        self.check(f"dch on\ndch styles no\nsuffix off\nprocessors {layout}\n" + with_cutoff(script, cutoff), ranks=ranks)
+
+    def test_processes_without_atoms(self):
+        """And with ghosts: all atoms are in a corner, of which ghosts are on the other side."""
+        script = TWO_TYPES.replace("box block 0 6 0 6 0 6", "box block 0 6 0 6 0 12").replace(
+            "create_atoms 1 box", "region corner block 0 6 0 6 0 3\ncreate_atoms 1 region corner")
+        script = script.replace("neighbor 0.3", "pair_coeff 1 2 1.0 1.0 1.1\npair_coeff 2 2 1.0 1.0 1.2\nneighbor 0.3")
+        self.assertIn("region corner", script)
+        for cutoff in CUTOFFS.values():
+            for newton in ("on", "off", "off on"):
+                with self.subTest(cutoff=cutoff, newton=newton):
+                    self.check(f"newton {newton}\nprocessors 1 1 4\n" + with_cutoff(script, cutoff), ranks=4)
+
+    def test_ghosts_of_collections_on_one_side(self):
+        script = TWO_TYPES.replace("neighbor 0.3 bin", "pair_coeff 1 2 1.0 1.0 1.9\npair_coeff 2 2 1.0 1.0 1.4\nneighbor 0.3 multi\n"
+                                   "comm_modify mode multi reduce/multi")
+        self.assertIn("reduce/multi", script)
+        for ranks in (1, 2, 4):
+            with self.subTest(ranks=ranks):
+                self.check(script, ranks=ranks)
 
     def test_open_space(self):
         self.check(MELT.replace("units lj", "units lj\nboundary s s s"))

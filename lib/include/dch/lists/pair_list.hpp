@@ -79,7 +79,8 @@ class PairListMaker {
   /// @throws InvalidParameter as make_pair_list()
   PairListMaker(const NeighborList& list, double list_radius, Span<const Vec3> positions, const Box& box,
                 Span<const std::int32_t> types, PairList& out);
-  /// @param is_wanted  else it is left out, without a branch, as nobody can guess which pairs are
+  /// @param is_wanted  else it is left out; without a branch where there are no images, as which pairs are
+  /// wanted cannot be foretold
   void add(std::int32_t i, std::int32_t j, bool is_wanted) {
     const bool is_near = !has_images_ || is_nearest(i, j);
     out_.i[near_] = i;  // there is room; what is far or left out is overwritten by the next
