@@ -170,6 +170,78 @@ TEST(NoiseTest, IsUniformByKolmogorovAndSmirnov) {
   }
 }
 
+std::vector<double> ranmar_numbers(RanmarNoise& generator, std::size_t vectors) {
+  std::vector<Vec3> noise(vectors);
+  generator.draw(noise);
+  std::vector<double> numbers;
+  for (const Vec3& v : noise) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  return numbers;
+}
+
+// James (1990): the numbers behind the first 20,000 from seeds 1802 and 9373, times 2^24. LAMMPS's seed is
+// one above 30082 times the first and the second, and its first number has been drawn.
+TEST(RanmarTest, KnownAnswers) {
+  const RestoreInstructionSet restore;
+  for (const InstructionSet set : supported_sets()) {
+    set_instruction_set(set);
+    RanmarNoise generator(1802 * 30082 + 9373 + 1);
+    std::vector<double> found = ranmar_numbers(generator, 6669);
+    found.erase(found.begin(), found.begin() + 19999);
+    found.resize(6);
+    for (double& number : found) number = (number + 0.5) * 16777216;
+    EXPECT_EQ(found, (std::vector<double>{6533892, 14220222, 7275067, 6172232, 8354498, 10633180})) << set;
+  }
+}
+
+/// One number after another, in floating point, as Marsaglia, Zaman and Tsang write it down.
+class PlainRanmar {
+ public:
+  explicit PlainRanmar(int seed) {
+    const int first = (seed - 1) / 30082, second = (seed - 1) % 30082;
+    int i = (first / 177) % 177 + 2, j = first % 177 + 2, k = (second / 169) % 178 + 1, l = second % 169;
+    for (double& sum : sums_) {
+      double bit = 0.5;
+      for (int n = 0; n < 24; ++n, bit /= 2) {
+        const int m = (((i * j) % 179) * k) % 179;
+        i = j, j = k, k = m;
+        l = (53 * l + 1) % 169;
+        if ((l * m) % 64 >= 32) sum += bit;
+      }
+    }
+    next();
+  }
+
+  double next() {
+    double sum = sums_[at_] - sums_[(at_ + 97 - 64) % 97];
+    if (sum < 0) sum += 1;
+    sums_[at_] = sum;
+    at_ = (at_ + 96) % 97;
+    shift_ -= 7654321.0 / 16777216;
+    if (shift_ < 0) shift_ += 16777213.0 / 16777216;
+    return sum < shift_ ? sum - shift_ + 1 : sum - shift_;
+  }
+
+ private:
+  std::array<double, 97> sums_{};
+  std::size_t at_ = 96;
+  double shift_ = 362436.0 / 16777216;
+};
+
+TEST(RanmarTest, IsThePlainGeneratorInPiecesOfAnySize) {
+  const RestoreInstructionSet restore;
+  for (const int seed : {1, 904297, 900000000})
+    for (const InstructionSet set : supported_sets()) {
+      set_instruction_set(set);
+      RanmarNoise generator(seed);
+      PlainRanmar plain(seed);
+      for (const std::size_t vectors : {1u, 0u, 10u, 11u, 32u, 33u, 127u, 128u, 129u, 300u, 2u, 1000u}) {
+        std::vector<double> expected;
+        for (std::size_t k = 0; k < 3 * vectors; ++k) expected.push_back(plain.next() - 0.5);
+        EXPECT_EQ(ranmar_numbers(generator, vectors), expected) << seed << ' ' << set << ' ' << vectors;
+      }
+    }
+}
+
 TEST(LangevinTest, HasTheBitsOfAPlainLoop) {
   const RestoreInstructionSet restore;
   for (const std::size_t count : {0u, 1u, 7u, 8u, 129u}) {
@@ -205,6 +277,7 @@ TEST(LangevinTest, RefusesWhatDoesNotFit) {
   const std::vector<Vec3> two_vectors(2), three_vectors(3);
   std::vector<Vec3> forces(3);
   EXPECT_THROW(uniform_noise(1, 1, {}, forces), InvalidParameter);
+  for (const int seed : {0, -1, 900000001}) EXPECT_THROW(RanmarNoise{seed}, InvalidParameter);
   EXPECT_THROW(add_langevin_forces(two, three, three_vectors, three_vectors, forces), InvalidParameter);
   EXPECT_THROW(add_langevin_forces(three, two, three_vectors, three_vectors, forces), InvalidParameter);
   EXPECT_THROW(add_langevin_forces(three, three, two_vectors, three_vectors, forces), InvalidParameter);

@@ -9,6 +9,7 @@
 
 #include "simd/noise_task.hpp"
 #include "simd/philox.hpp"
+#include "simd/ranmar_loops.hpp"
 
 namespace dch::detail {
 namespace {
@@ -84,7 +85,7 @@ inline void noise_langevin(const LangevinTask& task) {
       force[k] += drag[i] * velocity[k] + strength[i] * noise[k];
 }
 
-inline constexpr NoiseKernels noise_kernels{noise_uniform, noise_langevin};
+inline constexpr NoiseKernels noise_kernels{noise_uniform, noise_ranmar, noise_langevin};
 
 }  // namespace
 }  // namespace dch::detail

@@ -17,6 +17,14 @@ struct NoiseTask {
   Vec3* noise;  ///< written
 };
 
+/// Numbers of Ranmar, the next ones of a sequence.
+struct RanmarTask {
+  std::int32_t* recent;  ///< the last kRanmarLongLag sums in units of 2^-24, the oldest one first; moved on
+  std::int32_t* shift;   ///< that the last sum was less, the same; moved on
+  std::size_t count;
+  double* numbers;  ///< written, less 1/2
+};
+
 struct LangevinTask {
   const double *drag, *strength;
   const Vec3 *velocities, *noise;
@@ -26,6 +34,7 @@ struct LangevinTask {
 
 struct NoiseKernels {
   void (*uniform)(const NoiseTask& task);
+  void (*ranmar)(const RanmarTask& task);
   void (*langevin)(const LangevinTask& task);
 };
 

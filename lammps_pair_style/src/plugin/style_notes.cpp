@@ -101,9 +101,6 @@ void add_fixes(LAMMPS* lmp, std::vector<StyleNote>& notes) {
     if (std::isupper(static_cast<unsigned char>(name[0]))) continue;  // LAMMPS's and our own helpers
     StyleNote found = note(*modify.fix_map, "", name, lmp, *fix);
     found.name = kind + found.name;
-    const std::string philox = name + "/philox";
-    if (modify.fix_map->count(philox) > 0)
-      found.how += "; " + philox + " is faster, with random numbers of its own";
     notes.push_back(found);
   }
 }

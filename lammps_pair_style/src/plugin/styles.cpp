@@ -15,6 +15,7 @@
 #include "compute_dch_work.h"
 #include "compute_necklace_contact.h"
 #include "explained.h"
+#include "fix_langevin_dch.h"
 #include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"
@@ -114,6 +115,7 @@ std::vector<StyleEntry<Fix, int, char**>> fix_styles_dch() {
 #define FIX_CLASS
 #define FixStyle(key, Made) \
   styles.push_back({#key, &create<Fix, Made, int, char**>, &create_chosen<Fix, Made, int, char**>})
+#include "fix_langevin_dch.h"
 #include "fix_langevin_philox.h"
 #include "fix_necklace_crossing.h"
 #include "fix_nve_dch.h"

@@ -15,6 +15,7 @@ FixStyle(langevin/philox,FixLangevinPhilox);
 #include <dch/base/vec3.hpp>
 
 #include "explained.h"
+#include "langevin_bath.h"
 
 namespace LAMMPS_NS {
 
@@ -37,19 +38,14 @@ class FixLangevinPhilox : public Fix, public Explained {
  private:
   void read_keywords(int narg, char** arg);
   void read_scale(const char* type, const char* ratio);
-  void take_prefactors();
-  double temperature();
-  void add_forces(const int* atoms, int count, double root_of_temperature);
-  void subtract_mean(double root_of_temperature);
+  void add_forces(const int* atoms, int count);
+  void subtract_mean();
 
-  std::string name_;      ///< how messages begin
-  std::string variable_;  ///< of the temperature; empty if it is a number
-  double start_ = 0, stop_ = 0;
-  double damping_ = 0;  ///< [time]
+  std::string name_;  ///< how messages begin
+  LangevinBath bath_;
   std::uint32_t seed_ = 0;
   bool is_zeroed_ = false;
-  std::vector<double> ratio_, drag_, strength_;  ///< by type; strength at a temperature of 1
-  std::vector<dch::Vec3> sums_;                  ///< of noise at this step, by type, if is_zeroed_
+  std::vector<dch::Vec3> sums_;  ///< of noise at this step, by type, if is_zeroed_
 };
 
 }  // namespace LAMMPS_NS

@@ -130,7 +130,12 @@ class Explain(unittest.TestCase):
 
     def test_thermostats(self):
         found, _ = explained(LATEST + "fix 2 all langevin 1.0 1.0 1.0 4711\ndch on\nrun 10\n")
-        self.assertIn("langevin/philox is faster, with random numbers of its own", found["fix 2, langevin"])
+        self.assertEqual(found["fix 2, langevin"],
+                         "native, as it was made before 'dch on'; give that before it for langevin/dch")
+        self.assertIn("fix langevin may draw random numbers", found["order of atoms"])
+        found, _ = explained("dch on\n" + LATEST + "fix 2 all langevin 1.0 1.0 1.0 4711\nrun 10\n")
+        self.assertEqual(found["fix 2, langevin/dch"], "SIMD kernel, the random numbers of fix langevin; taken by 'dch on' in "
+                         "place of langevin ('dch styles no')")
         self.assertIn("fix langevin may draw random numbers", found["order of atoms"])
         found, _ = explained("dch on\n" + LATEST + "fix 2 all langevin/philox 1.0 1.0 1.0 4711\nrun 10\n")
         self.assertEqual(found["fix 2, langevin/philox"], "SIMD kernel, random numbers by seed, atom ID and step")

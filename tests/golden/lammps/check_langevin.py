@@ -147,13 +147,6 @@ class BesideOthers(unittest.TestCase):
             output = run(f"include ${{load}}\n{script}fix 2 all {style} 1.0 1.0 1.0 4711\nrun 60\ndch stats\n")
             self.assertEqual("atoms in memory         in the order of the structure" in output, is_ordered, style)
 
-    def test_the_suffix_leaves_langevin_alone(self):
-        script = MELT.replace("fix 1", "suffix dch\nfix 1") + f"fix 2 all langevin 1.0 1.0 1.0 {SEED}\nrun 20\n"
-        output = run("include ${load}\n" + script + "info fixes\n")
-        self.assertRegex(output, r"style = *nve/dch")
-        self.assertRegex(output, r"style = *langevin\n|style = *langevin[ ,]")
-        self.assertEqual(atoms_after(script.replace("suffix dch\n", "")), atoms_after(script))
-
 
 class Statistics(unittest.TestCase):
     """Velocities of a gas. They are a moving sum of the noise: with a = dt / (2 damping) and k T / m = 1, a velocity is

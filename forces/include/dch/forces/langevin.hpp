@@ -23,6 +23,25 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
 /// @throws InvalidParameter if there is not as much room as IDs.
 void uniform_noise(std::uint32_t seed, std::int64_t step, Span<const std::int32_t> ids, Span<Vec3> noise);
 
+/// Random numbers of Ranmar, the generator of Marsaglia, Zaman and Tsang ("Toward a universal random number
+/// generator", Statistics and Probability Letters 9, 1990) with the seeds of James ("A review of pseudorandom
+/// number generators", Computer Physics Communications 60, 1990): one after another of a sequence, of period
+/// 2^144, as LAMMPS draws them, many at once.
+class RanmarNoise {
+ public:
+  /// LAMMPS's seeds: one number has been drawn already.
+  /// @throws InvalidParameter unless the seed is from 1 to 900,000,000
+  explicit RanmarNoise(int seed);
+
+  /// The next three numbers for each vector, uniform in [-1/2, 1/2) in units of 2^-24. They do not depend on
+  /// the number of calls nor on the instruction set.
+  void draw(Span<Vec3> noise);
+
+ private:
+  std::array<std::int32_t, 97> recent_{};  ///< sums in units of 2^-24, the oldest one first
+  std::int32_t shift_;
+};
+
 /// force += drag velocity + strength noise, for each particle. Each product and each sum is rounded on its
 /// own, in this order: the same bits on every instruction set.
 /// @param drag of each particle, negative where it slows down [mass/time]
