@@ -11,6 +11,8 @@ namespace {
 /// and where the table begins among the knots of all: with one of its own that is no number, so that no pair
 /// closer than the first one of PairTable has a force. Beyond the last one are more, as many as rounding may
 /// be off.
+/// @tparam Form  says by between() what a table is between two knots
+template <class Form>
 struct OfTables {
   static constexpr int kGiven = 3;
   static constexpr bool kActsAtZero = true, kMayBeShifted = false;
@@ -18,6 +20,14 @@ struct OfTables {
   static double prepare(const double* given, double, double* numbers) {
     for (int n = 0; n < kGiven; ++n) numbers[n] = given[n];
     return 0;
+  }
+
+  template <class S, class Coefficients>
+  static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
+                            const Constants<S>& constants) {
+    const Place<S> place(coefficient, p, at);
+    return {S::keep(at.acts, Form::template between<S>(constants.series->table_force, place)),
+            Form::template between<S>(constants.series->table_energy, place)};
   }
 
  protected:
@@ -38,16 +48,7 @@ struct OfTables {
 };
 
 /// Linear in r^2 between knots.
-struct TableForm : OfTables {
-  template <class S, class Coefficients>
-  static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
-                            const Constants<S>& constants) {
-    const Place<S> place(coefficient, p, at);
-    return {S::keep(at.acts, between<S>(constants.series->table_force, place)),
-            between<S>(constants.series->table_energy, place)};
-  }
-
- private:
+struct TableForm : OfTables<TableForm> {
   template <class S>
   static typename S::V between(const typename S::Real* table, const Place<S>& place) {
     typename S::V first, second;
@@ -59,16 +60,7 @@ struct TableForm : OfTables {
 /// A cubic spline of r^2. A knot has two numbers: its value y, and its bend, the second derivative by r^2
 /// times -d^2 / 6, where d is the step in r^2 from knot to knot. At the part b of a step, with a = 1 - b, it
 /// is a y0 + b y1 + a b ((1 + a) bend0 + (1 + b) bend1).
-struct SplineForm : OfTables {
-  template <class S, class Coefficients>
-  static FormTerms<S> terms(const Coefficients& coefficient, int p, const PairDistance<S>& at,
-                            const Constants<S>& constants) {
-    const Place<S> place(coefficient, p, at);
-    return {S::keep(at.acts, between<S>(constants.series->table_force, place)),
-            between<S>(constants.series->table_energy, place)};
-  }
-
- private:
+struct SplineForm : OfTables<SplineForm> {
   template <class S>
   static typename S::V between(const typename S::Real* table, const Place<S>& place) {
     using V = typename S::V;
