@@ -49,8 +49,27 @@ struct PairWeights {
 
 template <class S>
 struct LaneSums {
+  LaneSums() : energy(S::zero()), coulomb_energy(S::zero()) {
+    for (auto& v : virial) v = S::zero();
+  }
+  template <Wanted kFound, class Kind>
+  void give(LjSums& sums) const {
+    if constexpr (kFound == Wanted::forces) return;
+    sums.energy += S::sum(energy);
+    if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(coulomb_energy);
+    for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(virial[v]);
+  }
   typename S::V energy, coulomb_energy, virial[6];
 };
+
+template <class S>
+Coordinates<S> shift_of(const LjPairTask& task) {
+  Coordinates<S> shift;
+  shift.x[0] = S::set1(task.shift.x);
+  shift.y[0] = S::set1(task.shift.y);
+  shift.z[0] = S::set1(task.shift.z);
+  return shift;
+}
 
 /// Adds half of the numbers of pairs, those of `lanes` alone, to each of their two particles.
 template <class S>
@@ -132,13 +151,8 @@ template <class S, LjParameters kParameters, Wanted kFound, class Kind, bool kWe
 DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
   LaneCoefficients<S, kParameters> coefficient(task.coefficients);
   const Constants<S> constants(task.constants);
-  Coordinates<S> shift;
-  shift.x[0] = S::set1(task.shift.x);
-  shift.y[0] = S::set1(task.shift.y);
-  shift.z[0] = S::set1(task.shift.z);
+  const Coordinates<S> shift = shift_of<S>(task);
   LaneSums<S> sum;
-  sum.energy = sum.coulomb_energy = S::zero();
-  for (auto& v : sum.virial) v = S::zero();
   constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
   std::int64_t k = task.first;
   for (; k + S::kLanes <= task.last; k += S::kLanes)
@@ -158,11 +172,7 @@ DCH_FLATTEN void lennard_jones_of_pairs(const LjPairTask& task, LjSums& sums) {
     const auto mask = kAll >> (S::kLanes - (task.last - k));
     add_pairs<S, kFound, kWeighted, Kind>(task, pairs, mask, shift, constants, coefficient, sum);
   }
-  if constexpr (kFound != Wanted::forces) {
-    sums.energy += S::sum(sum.energy);
-    if constexpr (Kind::kHasCharges) sums.coulomb_energy += S::sum(sum.coulomb_energy);
-    for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
-  }
+  sum.template give<kFound, Kind>(sums);
 }
 
 template <class S, class Kind>

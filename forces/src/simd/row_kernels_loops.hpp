@@ -122,13 +122,8 @@ DCH_FLATTEN void rows_of_pairs(const LjPairTask& task, LjSums& sums) {
   static_assert(!Kind::kHasCharges && !Kind::kActsAtZero);
   LaneCoefficients<S, LjParameters::by_type> coefficient(task.coefficients);
   const Constants<S> constants(task.constants);
-  Coordinates<S> shift;
-  shift.x[0] = S::set1(task.shift.x);
-  shift.y[0] = S::set1(task.shift.y);
-  shift.z[0] = S::set1(task.shift.z);
+  const Coordinates<S> shift = shift_of<S>(task);
   LaneSums<S> sum;
-  sum.energy = sum.coulomb_energy = S::zero();
-  for (auto& v : sum.virial) v = S::zero();
   constexpr std::uint32_t kAll = (1u << S::kLanes) - 1;
   std::int64_t k = task.first;
   while (k + S::kLanes <= task.last) {
@@ -145,10 +140,7 @@ DCH_FLATTEN void rows_of_pairs(const LjPairTask& task, LjSums& sums) {
     }
     k += add_row<S, kFound, Kind>(task, i, j, (1u << left) - 1, shift, constants, coefficient, sum);
   }
-  if constexpr (kFound != Wanted::forces) {
-    sums.energy += S::sum(sum.energy);
-    for (int v = 0; v < 6; ++v) sums.virial[v] += S::sum(sum.virial[v]);
-  }
+  sum.template give<kFound, Kind>(sums);
 }
 
 }  // namespace
