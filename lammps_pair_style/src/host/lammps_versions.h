@@ -6,7 +6,6 @@
 // compile, by its size.
 #include <lmptype.h>
 #include <type_traits>
-#include <utility>
 
 namespace dch::lammps {
 
@@ -35,58 +34,32 @@ bool wants_own_cutoff([[maybe_unused]] const Style& sub_style) {
   return false;
 }
 
-template <class Comm, class Style, class = void>
-inline constexpr bool kNamesCommByStyle = sizeof(Comm) == 0;
-template <class Comm, class Style>
-inline constexpr bool kNamesCommByStyle<
-    Comm, Style, std::void_t<decltype(std::declval<Comm&>().forward_comm_fix(std::declval<Style*>(), 0))>> =
-    true;
+/// Whether functions of Comm have the kind of style in their names.
+template <class Comm, class = void>
+inline constexpr bool kNamesStyles = sizeof(Comm) == 0;
+template <class Comm>
+inline constexpr bool kNamesStyles<Comm, std::void_t<decltype(&Comm::forward_comm_fix)>> = true;
 
-/// Sends numbers of a fix from owned atoms to their ghosts, so many for each atom.
-template <class Comm, class Style>
-void forward_communication(Comm& comm, Style* fix, int numbers) {
-  if constexpr (kNamesCommByStyle<Comm, Style>) {
-    comm.forward_comm_fix(fix, numbers);
-  } else {
-    comm.forward_comm(fix, numbers);
-  }
+/// Sends numbers of a pair style from owned atoms to their ghosts, or of a fix so many for each atom.
+template <class Comm, class Style, class... Count>
+void forward_communication(Comm& comm, Style* style, Count... numbers) {
+  if constexpr (!kNamesStyles<Comm>)
+    comm.forward_comm(style, numbers...);
+  else if constexpr (sizeof...(numbers) == 0)
+    comm.forward_comm_pair(style);
+  else
+    comm.forward_comm_fix(style, numbers...);
 }
 
-template <class Comm, class Style, class = void>
-inline constexpr bool kNamesCommByPair = sizeof(Comm) == 0;
-template <class Comm, class Style>
-inline constexpr bool kNamesCommByPair<
-    Comm, Style, std::void_t<decltype(std::declval<Comm&>().forward_comm_pair(std::declval<Style*>()))>> =
-    true;
-
-/// The same of a pair style.
-template <class Comm, class Style>
-void forward_communication_of_pair(Comm& comm, Style* pair) {
-  if constexpr (kNamesCommByPair<Comm, Style>) {
-    comm.forward_comm_pair(pair);
-  } else {
-    comm.forward_comm(pair);
-  }
-}
-
-/// Adds numbers of ghosts to those of owned atoms.
-template <class Comm, class Style>
-void reverse_communication(Comm& comm, Style* pair) {
-  if constexpr (kNamesCommByPair<Comm, Style>) {
-    comm.reverse_comm_pair(pair);
-  } else {
-    comm.reverse_comm(pair);
-  }
-}
-
-/// The same of a fix, so many for each atom.
-template <class Comm, class Style>
-void reverse_communication_of_fix(Comm& comm, Style* fix, int numbers) {
-  if constexpr (kNamesCommByStyle<Comm, Style>) {
-    comm.reverse_comm_fix(fix, numbers);
-  } else {
-    comm.reverse_comm(fix, numbers);
-  }
+/// Adds such numbers of ghosts to those of owned atoms.
+template <class Comm, class Style, class... Count>
+void reverse_communication(Comm& comm, Style* style, Count... numbers) {
+  if constexpr (!kNamesStyles<Comm>)
+    comm.reverse_comm(style, numbers...);
+  else if constexpr (sizeof...(numbers) == 0)
+    comm.reverse_comm_pair(style);
+  else
+    comm.reverse_comm_fix(style, numbers...);
 }
 
 /// Copies whether the last coefficients come from mixing, which the log counts.

@@ -50,7 +50,7 @@ void FixDCHWork::post_neighbor() {
   std::fill_n(work_.begin(), atom->nlocal, kOwn);
   std::fill_n(work_.begin() + atom->nlocal, atom->nghost, 0.0);
   if (const auto* ours = dynamic_cast<const NeighborDCH*>(neighbor)) ours->count_work(work_.data());
-  dch::lammps::reverse_communication_of_fix(*comm, static_cast<Fix*>(this), comm_reverse);
+  dch::lammps::reverse_communication(*comm, this, comm_reverse);
 }
 
 void FixDCHWork::grow_arrays(int nmax) {

@@ -31,7 +31,7 @@ GhostSides::GhostSides(LAMMPS* lammps) : Fix(lammps, 3, words_of_fix().data()) {
 void GhostSides::gather() {
   const auto owned = static_cast<std::size_t>(atom->nlocal);
   place_.assign(owned + static_cast<std::size_t>(atom->nghost), comm->me);
-  dch::lammps::forward_communication(*comm, static_cast<Fix*>(this), comm_forward);
+  dch::lammps::forward_communication(*comm, this, comm_forward);
   if (std::find(place_.begin() + atom->nlocal, place_.end(), comm->me) != place_.end())
     error->one(
         FLERR,

@@ -70,7 +70,7 @@ void PairEAMDCH::add_densities() {
   densities_.assign(count, 0);
   slopes_.assign(count, 0);
   if (all > 0) atoms_->add_densities(rows(), vectors(atom->x, 0, all), {atom->type, count}, densities_);
-  if (force->newton_pair) dch::lammps::reverse_communication<Comm, Pair>(*comm, this);
+  if (force->newton_pair) dch::lammps::reverse_communication(*comm, this);
 }
 
 void PairEAMDCH::embed() {
@@ -83,7 +83,7 @@ void PairEAMDCH::embed() {
     if (eflag_global) eng_vdwl += found.energy;
     if (eflag_atom) eatom[i] += found.energy;
   }
-  dch::lammps::forward_communication_of_pair<Comm, Pair>(*comm, this);
+  dch::lammps::forward_communication(*comm, this);
 }
 
 void PairEAMDCH::add_forces() {
