@@ -7,22 +7,15 @@
 #include <cstdio>
 #include <cstring>
 #include <domain.h>
-#include <error.h>
 #include <force.h>
 #include <memory.h>
 #include <neighbor.h>
-#include <new>
 #include <update.h>
 #include <utility>
 
-#include <dch/base/error.hpp>
-
 #include "ghosts_sent.h"
-#include "lammps_versions.h"
 #include "neigh_history.h"
 #include "neighbor_dch.h"
-#include "plain_pair.h"
-#include "stock_name.h"
 
 namespace LAMMPS_NS {
 namespace {
@@ -39,28 +32,13 @@ void withdraw_requests(Neighbor& neighbor, int first) {
 
 }  // namespace
 
-PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : Pair(lammps), style_(style), plain_name_(style.plain) {
-  int has_suffix = 0;
-  plain_.reset(force->new_pair(dch::lammps::stock_name(*force->pair_map, plain_name_), 0, has_suffix));
-  if (!plain_) {
-    error->all(FLERR, "Pair style " + plain_name_ + "/dch needs the pair style " + plain_name_ +
-                          ", which this LAMMPS was built without");
-  }
-  single_enable = plain_->single_enable;
-  restartinfo = plain_->restartinfo;
-  writedata = plain_->writedata;
-  reinitflag = plain_->reinitflag;
-  unit_convert_flag = plain_->unit_convert_flag;
-  respa_enable = plain_->respa_enable;
+PairDCH::PairDCH(LAMMPS* lammps, const Style& style) : PlainPair(lammps, style.plain), style_(style) {
+  make_plain();
   ewaldflag = plain_->ewaldflag;
   pppmflag = plain_->pppmflag;
   msmflag = plain_->msmflag;
   plain_->ncoultablebits = 0;
   no_virial_fdotr_compute = 1;  // where points are the atoms in the box, ghosts get no forces
-}
-
-PairDCH::~PairDCH() {
-  if (!copymode) give_up_arrays_by_types(*this, *memory);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -98,22 +76,19 @@ void PairDCH::take_flags() {
 void PairDCH::take_coefficients() {
   kernel_.reset();
   if (!plain_->allocated) give_up_arrays_by_types(*this, *memory);
-  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
+  take_flags_by_types();
 }
 
 void PairDCH::modify_params(int narg, char** arg) {
-  Pair::modify_params(narg, arg);
-  plain_->modify_params(narg, arg);
+  PlainPair::modify_params(narg, arg);
   plain_->ncoultablebits = 0;
   kernel_.reset();
 }
 
 double PairDCH::init_one(int i, int j) {
-  const double cutoff = plain_->init_one(i, j);
-  plain_->cutsq[i][j] = plain_->cutsq[j][i] = cutoff * cutoff;
+  const double cutoff = PlainPair::init_one(i, j);
   etail_ij = plain_->etail_ij;
   ptail_ij = plain_->ptail_ij;
-  dch::lammps::copy_mixing<Pair>(*plain_, *this);
   kernel_.reset();
   const auto known = std::find_if(pairs_of_types_.begin(), pairs_of_types_.end(),
                                   [&](const PairOfTypes& p) { return p.a == i && p.b == j; });
@@ -146,26 +121,9 @@ void PairDCH::write_restart_settings(FILE* file) {
 void PairDCH::write_data(FILE* file) { plain_->write_data(file); }
 void PairDCH::write_data_all(FILE* file) { plain_->write_data_all(file); }
 
-double PairDCH::single(int i, int j, int itype, int jtype, double rsq, double factor_coul, double factor_lj,
-                       double& fforce) {
-  return plain_->single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
-}
-
-void* PairDCH::extract(const char* name, int& dimension) { return plain_->extract(name, dimension); }
-
-void PairDCH::add_tally_callback(Compute* compute) {
-  Pair::add_tally_callback(compute);
-  plain_->add_tally_callback(compute);
-}
-
-void PairDCH::del_tally_callback(Compute* compute) {
-  Pair::del_tally_callback(compute);
-  plain_->del_tally_callback(compute);
-}
-
 double PairDCH::memory_usage() {
   const double pairs = clusters_ ? static_cast<double>(clusters_->memory_bytes()) : 0.0;
-  return Pair::memory_usage() + plain_->memory_usage() + pairs;
+  return PlainPair::memory_usage() + pairs;
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -207,7 +165,7 @@ void PairDCH::init_style() {
   obstacle_ = reason_for_plain();
   if (obstacle_.empty()) obstacle_ = obstacle_of_settings();
   if (is_chosen_ && obstacle_.empty()) obstacle_ = neighbor_dch->obstacle_to_styles();
-  clusters_ = neighbor_dch->request_clusters(*this, plain_name_ + "/dch", obstacle_);
+  clusters_ = neighbor_dch->request_clusters(*this, name(), obstacle_);
   if (clusters_) clusters_->wants_rows = style_.by_rows;
   if (!has_lists_of_plain_ && (!clusters_ || neighbor_dch->verifies())) neighbor->request(this, instance_me);
 }
@@ -232,19 +190,19 @@ std::string PairDCH::way() const {
 }
 
 dch::lammps::StyleNote PairDCH::explain() const {
-  const std::string name = "pair " + plain_name_ + "/dch";
+  const std::string called = "pair " + name();
   if (clusters_ && clusters_->by_levels)
-    return {name,
+    return {called,
             "plain style on a neighbor list, as r-RESPA splits the forces of pairs into levels; give "
             "all pair forces one level ('run_style respa ... pair N')"};
   if (!obstacle_.empty())
-    return {name, "plain style on a neighbor list, " + obstacle_.reason + "; give " + obstacle_.remedy};
-  if (computed_ == 0) return {name, "no run yet"};
+    return {called, "plain style on a neighbor list, " + obstacle_.reason + "; give " + obstacle_.remedy};
+  if (computed_ == 0) return {called, "no run yet"};
   std::string how = way();
   if (pair_by_pair_ > 0)
     how += "; of " + std::to_string(computed_) + " times " + std::to_string(pair_by_pair_) +
            " pair by pair, for computes that ask for each pair";
-  return {name, how};
+  return {called, how};
 }
 
 }  // namespace LAMMPS_NS

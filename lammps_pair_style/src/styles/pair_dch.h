@@ -3,9 +3,7 @@
 
 #include <array>
 #include <functional>
-#include <lammps_host.h>
 #include <memory>
-#include <pair.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +12,7 @@
 #include <dch/forces/pair_potential.hpp>
 
 #include "cluster_list.h"
-#include "explained.h"
+#include "plain_pair.h"
 
 namespace LAMMPS_NS {
 
@@ -30,7 +28,7 @@ namespace LAMMPS_NS {
 /// have them computed one by one. Where cluster pairs cannot be had (settings that dch stats names) the plain
 /// style computes, on a neighbor list. Wherever it computes, it does so without its tables of Coulomb forces,
 /// as the kernels do.
-class PairDCH : public Pair, public Explained {
+class PairDCH : public PlainPair {
  public:
   /// What a style is made of.
   struct Style {
@@ -42,9 +40,6 @@ class PairDCH : public Pair, public Explained {
   };
 
   PairDCH(LAMMPS* lammps, const Style& style);
-  ~PairDCH() override;
-  PairDCH(const PairDCH&) = delete;
-  PairDCH& operator=(const PairDCH&) = delete;
 
   void compute(int eflag, int vflag) override;
   void compute_inner() override;
@@ -62,19 +57,12 @@ class PairDCH : public Pair, public Explained {
   void read_restart_settings(FILE* file) override;
   void write_data(FILE* file) override;
   void write_data_all(FILE* file) override;
-  double single(int i, int j, int itype, int jtype, double rsq, double factor_coul, double factor_lj,
-                double& fforce) override;
-  void* extract(const char* name, int& dimension) override;
-  void add_tally_callback(Compute* compute) override;
-  void del_tally_callback(Compute* compute) override;
   double memory_usage() override;
   dch::lammps::StyleNote explain() const override;
-  void choose() override { is_chosen_ = true; }
 
  protected:
   using PairsOfTypes = std::vector<std::pair<int, int>>;  ///< from 1
 
-  Pair& plain() const { return *plain_; }
   /// After what the script says of the plain style has changed.
   void take_coefficients();
   /// Why the plain style has to compute, as far as its settings say; asked at the beginning of each run.
@@ -113,7 +101,6 @@ class PairDCH : public Pair, public Explained {
   std::string way() const;
   void take_flags();
   void refresh();
-  void take_sums_of_plain();
   void compute_clusters();
   void give_tallies();
   dch::LennardJonesSums sums_of_tallies() const;
@@ -127,13 +114,9 @@ class PairDCH : public Pair, public Explained {
   dch::Box box() const;
 
   Style style_;
-  std::string plain_name_;
-  bool is_chosen_ = false;  ///< by `dch on`, not by the script
-  std::unique_ptr<Pair> plain_;
-  std::shared_ptr<ClusterList> clusters_;         ///< null if the plain style computes
-  dch::lammps::Obstacle obstacle_;                ///< why it does
-  bool has_lists_of_plain_ = false;               ///< those that the plain style has asked for
-  std::int64_t computed_ = 0, pair_by_pair_ = 0;  ///< in this run: how often, and how often pair by pair
+  std::shared_ptr<ClusterList> clusters_;  ///< null if the plain style computes
+  bool has_lists_of_plain_ = false;        ///< those that the plain style has asked for
+  std::int64_t pair_by_pair_ = 0;          ///< how often in this run
   std::vector<PairOfTypes> pairs_of_types_;
   std::unique_ptr<dch::PairPotential> kernel_;  ///< null unless for the coefficients as they are
   std::vector<dch::Vec3> of_ghosts_;            ///< forces on ghosts before ours

@@ -8,14 +8,10 @@
 #include <force.h>
 #include <kspace.h>
 #include <neighbor.h>
-#include <new>
 #include <utility>
-
-#include <dch/base/error.hpp>
 
 #include "neighbor_dch.h"
 #include "pair_dch.h"
-#include "plain_pair.h"
 #include "restart_numbers.h"
 
 namespace LAMMPS_NS {
@@ -23,13 +19,12 @@ namespace LAMMPS_NS {
 void PairDCH::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (!clusters_ || clusters_->by_levels) {
-    plain_->compute(eflag, vflag);
-    take_sums_of_plain();
+    compute_plain(eflag, vflag);
     return;
   }
   ++computed_;
   const bool asks_each_pair = evflag && (cvflag_atom || num_tally_compute > 0);
-  try {
+  stop_if_it_fails([&] {
     if (!kernel_) kernel_ = std::make_unique<dch::PairPotential>(kernel_params());
     refresh();
     if (asks_each_pair) {
@@ -40,18 +35,14 @@ void PairDCH::compute(int eflag, int vflag) {
     }
     check_forces();
     if (eflag_either) add_self_energies(asks_each_pair || eflag_atom);
-  } catch (const dch::Error& e) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
-  } catch (const std::bad_alloc&) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: out of memory; use more processes");
-  }
+  });
 }
 
 /// Only where it has the lists with these levels that it has asked for.
 Pair& PairDCH::plain_of_levels() const {
   if (!has_lists_of_plain_)
-    error->all(FLERR, "Pair style " + plain_name_ +
-                          "/dch does not know how this LAMMPS asks for lists with levels of r-RESPA; give "
+    error->all(FLERR, title() +
+                          " does not know how this LAMMPS asks for lists with levels of r-RESPA; give "
                           "'suffix off' before the pair_style, or all pair forces one level");
   return *plain_;
 }
@@ -63,10 +54,6 @@ void PairDCH::compute_outer(int eflag, int vflag) {
   ev_init(eflag, vflag);
   plain_of_levels().compute_outer(eflag, vflag);
   take_sums_of_plain();
-}
-
-void PairDCH::take_sums_of_plain() {
-  take_sums(*plain_, atom->nlocal + (force->newton_pair ? atom->nghost : 0), *this);
 }
 
 dch::Span<const dch::Vec3> PairDCH::positions() const {

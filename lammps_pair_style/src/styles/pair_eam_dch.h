@@ -9,52 +9,40 @@ PairStyle(eam/fs/dch,PairEAMFSDCH);
 #define LMP_PAIR_EAM_DCH_H
 
 #include <cstdint>
-#include <lammps_host.h>
 #include <memory>
-#include <pair.h>
 #include <string>
 #include <vector>
 
 #include <dch/forces/embedded_atoms.hpp>
 
 #include "eam_file.h"
-#include "explained.h"
+#include "plain_pair.h"
 
 namespace LAMMPS_NS {
 
-/// Embedded atoms, whose densities and forces come from SIMD kernels. Everything else is the plain style's,
-/// of which it keeps an object: arguments, checks, cutoffs, masses. The plain style keeps its functions to
+/// Embedded atoms, whose densities and forces come from SIMD kernels. The plain style keeps its functions to
 /// itself, in a class whose header LAMMPS does not install, so files are read once more. Lists are those of
 /// LAMMPS, or ours in their place.
 ///
 /// The plain style computes with files that are not understood or whose units it changes, and at steps at
 /// which `fix adapt` scales the potential.
-class PairEAMDCH : public Pair, public Explained {
+class PairEAMDCH : public PlainPair {
  public:
   explicit PairEAMDCH(LAMMPS* lammps) : PairEAMDCH(lammps, "eam", dch::lammps::EamFormat::funcfl) {}
-  ~PairEAMDCH() override;
-  PairEAMDCH(const PairEAMDCH&) = delete;
-  PairEAMDCH& operator=(const PairEAMDCH&) = delete;
 
   void compute(int eflag, int vflag) override;
   void settings(int narg, char** arg) override;
   void coeff(int narg, char** arg) override;
   void init_style() override;
-  void init_list(int id, NeighList* neighbors) override;
   double init_one(int i, int j) override;
-  void modify_params(int narg, char** arg) override;
   double single(int i, int j, int itype, int jtype, double rsq, double factor_coul, double factor_lj,
                 double& fforce) override;
-  void* extract(const char* name, int& dimension) override;
-  void add_tally_callback(Compute* compute) override;
-  void del_tally_callback(Compute* compute) override;
   int pack_forward_comm(int n, int* atoms, double* to, int pbc_flag, int* pbc) override;
   void unpack_forward_comm(int n, int first, double* from) override;
   int pack_reverse_comm(int n, int first, double* to) override;
   void unpack_reverse_comm(int n, int* atoms, double* from) override;
   double memory_usage() override;
   dch::lammps::StyleNote explain() const override;
-  void choose() override { is_chosen_ = true; }
 
  protected:
   PairEAMDCH(LAMMPS* lammps, const char* plain, dch::lammps::EamFormat format);
@@ -68,17 +56,13 @@ class PairEAMDCH : public Pair, public Explained {
   void embed();
   void add_forces();
 
-  std::string plain_name_;
   dch::lammps::EamFormat format_;
-  bool is_chosen_ = false;  ///< by `dch on`, not by the script
-  std::unique_ptr<Pair> plain_;
   std::vector<dch::lammps::EamFile> files_;
   dch::lammps::EamTypes of_types_;
   double cutoff_ = 0;
-  dch::lammps::Obstacle obstacle_;  ///< why the plain style computes
   std::unique_ptr<dch::EmbeddedAtoms> atoms_;
-  std::int64_t computed_ = 0, scaled_ = 0;  ///< in this run; by the plain style, as it was scaled
-  bool is_by_plain_ = false;                ///< the last time
+  std::int64_t scaled_ = 0;   ///< times in this run by the plain style, as it was scaled
+  bool is_by_plain_ = false;  ///< the last time
   std::vector<double> densities_, slopes_;
 };
 

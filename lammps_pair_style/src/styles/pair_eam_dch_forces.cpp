@@ -7,14 +7,10 @@
 #include <error.h>
 #include <force.h>
 #include <neigh_list.h>
-#include <new>
-
-#include <dch/base/error.hpp>
 
 #include "atom_vectors.h"
 #include "lammps_versions.h"
 #include "pair_eam_dch.h"
-#include "plain_pair.h"
 
 namespace LAMMPS_NS {
 
@@ -35,11 +31,10 @@ void PairEAMDCH::compute(int eflag, int vflag) {
   is_by_plain_ = !obstacle_.empty() || is_scaled();
   if (is_by_plain_) {
     if (obstacle_.empty()) ++scaled_;
-    plain_->compute(eflag, vflag);
-    take_sums(*plain_, atom->nlocal + (force->newton_pair ? atom->nghost : 0), *this);
+    compute_plain(eflag, vflag);
     return;
   }
-  try {
+  stop_if_it_fails([this] {
     if (!atoms_) {
       dch::EmbeddedAtomParams params = dch::lammps::functions_of(files_, format_, of_types_);
       params.cutoff = cutoff_;
@@ -48,11 +43,7 @@ void PairEAMDCH::compute(int eflag, int vflag) {
     add_densities();
     embed();
     add_forces();
-  } catch (const dch::Error& e) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
-  } catch (const std::bad_alloc&) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: out of memory; use more processes");
-  }
+  });
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
@@ -110,7 +101,7 @@ void PairEAMDCH::add_forces() {
 /// for a part of z / r, and so does the slope here.
 double PairEAMDCH::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                           double factor_lj, double& fforce) {
-  if (is_by_plain_) return plain_->single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
+  if (is_by_plain_) return PlainPair::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   if (!atoms_) error->one(FLERR, std::string("EAM embedding data required for this calculation is missing"));
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
   const std::int32_t shares = atoms_->pairs_of(i);

@@ -7,53 +7,32 @@
 #include <error.h>
 #include <fix.h>
 #include <force.h>
-#include <memory.h>
 #include <modify.h>
-#include <neigh_list.h>
 #include <neighbor.h>
-#include <new>
 #include <update.h>
 
 #include <dch/base/error.hpp>
 
 #include "atom_vectors.h"
-#include "lammps_versions.h"
 #include "neighbor_dch.h"
-#include "plain_pair.h"
 #include "restart_numbers.h"
-#include "stock_name.h"
 
 namespace LAMMPS_NS {
 
 // LAMMPS numbers pair styles as they are made, and the fix that keeps the history has the number in its ID,
 // by which restart files name it. So the plain style has the number that it has in a stock LAMMPS.
 PairGranDCH::PairGranDCH(LAMMPS* lammps, const char* plain, dch::ContactForm form)
-    : Pair(lammps), plain_name_(plain), form_(form) {
+    : PlainPair(lammps, plain), form_(form) {
   --instance_total;
-  int has_suffix = 0;
-  plain_.reset(force->new_pair(dch::lammps::stock_name(*force->pair_map, plain_name_), 0, has_suffix));
-  if (!plain_) {
-    error->all(FLERR, "Pair style " + plain_name_ + "/dch needs the pair style " + plain_name_ +
-                          ", which this LAMMPS was built without (package GRANULAR)");
-  }
-  single_enable = plain_->single_enable;
+  make_plain("GRANULAR");
   single_extra = plain_->single_extra;
   svector = plain_->svector;
-  restartinfo = plain_->restartinfo;
-  writedata = plain_->writedata;
-  reinitflag = plain_->reinitflag;
-  unit_convert_flag = plain_->unit_convert_flag;
-  respa_enable = plain_->respa_enable;
   finitecutflag = plain_->finitecutflag;
   centroidstressflag = plain_->centroidstressflag;
   no_virial_fdotr_compute = plain_->no_virial_fdotr_compute;
   beyond_contact = plain_->beyond_contact;
   nondefault_history_transfer = plain_->nondefault_history_transfer;
   comm_forward = plain_->comm_forward;  // which the plain style does itself
-}
-
-PairGranDCH::~PairGranDCH() {
-  if (!copymode) give_up_arrays_by_types(*this, *memory);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -66,14 +45,14 @@ void PairGranDCH::settings(int narg, char** arg) {
 
 void PairGranDCH::coeff(int narg, char** arg) {
   plain_->coeff(narg, arg);
-  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
+  take_flags_by_types();
 }
 
 /// Restart files do not say whether damping is limited.
 void PairGranDCH::read_restart(FILE* file) {
   plain_->read_restart(file);
   limits_damping_ = false;
-  take_flags_by_types(*plain_, atom->ntypes, *memory, *this);
+  take_flags_by_types();
 }
 
 void PairGranDCH::read_restart_settings(FILE* file) {
@@ -81,43 +60,15 @@ void PairGranDCH::read_restart_settings(FILE* file) {
   limits_damping_ = false;
 }
 
-void PairGranDCH::modify_params(int narg, char** arg) {
-  Pair::modify_params(narg, arg);
-  plain_->modify_params(narg, arg);
-}
-
-double PairGranDCH::init_one(int i, int j) {
-  const double cutoff = plain_->init_one(i, j);
-  plain_->cutsq[i][j] = plain_->cutsq[j][i] = cutoff * cutoff;
-  dch::lammps::copy_mixing<Pair>(*plain_, *this);
-  return cutoff;
-}
-
 void PairGranDCH::write_restart(FILE* file) { plain_->write_restart(file); }
 void PairGranDCH::write_restart_settings(FILE* file) { plain_->write_restart_settings(file); }
 
-double PairGranDCH::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
-                           double factor_lj, double& fforce) {
-  return plain_->single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
-}
-
-void* PairGranDCH::extract(const char* name, int& dimension) { return plain_->extract(name, dimension); }
 double PairGranDCH::atom2cut(int i) { return plain_->atom2cut(i); }
 double PairGranDCH::radii2cut(double first, double second) { return plain_->radii2cut(first, second); }
 
-void PairGranDCH::add_tally_callback(Compute* compute) {
-  Pair::add_tally_callback(compute);
-  plain_->add_tally_callback(compute);
-}
-
-void PairGranDCH::del_tally_callback(Compute* compute) {
-  Pair::del_tally_callback(compute);
-  plain_->del_tally_callback(compute);
-}
-
 double PairGranDCH::memory_usage() {
   const std::size_t ours = columns_.memory_bytes() + bodies_.capacity() * sizeof(dch::GrainBody);
-  return Pair::memory_usage() + plain_->memory_usage() + static_cast<double>(ours);
+  return PlainPair::memory_usage() + static_cast<double>(ours);
 }
 
 // --------------------------------------------------------------------------------------------------------------------
@@ -134,13 +85,7 @@ dch::lammps::Obstacle PairGranDCH::reason_for_plain() {
 }
 
 void PairGranDCH::init_style() {
-  const int requests = neighbor->nrequest;
-  plain_->init_style();
-  const bool is_ours = turn_over_requests(*neighbor, requests, *plain_, *this);
-  if (!is_ours && force->pair != this)
-    error->all(FLERR, "Pair style " + plain_name_ +
-                          "/dch does not know how this LAMMPS asks for lists in pair_style hybrid; give " +
-                          plain_name_ + " there");
+  init_plain_with_lists();
   obstacle_ = reason_for_plain();
   computed_ = 0;
   has_columns_ = false;
@@ -158,13 +103,8 @@ void PairGranDCH::make_contacts() {
     contacts_ = std::make_unique<dch::GrainContacts>(
         dch::ContactParams{form_, all[0], all[1], all[2], all[3], all[4], limits_damping_});
   } catch (const dch::Error& e) {
-    error->all(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
+    error->all(FLERR, title() + ": " + e.what());
   }
-}
-
-void PairGranDCH::init_list(int id, NeighList* neighbors) {
-  Pair::init_list(id, neighbors);
-  plain_->init_list(id, neighbors);
 }
 
 void PairGranDCH::reset_dt() {
@@ -178,19 +118,14 @@ void PairGranDCH::reset_dt() {
 void PairGranDCH::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (!obstacle_.empty()) {
-    plain_->compute(eflag, vflag);
-    take_sums(*plain_, atom->nlocal + (force->newton_pair ? atom->nghost : 0), *this);
+    compute_plain(eflag, vflag);
     return;
   }
   ++computed_;
-  try {
+  stop_if_it_fails([this] {
     take_list();
     add_contacts();
-  } catch (const dch::Error& e) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: " + e.what());
-  } catch (const std::bad_alloc&) {
-    error->one(FLERR, "Pair style " + plain_name_ + "/dch: out of memory; use more processes");
-  }
+  });
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
@@ -239,12 +174,7 @@ void PairGranDCH::add_contacts() {
 }
 
 dch::lammps::StyleNote PairGranDCH::explain() const {
-  const std::string name = "pair " + plain_name_ + "/dch";
-  if (!obstacle_.empty())
-    return {name, "plain style, as " + obstacle_.reason +
-                      (obstacle_.remedy.empty() ? std::string() : "; give " + obstacle_.remedy)};
-  if (computed_ == 0) return {name, "no run yet"};
-  return {name, "SIMD kernel of pairs that touch, in double precision, on one thread"};
+  return note("SIMD kernel of pairs that touch, in double precision, on one thread");
 }
 
 }  // namespace LAMMPS_NS

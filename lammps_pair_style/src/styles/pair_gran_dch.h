@@ -8,55 +8,39 @@ PairStyle(gran/hertz/history/dch,PairGranHertzHistoryDCH);
 #elif !defined(LMP_PAIR_GRAN_DCH_H)
 #define LMP_PAIR_GRAN_DCH_H
 
-#include <cstdint>
-#include <lammps_host.h>
 #include <memory>
-#include <pair.h>
-#include <string>
 #include <vector>
 
 #include <dch/forces/grain_contacts.hpp>
 
-#include "explained.h"
 #include "neigh_history.h"
+#include "plain_pair.h"
 
 namespace LAMMPS_NS {
 
-/// A granular pair style whose forces come from a SIMD kernel. Everything else is the plain style's, of which
-/// it keeps an object: arguments, coefficients, checks, restarts, single(), and the fix that keeps the
-/// history of contacts, in which the kernel writes. Lists are those of LAMMPS, or ours in their place.
+/// A granular pair style whose forces come from a SIMD kernel. Restarts are the plain style's, and so is the
+/// fix that keeps the history of contacts, in which the kernel writes. Lists are those of LAMMPS, or ours in
+/// their place.
 ///
 /// The plain style computes where a fix integrates rigid bodies, whose masses count, and if LAMMPS keeps the
 /// history in a way that is not known.
-class PairGranDCH : public Pair, public Explained {
+class PairGranDCH : public PlainPair {
  public:
   PairGranDCH(LAMMPS* lammps, const char* plain, dch::ContactForm form);
-  ~PairGranDCH() override;
-  PairGranDCH(const PairGranDCH&) = delete;
-  PairGranDCH& operator=(const PairGranDCH&) = delete;
 
   void compute(int eflag, int vflag) override;
   void settings(int narg, char** arg) override;
   void coeff(int narg, char** arg) override;
   void init_style() override;
-  void init_list(int id, NeighList* neighbors) override;
-  double init_one(int i, int j) override;
   void reset_dt() override;
-  void modify_params(int narg, char** arg) override;
   void write_restart(FILE* file) override;
   void read_restart(FILE* file) override;
   void write_restart_settings(FILE* file) override;
   void read_restart_settings(FILE* file) override;
-  double single(int i, int j, int itype, int jtype, double rsq, double factor_coul, double factor_lj,
-                double& fforce) override;
-  void* extract(const char* name, int& dimension) override;
   double atom2cut(int i) override;
   double radii2cut(double first, double second) override;
-  void add_tally_callback(Compute* compute) override;
-  void del_tally_callback(Compute* compute) override;
   double memory_usage() override;
   dch::lammps::StyleNote explain() const override;
-  void choose() override { is_chosen_ = true; }
 
  private:
   dch::lammps::Obstacle reason_for_plain();
@@ -66,20 +50,15 @@ class PairGranDCH : public Pair, public Explained {
   void take_bodies(std::size_t grains);
   void add_contacts();
 
-  std::string plain_name_;
   dch::ContactForm form_;
-  bool is_chosen_ = false;  ///< by `dch on`, not by the script
-  std::unique_ptr<Pair> plain_;
   bool limits_damping_ = false;
-  int frozen_group_ = 0;            ///< the bit of grains that never move
-  double timestep_ = 0;             ///< that of the plain style
-  dch::lammps::Obstacle obstacle_;  ///< why the plain style computes
+  int frozen_group_ = 0;  ///< the bit of grains that never move
+  double timestep_ = 0;   ///< that of the plain style
   NeighHistory history_;
   std::unique_ptr<dch::GrainContacts> contacts_;
-  ContactColumns columns_;     ///< of the list
-  bool has_columns_ = false;   ///< since the last setup
-  bigint builds_ = 0;          ///< when they were taken
-  std::int64_t computed_ = 0;  ///< in this run
+  ContactColumns columns_;    ///< of the list
+  bool has_columns_ = false;  ///< since the last setup
+  bigint builds_ = 0;         ///< when they were taken
   std::vector<dch::GrainBody> bodies_;
   std::vector<dch::GrainContact> found_;
 };
