@@ -95,14 +95,14 @@ bool PairTableDCH::ask_for_knots(int a, int b, bool is_spline, int length, Given
 
 dch::lammps::Obstacle PairTableDCH::obstacle_of_settings() {
   if (ewaldflag || pppmflag || msmflag || dispersionflag || tip4pflag)
-    return {"tables for a long-range solver", "no keyword of a solver after 'pair_style table linear N'"};
+    return {"tables for a long-range solver", "no keyword of a solver in the pair_style"};
   const std::string settings = restart_settings(plain());
   int numbers[2] = {-1, 0};  // how a table is read, and its length
   if (settings.size() >= sizeof numbers) std::memcpy(numbers, settings.data(), sizeof numbers);
   const auto [way, length] = numbers;
   if (way != kLinear && way != kSpline)
     return {std::string("pair_style table ") + (way >= 0 && way < 4 ? kWays[way] : "of an unknown kind"),
-            "'pair_style table linear N'"};
+            "'pair_style table linear N' or 'pair_style table spline N'"};
   for (const auto& [types, k] : given_of_types_) {
     Given& given = given_[k];
     if (!given.knots.energy.empty()) continue;
