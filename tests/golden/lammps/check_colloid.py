@@ -6,7 +6,7 @@ import re
 import unittest
 
 from lammps_run import thermo_tables
-from script_tests import forces_of, host, main, run
+from script_tests import TALLIES, error_of, forces_of, host, main, run
 
 # Type 1 is the solvent; types 2 and 3 are spheres, of diameters 3 and 2. Diameters are mixed unless pair_coeff says them.
 BOX = """
@@ -86,25 +86,8 @@ pair_coeff 2 2 60.0 0.8 0.4 0.4
 pair_coeff 2 3 60.0 0.75 0.4 0.5
 pair_coeff 3 3 50.0 0.8 0.5 0.5
 """ + END
-TALLIES = """
-compute pe all pe/atom
-compute st all stress/atom NULL
-compute se all reduce sum c_pe
-compute ss all reduce sum c_st[1] c_st[2] c_st[4]
-compute far all reduce max c_pe c_st[3]
-thermo_style custom step temp epair press pxx pyy pzz pxy pxz pyz c_se c_ss[*] c_far[*]
-thermo_modify format float %.15g
-"""
 CLUSTERS = "pair colloid/dch, cluster pairs: DCH"
 WAYS = [(newton, ranks) for newton in ("on", "off") for ranks in (1, 2, 4)]
-
-
-def error_of(script, before, ranks=1):
-    code, output = host.run_text("include ${load}\n" + before + script, ranks=ranks)
-    if code == 0:
-        raise AssertionError(f"no error\n{output}")
-    said = [line for line in output.splitlines() if "ERROR" in line][0]
-    return re.sub(r"^ERROR on proc \d+: | \(.*", "", said)
 
 
 def difference(plain, ours):

@@ -3,7 +3,7 @@
 """Force styles with the suffix dch, in a real LAMMPS: what check_forces.py does not see."""
 
 from lammps_run import largest_relative_difference, thermo_tables
-from script_tests import MELT, ComparedWithStock, host, main, run
+from script_tests import MELT, ComparedWithStock, error_of, host, main, run
 
 SALT = """
 units lj
@@ -151,13 +151,7 @@ run 0
         for style, *words in STYLES:
             with self.subTest(style):
                 for wrong in (salt_with(style, "", *words[1:]), salt_with(style, words[0], "1.0 1.0 1.0 1.0 1.0 1.0 1.0", *words[2:])):
-                    said = []
-                    for suffix in ("", "suffix dch\n"):
-                        code, output = host.run_text("include ${load}\n" + suffix + wrong + "run 0\n")
-                        self.assertNotEqual(code, 0)
-                        said.append([line for line in output.splitlines() if "ERROR" in line])
-                    self.assertEqual(said[0], said[1])
-                    self.assertTrue(said[0])
+                    self.assertEqual(*(error_of(wrong + "run 0\n", before) for before in ("", "suffix dch\n")))
 
     def test_charges_restart_and_change(self):
         script = SALT + f"""

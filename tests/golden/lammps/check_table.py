@@ -5,7 +5,7 @@
 import itertools
 
 from lammps_run import largest_relative_difference, thermo_tables
-from script_tests import MELT, ComparedWithStock, forces_of, host, main, run
+from script_tests import MELT, ComparedWithStock, error_of, forces_of, host, main, run
 from table_files import lennard_jones, section, write_tables
 
 TABLE = MELT.replace("pair_style lj/cut 2.5", "pair_style table linear 1500").replace("pair_coeff 1 1 1.0 1.0", "pair_coeff 1 1 pair.table A")
@@ -16,13 +16,6 @@ CLUSTERS = "pair table/dch, cluster pairs: DCH"
 
 def splines(script):
     return script.replace("linear 1500", "spline 400")
-
-
-def error_of(script, before, ranks=1):
-    code, output = host.run_text("include ${load}\n" + before + script, ranks=ranks)
-    if code == 0:
-        raise AssertionError(f"no error\n{output}")
-    return [line for line in output.splitlines() if "ERROR" in line][0]
 
 
 class Table(ComparedWithStock):

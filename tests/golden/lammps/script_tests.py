@@ -2,6 +2,7 @@
 """What tests of short scripts have in common: a melt to begin with, and LAMMPS to run it."""
 
 import argparse
+import re
 import sys
 import unittest
 
@@ -24,6 +25,16 @@ fix 1 all nve
 thermo 20
 thermo_modify format float %.15g
 """
+# Beside pressures, sums over atoms and the largest of what is added up by atom.
+TALLIES = """
+compute pe all pe/atom
+compute st all stress/atom NULL
+compute se all reduce sum c_pe
+compute ss all reduce sum c_st[1] c_st[2] c_st[4]
+compute far all reduce max c_pe c_st[3]
+thermo_style custom step temp epair press pxx pyy pzz pxy pxz pyz c_se c_ss[*] c_far[*]
+thermo_modify format float %.15g
+"""
 
 host = Host.__new__(Host)  # main() fills it in, once the command line is known
 
@@ -33,6 +44,15 @@ def run(text, **options):
     if code != 0:
         raise AssertionError(f"exit code {code}\n{output}")
     return output
+
+
+def error_of(script, before="", ranks=1):
+    """What a run stops with, without the process and the place in the source."""
+    code, output = host.run_text("include ${load}\n" + before + script, ranks=ranks)
+    if code == 0:
+        raise AssertionError(f"no error\n{output}")
+    said = [line for line in output.splitlines() if "ERROR" in line][0]
+    return re.sub(r"^ERROR on proc \d+: | \(.*", "", said)
 
 
 def forces_of(script, before="", ranks=1):
