@@ -8,6 +8,14 @@
 
 namespace LAMMPS_NS {
 
+/// An atom's image as one number: by how many box vectors it is off the atom, along z, y and x, and behind
+/// these the rank of the process that owns the atom. That of the atom itself is the rank.
+using ImageOfAtom = std::int64_t;
+/// So many box vectors farther.
+ImageOfAtom shifted(ImageOfAtom image, const int* vectors);
+/// Whether a process takes the pairs of its own atoms with this image of an atom.
+inline bool is_taken_by(int rank, ImageOfAtom image) { return image >= rank; }
+
 /// Which process takes the pairs of an owned atom with a ghost: this one, or the ghost's owner, where the
 /// owned atom is a ghost.
 ///
@@ -32,7 +40,7 @@ class GhostSides : public Fix {
   void unpack_forward_comm(int n, int first, double* from) override;
 
  private:
-  std::vector<std::int64_t> place_;  ///< by atom: box vectors, and behind them the rank of the owner
+  std::vector<ImageOfAtom> image_;  ///< by atom
   std::vector<char> is_taken_;
 };
 
