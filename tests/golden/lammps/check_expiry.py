@@ -38,6 +38,31 @@ neighbor 0.8 bin
 neigh_modify delay 0 every 1 check yes
 fix 1 all nve
 """
+# Grains of many sizes that fly about and seldom touch.
+GRAINS = """
+units lj
+atom_style sphere
+newton on
+lattice sc 0.15
+region box block 0 3 0 3 0 3
+comm_modify vel yes
+create_box 1 box
+create_atoms 1 box
+variable d atom 0.6+random(0,0.9,4711)
+set atom * diameter v_d density 1.0
+velocity all create 3.0 87287 loop geom
+pair_style gran/hooke 2000.0 NULL 50.0 NULL 0.5 0
+pair_coeff * *
+neighbor 0.8 bin
+neigh_modify delay 0 every 1 check yes
+fix 1 all nve/sphere
+timestep 0.002
+"""
+# The two atoms as grains, and a larger one that has LAMMPS send ghosts from farther off.
+TWO_GRAINS = TWO_ATOMS.replace("atomic", "sphere\nnewton on\ncomm_modify vel yes").replace("mass 1 1.0", "create_atoms 1 single 4.5 1 1\n"
+                               "set atom 1*2 diameter 2.5 density 1\nset atom 3 diameter 4.4 density 1") \
+    .replace("pair_style lj/cut 2.5\npair_coeff 1 1 1.0 1.0", "pair_style gran/hooke 200.0 NULL 50.0 NULL 0.5 0\npair_coeff * *") \
+    .replace("all nve", "all nve/sphere")
 EXACT = "expiry +exact: about ([0-9.e+-]+) builds saved"
 
 
@@ -124,6 +149,18 @@ class Oracle(unittest.TestCase):
             for ranks in (1, 2):
                 output = self.check("dch on\n" + text.format(first=first, second=second), ranks=ranks)
                 self.assertIn("1 for a missing pair", output)
+
+    def test_grains(self):
+        for ranks in (1, 2, 4):
+            output = self.check("dch on\ndch verify yes\n" + GRAINS, what="lists", ranks=ranks, steps=400)
+            self.assertIn("all equal", output)
+
+    def test_grains_whose_pairs_others_take(self):
+        """The faster grain's process has the other one as a ghost, and no pair with it."""
+        back = TWO_GRAINS.replace("set 3 0 0", "set -3 0 0").replace("set -1 0 0", "set 1 0 0")
+        for first, second in ((10.6, 7.242), (0.6, 17.242)):
+            output = self.check("dch on\n" + back.format(first=first, second=second), what="lists", ranks=2)
+            self.assertIn("1 for a missing pair", output)
 
     def test_a_blind_search_is_found_out(self):
         for what, ranks in (("lists", 1), ("forces", 1), ("lists", 2)):

@@ -72,6 +72,10 @@ struct Scene {
     gather(lammps, "x", 1, 3, at.data());
     gather(lammps, "f", 1, 3, forces.data());
     gather(lammps, "type", 0, 1, types.data());
+    if (lammps.atom->sphere_flag) {
+      radii.resize(types.size());
+      gather(lammps, "radius", 1, 1, radii.data());
+    }
     const double* const h = lammps.domain->h;
     cell = {{{h[0], 0, 0}, {h[5], h[1], 0}, {h[4], h[3], h[2]}}};
     for (int axis = 0; axis < 3; ++axis) reach[axis] = lammps.domain->periodicity[axis] ? 2 : 0;
@@ -80,6 +84,12 @@ struct Scene {
   /// LAMMPS's versions differ in whether they take a name that is constant.
   static void gather(LAMMPS_NS::LAMMPS& lammps, std::string name, int type, int numbers, void* to) {
     lammps_gather_atoms(&lammps, name.data(), type, numbers, to);
+  }
+  /// Squared, of atoms i and j; both from 1.
+  double cutoff2(int i, int j) const {
+    const auto a = static_cast<std::size_t>(i - 1), b = static_cast<std::size_t>(j - 1);
+    if (radii.empty()) return cutsq[types[a]][types[b]];
+    return (radii[a] + radii[b]) * (radii[a] + radii[b]);
   }
   /// From atom i to an image of atom j; both from 1.
   Vec between(int i, int j, const std::array<int, 3>& image) const {
@@ -103,7 +113,7 @@ struct Scene {
   }
 
   int count;
-  std::vector<double> at, forces;
+  std::vector<double> at, forces, radii;  ///< radii of spheres, whose sums are cutoffs
   std::vector<int> types;
   std::array<Vec, 3> cell{};
   int reach[3];
@@ -191,8 +201,7 @@ void for_images(const Scene& scene, int i, int j, double cut2, const Use& use) {
 template <class Use>
 void for_near_pairs(const Scene& scene, const Use& use) {
   for (int i = 1; i <= scene.count; ++i)
-    for (int j = i; j <= scene.count; ++j)
-      for_images(scene, i, j, scene.cutsq[scene.types[i - 1]][scene.types[j - 1]], use);
+    for (int j = i; j <= scene.count; ++j) for_images(scene, i, j, scene.cutoff2(i, j), use);
 }
 
 struct Found {
