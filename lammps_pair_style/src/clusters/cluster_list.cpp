@@ -18,6 +18,17 @@ double distance2(const double* a, const double* b) {
 
 }  // namespace
 
+void ClusterList::take_types(const int* of_atoms, int types) {
+  if (types == 1) return;
+  if (taken_types.size() == atoms() && std::equal(taken_types.begin(), taken_types.end(), of_atoms)) return;
+  taken_types.assign(of_atoms, of_atoms + atoms());
+  for (std::size_t slot = 0; slot < pairs.particle.size(); ++slot)
+    if (pairs.particle[slot] >= 0) pairs.type[slot] = of_atoms[pairs.particle[slot]] - 1;
+  for (std::size_t i = 0; i < pair_list.type.size(); ++i) pair_list.type[i] = of_atoms[i] - 1;
+  for (std::size_t k = 0; k < special.size(); ++k)
+    special.types[k] = (of_atoms[special.i[k]] - 1) * types + of_atoms[special.j[k]] - 1;
+}
+
 dch::TypeCutoffs ClusterListFiller::cutoffs(const ClusterList& list) const {
   const int n = atom->ntypes;
   std::vector<double> matrix;
@@ -141,6 +152,7 @@ const dch::Exclusions* ClusterListFiller::bonded_pairs(const AtomPoints& points,
 
 void ClusterListFiller::fill(AtomPoints& points, dch::PairSearch& search, double skin, ClusterList& list) {
   list.in_box = points.in_box();
+  list.taken_types.clear();
   dch::ListParams params;
   params.cutoffs = cutoffs(list);
   params.first_ghost = points.in_box() ? -1 : points.owned();

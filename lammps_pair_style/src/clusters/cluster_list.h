@@ -61,9 +61,16 @@ struct ClusterList {
   /// How many have numbers in them: owned ones in the box, else ghosts as well.
   std::size_t atoms() const { return one_by_one ? pair_list.particles : pairs.particles; }
   std::int64_t count() const { return one_by_one ? pair_list.pairs() : pairs.slot_pairs(); }
-  std::size_t memory_bytes() const { return pair_list.memory_bytes() + pairs.memory_bytes(); }
+  std::size_t memory_bytes() const {
+    return pair_list.memory_bytes() + pairs.memory_bytes() + taken_types.capacity() * sizeof(int);
+  }
+  /// Has pairs go by the types that atoms have by now, which fix atom/swap changes between builds. O(atoms),
+  /// and next to nothing where none has changed.
+  /// @param of_atoms  from 1, by LAMMPS's indices
+  void take_types(const int* of_atoms, int types);
 
-  bool in_box = false;  ///< points are the atoms in the periodic box, else owned atoms and ghosts
+  std::vector<int> taken_types;  ///< by LAMMPS's indices; empty since the last build
+  bool in_box = false;           ///< points are the atoms in the periodic box, else owned atoms and ghosts
 };
 
 /// Fills a ClusterList: types, exclusions, bonded pairs, and which process takes a pair with a ghost.

@@ -42,13 +42,26 @@ void ListExpiry::remember(AtomPoints& points, bool by_radii, bool may_be_asked) 
   points_ = points.size();
   remember_left_out(points.ghosts_left_out());
   radii_.clear();
+  types_.clear();
+  if (has_cutoffs_by_types()) {
+    const dch::Span<const std::int32_t> types = points.types();
+    types_.assign(types.begin(), types.end());
+  }
   if (!by_radii) return;
   const dch::Span<const double> radii = points.radii();
   radii_.assign(radii.begin(), radii.end());
 }
 
+bool ListExpiry::has_cutoffs_by_types() const {
+  return atom->ntypes > 1 && neighbor->cutneighmin < neighbor->cutneighmax;
+}
+
 bool ListExpiry::has_changed(AtomPoints& points, bool by_radii) const {
   if (points.size() != points_ || box_now() != box_) return true;
+  if (has_cutoffs_by_types()) {
+    const dch::Span<const std::int32_t> types = points.types();
+    if (!std::equal(types_.begin(), types_.end(), types.begin(), types.end())) return true;
+  }
   if (!by_radii) return false;
   const dch::Span<const double> radii = points.radii();
   return !std::equal(radii_.begin(), radii_.end(), radii.begin(), radii.end());

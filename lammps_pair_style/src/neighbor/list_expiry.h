@@ -53,6 +53,7 @@ class ListExpiry : protected Pointers {
   bool is_inside(const double* at, double reach, const double* beyond) const;
   bool is_open(int axis, bool high) const;
   bool has_changed(AtomPoints& points, bool by_radii) const;
+  bool has_cutoffs_by_types() const;
   bool keeps_images(const AtomPoints& points, const Wanted& wanted) const;
   bool all_see(const AtomPoints& points, const Wanted& wanted) const;
   std::array<double, 9> box_now() const;
@@ -63,8 +64,9 @@ class ListExpiry : protected Pointers {
   bool lacks_ghost(int i, double moved, const double* before, const Wanted& wanted) const;
   dch::UnlistedPair ask(AtomPoints& points, dch::PairSearch& search, const Wanted& wanted);
 
-  std::array<double, 9> box_{};  ///< at the build
-  std::vector<double> radii_;    ///< by point, at the build
+  std::array<double, 9> box_{};      ///< at the build
+  std::vector<double> radii_;        ///< by point, at the build
+  std::vector<std::int32_t> types_;  ///< the same, of lists by types with several cutoffs
   int points_ = -1;
   std::vector<GhostsLeftOut> left_out_;  ///< by type
   std::vector<dch::MovedParticle> fast_;

@@ -73,6 +73,7 @@ std::array<double, 4> PairDCH::weights(const double* special) const {
 }
 
 void PairDCH::refresh() {
+  clusters_->take_types(atom->type, atom->ntypes);
   if (!clusters_->one_by_one)
     clusters_->pairs.refresh(positions(), box(), NeighborDCH::install(lmp)->executor());
 }

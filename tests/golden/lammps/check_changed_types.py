@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Types of atoms that change between builds of lists: by fix atom/swap, which asks for energies at once, and by a script."""
+
+import unittest
+
+from lammps_run import largest_relative_difference, thermo_tables
+from script_tests import MELT, ComparedWithStock, main, run
+
+# The same cutoff for all: else fix atom/swap builds lists before it asks.
+TWO = MELT.replace("create_box 1 box", "create_box 2 box").replace("mass 1", "mass *").replace(
+    "pair_coeff 1 1 1.0 1.0", "set type 1 type/fraction 2 0.3 4711\n"
+    "pair_coeff 1 1 1.0 1.0\npair_coeff 1 2 0.8 0.95\npair_coeff 2 2 0.6 0.9")
+FEW = TWO.replace("lj/cut 2.5", "lj/cut 1.3")
+BONDED = TWO.replace("atom_style atomic", "atom_style bond").replace(
+    "create_box 2 box", "create_box 2 box bond/types 1 extra/bond/per/atom 12 extra/special/per/atom 200") + """
+bond_style harmonic
+bond_coeff 1 50.0 1.1
+group some id 1:100
+create_bonds many some some 1 0.9 1.2
+special_bonds lj 0.3 0.5 1.0
+"""
+SWAPS = "fix 2 all atom/swap 10 20 4711 1.5 ke no types 1 2\n"
+THERMO = "thermo_style custom step temp epair etotal press f_2[1] f_2[2]\nthermo_modify format float %.15g\n"
+# No atom has an image, since LAMMPS tells ghosts their types no sooner than at the next build.
+OPEN = TWO.replace("units lj", "units lj\nboundary s s s")
+CHANGE = "run 0\nset group all type/fraction 2 0.6 99\nrun 30 pre no\n"
+
+
+class ChangedTypes(ComparedWithStock):
+    def test_swaps(self):
+        for name, script in (("cluster pairs", TWO), ("one by one", FEW), ("weights", BONDED)):
+            for newton, ranks in (("on", 1), ("on", 2), ("off", 2)):
+                with self.subTest(name, newton=newton, ranks=ranks):
+                    tables = self.compare(f"newton {newton}\n" + script + SWAPS + THERMO + "run 40\n", ranks=ranks)
+                    last = tables[0][-1]
+                    self.assertLess(0, last["f_2[2]"])
+                    self.assertLess(last["f_2[2]"], last["f_2[1]"])
+
+    def test_types_that_become_others(self):
+        script = TWO + "fix 2 all atom/swap 5 20 4711 1.5 ke no semi-grand yes types 1 2 mu 0 0.5\n" + THERMO + "run 20\n"
+        self.compare(script)
+
+    def test_swaps_between_cutoffs(self):
+        script = TWO.replace("0.8 0.95", "0.8 0.95 1.8").replace("0.6 0.9", "0.6 0.9 1.5") + SWAPS + THERMO + "run 20\n"
+        for ranks in (1, 2):
+            self.compare(script, ranks=ranks)
+
+    def test_types_that_a_script_changes(self):
+        for name, script in (("cluster pairs", OPEN), ("one by one", OPEN.replace("lj/cut 2.5", "lj/cut 1.3"))):
+            for ranks in (1, 2):
+                with self.subTest(name, ranks=ranks):
+                    self.compare(script + CHANGE, ranks=ranks)
+
+    def test_lists_live_no_longer_than_those_of_stock(self):
+        """Lists by cutoffs of types that atoms have no longer."""
+        script = OPEN.replace("every 5 check no", "every 1 check yes").replace("0.8 0.95", "0.8 0.95 1.8") \
+            .replace("1 1 1.0 1.0", "1 1 1.0 1.0 1.2") + "thermo 1\n" + CHANGE
+        native, ours = (thermo_tables(run(before + script))[-1] for before in ("", "include ${load}\ndch styles no\ndch on\n"))
+        for lines in zip(native, ours, strict=True):
+            self.assertLess(largest_relative_difference(*lines), 1e-9)
+
+
+if __name__ == "__main__":
+    main(__doc__)
