@@ -53,9 +53,29 @@ class ChangedTypes(ComparedWithStock):
                     self.compare(script + CHANGE, ranks=ranks)
 
     def test_lists_live_no_longer_than_those_of_stock(self):
-        """Lists by cutoffs of types that atoms have no longer."""
-        script = OPEN.replace("every 5 check no", "every 1 check yes").replace("0.8 0.95", "0.8 0.95 1.8") \
-            .replace("1 1 1.0 1.0", "1 1 1.0 1.0 1.2") + "thermo 1\n" + CHANGE
+        """Two atoms are in no list of their types' cutoff; as others they come within theirs once one has moved half the skin."""
+        script = """
+units lj
+boundary f f f
+region box block 0 20 0 10 0 10
+create_box 2 box
+create_atoms 1 single 5 5 5
+create_atoms 1 single 8 5 5
+mass * 1.0
+group fast id 1
+velocity fast set 3 0 0
+pair_style lj/cut 2.5
+pair_coeff * * 1.0 1.0 1.2
+pair_coeff 2 2 1.0 1.0 2.5
+neighbor 0.8 bin
+neigh_modify delay 0 every 1 check yes
+fix 1 all nve
+thermo 1
+thermo_modify format float %.15g
+run 0
+set group all type 2
+run 50 pre no
+"""
         native, ours = (thermo_tables(run(before + script))[-1] for before in ("", "include ${load}\ndch styles no\ndch on\n"))
         for lines in zip(native, ours, strict=True):
             self.assertLess(largest_relative_difference(*lines), 1e-9)
