@@ -43,6 +43,7 @@ const SpecialPairs::Marks& SpecialPairs::take_marks() {
       for (int k = kind == 1 ? 0 : end[kind - 2]; k < end[kind - 1]; ++k)
         marks_.partner_.push_back({atom->special[i][k], mark_of[kind]});
     }
+    while (marks_.partner_.size() % Marks::kAtOnce != 0) marks_.partner_.push_back({});
   }
   marks_.first_.back() = static_cast<std::int32_t>(marks_.partner_.size());
   return marks_;

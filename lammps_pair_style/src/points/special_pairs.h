@@ -36,20 +36,22 @@ class SpecialPairs : protected Pointers {
     /// any().
     int of(int i, tagint tag) const {
       int mark = 0;  // the last that fits: partners stand in reverse, and the nearest kind of pair counts
-      const auto last = static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1]);
-      for (auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]); k < last; ++k)
-        mark = partner_[k].tag == tag ? partner_[k].mark : mark;
+      const Partner* const last = partner_.data() + first_[static_cast<std::size_t>(i) + 1];
+      for (const Partner* k = partner_.data() + first_[static_cast<std::size_t>(i)]; k != last; k += kAtOnce)
+        for (int own = 0; own < kAtOnce; ++own) mark ^= (mark ^ k[own].mark) & -(k[own].tag == tag ? 1 : 0);
       return mark;
     }
 
    private:
     friend class SpecialPairs;
     struct Partner {
-      tagint tag;
-      int mark;
+      tagint tag = 0;  ///< no atom's
+      int mark = 0;
     };
+    static constexpr int kAtOnce = 2;  ///< the bonds of a bead in a chain: no branch that goes now so, now so
     std::vector<std::int32_t> first_;  ///< by owned atom; and one more, for the end of the last
-    std::vector<Partner> partner_;     ///< those alone that are marked, or in no list
+    std::vector<Partner>
+        partner_;  ///< those alone that are marked, or in no list; of each atom a multiple of kAtOnce
   };
 
   /// 0: an ordinary pair, 1 to 3: a 1-2, 1-3, 1-4 pair that the pair style has to weight, -1: one that it
