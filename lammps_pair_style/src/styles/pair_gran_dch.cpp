@@ -133,11 +133,10 @@ void PairGranDCH::compute(int eflag, int vflag) {
 void PairGranDCH::take_list() {
   if (has_columns_ && neighbor->ago > 0 && builds_ == neighbor->ncalls) return;
   // Later versions leave out pairs of bonded atoms with weight 0, and have the mark of contacts elsewhere.
-  static constexpr double kAll[4] = {1, 1, 1, 1};
 #ifdef HISTBITS
   const double* const weights = force->special_lj;
 #else
-  const double* const weights = kAll;
+  static constexpr double weights[4] = {1, 1, 1, 1};
 #endif
   columns_.take(*plain_->list, has_history() ? &history_ : nullptr, weights);
   has_columns_ = true;
