@@ -72,7 +72,7 @@ struct Scene {
     gather(lammps, "x", 1, 3, at.data());
     gather(lammps, "f", 1, 3, forces.data());
     gather(lammps, "type", 0, 1, types.data());
-    if (lammps.atom->sphere_flag) {
+    if (lammps.atom->radius_flag) {
       radii.resize(types.size());
       gather(lammps, "radius", 1, 1, radii.data());
     }
