@@ -132,7 +132,7 @@ void PairGranDCH::compute(int eflag, int vflag) {
 /// Its pairs, if it has been built since they were taken.
 void PairGranDCH::take_list() {
   if (has_columns_ && neighbor->ago > 0 && builds_ == neighbor->ncalls) return;
-  // Later versions leave out pairs of bonded atoms with weight 0, and have the mark of contacts elsewhere.
+    // Later versions leave out pairs of bonded atoms with weight 0, and have the mark of contacts elsewhere.
 #ifdef HISTBITS
   const double* const weights = force->special_lj;
 #else
