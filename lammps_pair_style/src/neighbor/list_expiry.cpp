@@ -35,36 +35,17 @@ std::array<double, 9> ListExpiry::box_now() const {
   return {low[0], low[1], low[2], high[0], high[1], high[2], domain->xy, domain->xz, domain->yz};
 }
 
-void ListExpiry::remember(AtomPoints& points, bool by_radii, bool may_be_asked) {
+void ListExpiry::remember(const AtomPoints& points, bool by_radii, bool may_be_asked) {
   points_ = -1;
   if (!may_be_asked) return;
   box_ = box_now();
   points_ = points.size();
   remember_left_out(points.ghosts_left_out());
-  radii_.clear();
-  types_.clear();
-  if (has_cutoffs_by_types()) {
-    const dch::Span<const std::int32_t> types = points.types();
-    types_.assign(types.begin(), types.end());
-  }
-  if (!by_radii) return;
-  const dch::Span<const double> radii = points.radii();
-  radii_.assign(radii.begin(), radii.end());
+  traits_.remember(by_radii);
 }
 
-bool ListExpiry::has_cutoffs_by_types() const {
-  return atom->ntypes > 1 && neighbor->cutneighmin < neighbor->cutneighmax;
-}
-
-bool ListExpiry::has_changed(AtomPoints& points, bool by_radii) const {
-  if (points.size() != points_ || box_now() != box_) return true;
-  if (has_cutoffs_by_types()) {
-    const dch::Span<const std::int32_t> types = points.types();
-    if (!std::equal(types_.begin(), types_.end(), types.begin(), types.end())) return true;
-  }
-  if (!by_radii) return false;
-  const dch::Span<const double> radii = points.radii();
-  return !std::equal(radii_.begin(), radii_.end(), radii.begin(), radii.end());
+bool ListExpiry::has_changed(const AtomPoints& points) const {
+  return points.size() != points_ || box_now() != box_ || traits_.have_changed();
 }
 
 /// Whether a pair that is listed in one image cannot come within its cutoff in another one, before one of its
@@ -202,7 +183,7 @@ bool ListExpiry::lacks_ghost(int i, double moved, const double* before, const Wa
 
 ListExpiry::Verdict ListExpiry::judge(AtomPoints& points, dch::PairSearch& search,
                                       const double* const* before, const Wanted& wanted) {
-  if (has_changed(points, wanted.by_radii) || !keeps_images(points, wanted)) return Verdict::cannot_tell;
+  if (has_changed(points) || !keeps_images(points, wanted)) return Verdict::cannot_tell;
   if (const Verdict verdict = find_fast(points, before, wanted); verdict != Verdict::kept) return verdict;
   if (fast_.empty()) return Verdict::kept;
   if (!points.in_box() && comm->mode != Comm::SINGLE) return Verdict::cannot_tell;

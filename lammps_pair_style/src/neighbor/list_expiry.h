@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <lammps_host.h>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "atom_points.h"
 #include "ghosts_left_out.h"
 #include "run_report.h"
+#include "traits_at_build.h"
 
 namespace LAMMPS_NS {
 
@@ -36,11 +36,11 @@ class ListExpiry : protected Pointers {
     double rounding;  ///< of distances [length]
   };
 
-  explicit ListExpiry(LAMMPS* lammps) : Pointers(lammps) {}
+  explicit ListExpiry(LAMMPS* lammps) : Pointers(lammps), traits_(lammps) {}
 
   /// Lists are being made, of these points.
   /// @param may_be_asked  else judge() cannot tell
-  void remember(AtomPoints& points, bool by_radii, bool may_be_asked);
+  void remember(const AtomPoints& points, bool by_radii, bool may_be_asked);
   /// What this process says of its atoms. Ghosts have to be where their owners are.
   /// @param before positions of the owned points at the build
   Verdict judge(AtomPoints& points, dch::PairSearch& search, const double* const* before,
@@ -52,8 +52,7 @@ class ListExpiry : protected Pointers {
   Verdict find_fast(const AtomPoints& points, const double* const* before, const Wanted& wanted);
   bool is_inside(const double* at, double reach, const double* beyond) const;
   bool is_open(int axis, bool high) const;
-  bool has_changed(AtomPoints& points, bool by_radii) const;
-  bool has_cutoffs_by_types() const;
+  bool has_changed(const AtomPoints& points) const;
   bool keeps_images(const AtomPoints& points, const Wanted& wanted) const;
   bool all_see(const AtomPoints& points, const Wanted& wanted) const;
   std::array<double, 9> box_now() const;
@@ -64,9 +63,8 @@ class ListExpiry : protected Pointers {
   bool lacks_ghost(int i, double moved, const double* before, const Wanted& wanted) const;
   dch::UnlistedPair ask(AtomPoints& points, dch::PairSearch& search, const Wanted& wanted);
 
-  std::array<double, 9> box_{};      ///< at the build
-  std::vector<double> radii_;        ///< by point, at the build
-  std::vector<std::int32_t> types_;  ///< the same, of lists by types with several cutoffs
+  std::array<double, 9> box_{};  ///< at the build
+  TraitsAtBuild traits_;
   int points_ = -1;
   std::vector<GhostsLeftOut> left_out_;  ///< by type
   std::vector<dch::MovedParticle> fast_;

@@ -64,8 +64,10 @@ int FixLangevinDCH::setmask() { return plain_->setmask(); }
 void FixLangevinDCH::init() {
   take_bias();
   plain_->init();
-  if (by_plain_.empty() && std::strncmp(update->integrate_style, "respa", 5) == 0) {
-    by_plain_ = "r-RESPA";
+  constexpr int kRun = 1;
+  const bool by_levels = update->whichflag == kRun && std::strncmp(update->integrate_style, "respa", 5) == 0;
+  if (by_plain_.empty() && by_levels) {
+    by_plain_ = "r-RESPA, in this run or one before";
     if (has_drawn_ && comm->me == 0)
       error->warning(
           FLERR, name_ + "random numbers begin again with 'run_style respa', which plain fix langevin does");
@@ -102,7 +104,10 @@ void FixLangevinDCH::reset_target(double temperature) {
 
 int FixLangevinDCH::modify_param(int narg, char** arg) {
   const int taken = plain_->modify_param(narg, arg);
-  if (std::strcmp(arg[0], "temp") == 0) bias_name_ = arg[1];
+  if (std::strcmp(arg[0], "temp") != 0) return taken;
+  bias_name_ = arg[1];
+  // As the plain style does, at once if there is one already, and else at the next setup.
+  if (bias_) bias_ = modify->compute[modify->find_compute(bias_name_)];
   return taken;
 }
 

@@ -26,7 +26,7 @@ FixLangevinPhilox::FixLangevinPhilox(LAMMPS* lammps, int narg, char** arg)
   if (std::strncmp(arg[3], "v_", 2) == 0)
     bath_.variable = arg[3] + 2;
   else
-    bath_.start = finite_number(arg[3]);
+    bath_.start = target_ = finite_number(arg[3]);
   bath_.stop = finite_number(arg[4]);
   bath_.damping = finite_number(arg[5]);
   const double seed = finite_number(arg[6]);
@@ -98,10 +98,18 @@ void FixLangevinPhilox::init() {
 
 void FixLangevinPhilox::reset_dt() { bath_.take_prefactors(); }
 
+void FixLangevinPhilox::reset_target(double temperature) { bath_.start = bath_.stop = target_ = temperature; }
+
+void* FixLangevinPhilox::extract(const char* name, int& dimension) {
+  dimension = 0;
+  return std::strcmp(name, "t_target") == 0 ? &target_ : nullptr;
+}
+
 void FixLangevinPhilox::setup(int vflag) { post_force(vflag); }
 
 void FixLangevinPhilox::post_force(int) {
   bath_.take_temperature(igroup, name_);
+  target_ = bath_.temperature();
   if (is_zeroed_) sums_.assign(bath_.ratio.size(), {});
   for_batches_of_group(atom->mask, groupbit, atom->nlocal,
                        [&](const int* atoms, int count) { add_forces(atoms, count); });

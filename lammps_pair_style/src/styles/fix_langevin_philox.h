@@ -29,7 +29,9 @@ class FixLangevinPhilox : public Fix, public Explained {
   void init() override;
   void setup(int vflag) override;
   void post_force(int) override;
+  void reset_target(double temperature) override;
   void reset_dt() override;
+  void* extract(const char* name, int& dimension) override;
   int modify_param(int narg, char** arg) override;
   dch::lammps::StyleNote explain() const override {
     return {"langevin/philox", "SIMD kernel, random numbers by seed, atom ID and step"};
@@ -45,6 +47,7 @@ class FixLangevinPhilox : public Fix, public Explained {
   LangevinBath bath_;
   std::uint32_t seed_ = 0;
   bool is_zeroed_ = false;
+  double target_ = 0;            ///< temperature, for others
   std::vector<dch::Vec3> sums_;  ///< of noise at this step, by type, if is_zeroed_
 };
 

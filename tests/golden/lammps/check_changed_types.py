@@ -52,33 +52,70 @@ class ChangedTypes(ComparedWithStock):
                 with self.subTest(name, ranks=ranks):
                     self.compare(script + CHANGE, ranks=ranks)
 
-    def test_lists_live_no_longer_than_those_of_stock(self):
-        """Two atoms are in no list of their types' cutoff; as others they come within theirs once one has moved half the skin."""
-        script = """
+    def test_swaps_that_exclusions_and_styles_go_by(self):
+        """Of types between which pairs are excluded, or that have styles of their own, with the same cutoff."""
+        hybrid = TWO.replace("lj/cut 2.5", "hybrid lj/cut 2.5 morse 2.5")
+        for pair, style in (("1 1", "lj/cut"), ("1 2", "lj/cut")):
+            hybrid = hybrid.replace(f"pair_coeff {pair}", f"pair_coeff {pair} {style}")
+        hybrid = hybrid.replace("pair_coeff 2 2 0.6 0.9", "pair_coeff 2 2 morse 1.0 5.0 1.1")
+        for script in (TWO + "neigh_modify exclude type 1 2\n", hybrid):
+            for ranks in (1, 2):
+                self.compare(script + SWAPS + THERMO + "run 40\n", ranks=ranks)
+
+
+class ListsLiveNoLonger(unittest.TestCase):
+    """Than those of stock LAMMPS: two atoms are in no list, for what they are when it is built; as others they come within
+    the cutoff once one has moved half the skin."""
+
+    FLIGHT = """
 units lj
+atom_style molecular
 boundary f f f
 region box block 0 20 0 10 0 10
 create_box 2 box
-create_atoms 1 single 5 5 5
-create_atoms 1 single 8 5 5
+create_atoms {type} single 5 5 5
+create_atoms {type} single {second} 5 5
 mass * 1.0
 group fast id 1
-velocity fast set 3 0 0
-pair_style lj/cut 2.5
-pair_coeff * * 1.0 1.0 1.2
-pair_coeff 2 2 1.0 1.0 2.5
-neighbor 0.8 bin
+velocity fast set {speed} 0 0
+{pairs}
+neighbor {skin} bin
 neigh_modify delay 0 every 1 check yes
 fix 1 all nve
 thermo 1
 thermo_modify format float %.15g
-run 0
-set group all type 2
-run 50 pre no
+{change}
 """
-        native, ours = (thermo_tables(run(before + script))[-1] for before in ("", "include ${load}\ndch styles no\ndch on\n"))
-        for lines in zip(native, ours, strict=True):
-            self.assertLess(largest_relative_difference(*lines), 1e-9)
+    LJ = "pair_style lj/cut 1.5\npair_coeff * * 1.0 1.0\n"
+
+    def compare(self, pairs, change, kind=1, second=7, speed=1, skin=1.0):
+        script = self.FLIGHT.format(pairs=pairs, change=change, type=kind, second=second, speed=speed, skin=skin)
+        settings = ("", "include ${load}\ndch styles no\ndch on\n", "include ${load}\ndch on\n", "include ${load}\nsuffix dch\n")
+        native, *ours = (thermo_tables(run(before + script))[-1] for before in settings)
+        self.assertNotEqual(native[-1]["E_pair"], 0)  # they have met
+        for found in ours:
+            for lines in zip(native, found, strict=True):
+                self.assertLess(largest_relative_difference(*lines), 1e-9)
+
+    def test_cutoffs(self):
+        self.compare("pair_style lj/cut 2.5\npair_coeff * * 1.0 1.0 1.2\npair_coeff 2 2 1.0 1.0 2.5\n",
+                     "run 0\nset group all type 2\nrun 50 pre no\n", second=8, speed=3, skin=0.8)
+
+    def test_types_excluded(self):
+        self.compare(self.LJ + "neigh_modify exclude type 2 2\n", "run 0\nset group all type 1\nrun 200 pre no\n", kind=2)
+
+    def test_styles(self):
+        pairs = "pair_style hybrid lj/cut 1.5 morse 1.5\npair_coeff 1 * lj/cut 1.0 1.0\npair_coeff 2 2 morse 1.0 5.0 1.0\n"
+        self.compare(pairs, "run 0\nset group all type 1\nrun 200 pre no\n", kind=2)
+
+    def test_groups(self):
+        """In the same run: a group whose members change."""
+        self.compare(self.LJ, "variable young atom step<20\ngroup a dynamic all var young every 1\n"
+                     "neigh_modify exclude group a a\nrun 1\nrun 200\n")
+
+    def test_molecules(self):
+        self.compare(self.LJ + "set group all mol 1\nneigh_modify exclude molecule/intra all\n",
+                     "run 0\nset atom 1 mol 2\nrun 200 pre no\n")
 
 
 if __name__ == "__main__":

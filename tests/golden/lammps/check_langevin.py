@@ -3,8 +3,10 @@
 """fix langevin/philox in a real LAMMPS, beside fix langevin and beside a gas that is moved here."""
 
 import math
+import re
 import unittest
 
+from lammps_run import thermo_tables
 from langevin_oracle import Gas
 from script_tests import MELT, host, main, run
 
@@ -105,6 +107,29 @@ class Forces(unittest.TestCase):
                 self.assertGreater(abs(mean), 1e-3)
                 for atom in members:
                     self.assertAlmostEqual(zeroed[atom][axis], plain[atom][axis] - mean, delta=1e-12)
+
+
+class AskedByOthers(unittest.TestCase):
+    """Commands and fixes that know fix langevin by its name ask for the temperature, or set it."""
+
+    def test_replicas_swap_temperatures(self):
+        script = MELT.replace("0 6 0 6 0 6", "0 4 0 4 0 4").replace("create 1.44", "create ${hot}") + (
+            f"fix 2 all langevin/philox ${{t}} ${{t}} 0.1 {SEED}\ntimestep 0.002\n"
+            "thermo 50\nthermo_modify flush yes\ntemper 400 50 ${t} 2 3847 58382\n")
+        worlds = "include ${load}\nvariable t world 0.5 2.0\nvariable hot world 5.0 0.2\n"
+        output = run(worlds + script, ranks=2, executable=[host.lmp, "-partition", "2x1"])
+        last = [line.split() for line in output.splitlines() if re.fullmatch(r" *\d+ [01] [01] *", line)][-1]
+        self.assertEqual(last, ["400", "1", "0"])
+        found = [thermo_tables((host.work / f"screen.{world}").read_text())[-1][-1]["Temp"] for world in (0, 1)]
+        self.assertGreater(found[0], 1.5)
+        self.assertLess(found[1], 0.8)
+
+    def test_a_fix_reads_the_temperature(self):
+        script = GAS.replace("atomic", "charge").replace("pair_style none", "pair_style lj/cut 1.0\npair_coeff * * 0.0 1.0")
+        output = run("include ${load}\n" + script + f"fix 1 all nve\nfix 2 all langevin/philox 1.0 1.0 0.5 {SEED}\n"
+                     "fix 3 all charge/regulation 1 2 acid_type 1 pH 7 pKa 6 pIp 3 pIm 3 tempfixid 2 seed 2345 nevery 10\n"
+                     "fix_modify 3 energy no\nrun 20\n", variables={"size": 3})
+        self.assertIn("Loop time", output)
 
 
 class WithoutNoise(unittest.TestCase):

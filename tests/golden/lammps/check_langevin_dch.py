@@ -61,6 +61,15 @@ class Bits(unittest.TestCase):
                              after="fix_modify 2 temp t\nrun 20\n")
         self.compare("all LANGEVIN 1.0 1.0 0.5 4711", before="compute t all temp\n", after="fix_modify 2 temp t\nrun 20\n")
 
+    def test_a_bias_that_changes(self):
+        """Without a setup the compute that is named last goes on, as a bias even if it takes none away; the first one waits for a setup."""
+        computes = "compute a all temp/profile 1 1 1 z 4\ncompute b all temp/partial 0 1 1\ncompute c all temp\n"
+        for later in ("b\nuncompute a", "c"):
+            self.compare("all LANGEVIN 1.0 1.0 0.5 4711", before=computes,
+                         after=f"fix_modify 2 temp a\nrun 10\nfix_modify 2 temp {later}\nrun 10 pre no\nrun 5\n")
+        self.compare("all LANGEVIN 1.0 1.0 0.5 4711", before=computes,
+                     after="run 10\nfix_modify 2 temp a\nrun 10 pre no\nrun 5\n")
+
     def test_what_the_plain_style_computes(self):
         self.compare("all LANGEVIN 1.0 1.0 0.5 4711 tally yes", note="plain style, as kernels do not know tally yes",
                      after="thermo_style custom step temp pe etotal f_2\nrun 20\n")
@@ -84,6 +93,10 @@ class Bits(unittest.TestCase):
         output = run("include ${load}\n" + self.TWO + "fix 2 all langevin/dch 1.0 1.0 0.5 4711\nrun 5\n"
                      "run_style respa 2 2 bond 1 pair 2\nrun 5\n")
         self.assertIn("WARNING: Fix langevin/dch 2: random numbers begin again with 'run_style respa'", output)
+
+    def test_numbers_go_on_behind_a_minimization_under_r_respa(self):
+        self.compare("all LANGEVIN 1.0 1.0 0.5 4711",
+                     after="run 10\nrun_style respa 2 2 bond 1 pair 2\nminimize 0 0 1 1\nrun_style verlet\nrun 10\n")
 
     def test_the_suffix_and_dch_on_take_it(self):
         script = MELT.replace("fix 1", "suffix dch\nfix 1") + f"fix 2 all langevin 1.0 1.0 1.0 {SEED}\nrun 20\n"
