@@ -127,8 +127,10 @@ void PairPotential::take_pair(std::size_t a, std::size_t b) {
   const auto& style = detail::style_of(params_);
   for (const double number : pair.numbers)
     if (!std::isfinite(number)) refuse("number" + types_text(a, b), number, "finite");
+  if (!std::isfinite(pair.left_at_cutoff))
+    refuse("energy left at the cutoff" + types_text(a, b), pair.left_at_cutoff, "finite");
   if (pair.cutoff != mirrored.cutoff || pair.charge_cutoff != mirrored.charge_cutoff ||
-      pair.numbers != mirrored.numbers)
+      pair.numbers != mirrored.numbers || pair.left_at_cutoff != mirrored.left_at_cutoff)
     throw InvalidParameter("the pair" + types_text(a, b) +
                            " differs from the same in the other order; give a " + "symmetric matrix");
   if (params_.form == PairForm::colloid)
@@ -148,7 +150,7 @@ void PairPotential::take_pair(std::size_t a, std::size_t b) {
   }
   if (!(exponent <= 700)) refuse("exponent at no distance" + types_text(a, b), exponent, "at most 700");
   fits_single_ = fits_single_ && exponent <= 80;
-  if (params_.shifted && style.has_shift) full_[5][k] = energy_at(k, pair.cutoff);
+  if (params_.shifted && style.has_shift) full_[5][k] = energy_at(k, pair.cutoff) - pair.left_at_cutoff;
 }
 
 /// By the form, before it is shifted.

@@ -149,7 +149,7 @@ inline void add(const PairPotentialParams& all, const Scene& scene, std::size_t 
   if (r.value < pair.cutoff) {
     own = energy_of_form(all, pair, r);
     if (all.shifted && !is_switched(all.form) && all.form != PairForm::soft && all.tables.empty())
-      own = own - energy_of_form(all, pair, {pair.cutoff, 1}).value;
+      own = own - energy_of_form(all, pair, {pair.cutoff, 1}).value + pair.left_at_cutoff;
     own = weights.own * own;
   }
   if (r.value < pair.charge_cutoff)
@@ -256,6 +256,7 @@ inline std::vector<Case> cases() {
     all.back().limit = kExact;
   }
   take("expanded", F::expanded, C::none, 2, {{1, 0.8, 0.2}, 2.4, 0});
+  take("expanded, not shifted to 0", F::expanded, C::none, 2, {{1, 0.8, 0.2}, 2.4, 0, -0.03});
   take("Buckingham", F::buckingham, C::none, 2, {{400, 0.2, 1}, 2.4, 0});
   take("Buckingham, Ewald", F::buckingham, C::ewald, 2, {{400, 0.2, 1}, 2.3, 2.4});
   take("Morse", F::morse, C::none, 2, {{1, 5, 1.1}, 2.4, 0});

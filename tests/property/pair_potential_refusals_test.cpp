@@ -45,6 +45,9 @@ TEST(PairPotential, WrongNumbersAreRefused) {
   expect_refused(changed(F::lennard_jones, C::bare, [&](auto& p) { p.pairs[0].charge_cutoff = nan; }),
                  "cutoff of charges");
   expect_refused(changed(F::morse, C::none, [&](auto& p) { p.pairs[0].numbers[1] = nan; }), "must be finite");
+  expect_refused(changed(F::expanded, C::none, [&](auto& p) { p.pairs[0].left_at_cutoff = nan; }),
+                 "energy left at the cutoff");
+  expect_refused(changed(F::expanded, C::none, [](auto& p) { p.pairs[1].left_at_cutoff = 1; }), "symmetric");
   expect_refused(changed(F::morse, C::none,
                          [](auto& p) {
                            p.pairs[0].numbers = {1, 400, 1};

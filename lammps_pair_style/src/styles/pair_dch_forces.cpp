@@ -85,7 +85,13 @@ void PairDCH::take_numbers(const PairsOfTypes& given, dch::PairPotentialParams& 
   for (std::size_t k = 0; k < given.size(); ++k) {
     const auto a = static_cast<std::size_t>(given[k].first - 1),
                b = static_cast<std::size_t>(given[k].second - 1);
-    take_pair(of_plain.all(), of_plain.of_pair(k), params.pairs[a * n + b]);
+    dch::FormPair& pair = params.pairs[a * n + b];
+    take_pair(of_plain.all(), of_plain.of_pair(k), pair);
+    // Versions shift the energy of lj/expand by what it is at different distances, some by not all of it.
+    double slope = 0;
+    if (params.shifted && style_.form == dch::PairForm::expanded)
+      pair.left_at_cutoff =
+          plain_->single(0, 0, given[k].first, given[k].second, pair.cutoff * pair.cutoff, 1, 1, slope);
     params.pairs[b * n + a] = params.pairs[a * n + b];
   }
 }

@@ -216,7 +216,7 @@ run 10
 
     def test_numbers_of_a_pair_of_atoms(self):
         """compute pair/local and compute group/group ask single()."""
-        script = SOLUTION + "compute all all pair/local dist eng force\ncompute most all reduce max c_all[1] c_all[2] c_all[3]\n"
+        script = SOLUTION + "compute all all pair/local dist eng force\ncompute most all reduce max c_all[1] c_all[2] c_all[3] INPUTS_LOCAL\n"
         script += "compute both solvent group/group spheres\nthermo_style custom step epair c_most[*] c_both c_both[*]\nthermo_modify format float %.15g\n"
         self.compare(script + "run 0\n")
 

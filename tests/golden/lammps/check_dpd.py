@@ -193,7 +193,7 @@ class Motion(unittest.TestCase):
             self.assertTrue(all(abs(a - b) < 1e-7 for a, b in zip(row[1:], again[atom][1:])))
 
     def test_single_is_the_repulsion(self):
-        sums = "compute each all pair/local eng\ncompute sum all reduce sum c_each\nthermo_style custom step pe c_sum\n"
+        sums = "compute each all pair/local eng\ncompute sum all reduce sum c_each INPUTS_LOCAL\nthermo_style custom step pe c_sum\n"
         _, output = atoms_after(f"{FLUID}{DPD}{sums}thermo_modify norm no format float %.15g\nrun 0\n")
         row = thermo_tables(output)[-1][0]
         self.assertAlmostEqual(row["PotEng"], row["c_sum"], delta=1e-9)
@@ -250,7 +250,8 @@ class Refused(unittest.TestCase):
         self.refuse(good, "friction is '-4' but has to be a number of 0 or more", coefficients="pair_coeff * * 25 -4\n")
         self.refuse(good, "types 1 and 2 have no pair_coeff; there is no mixing",
                     coefficients="pair_coeff 1 1 25 4.5\npair_coeff 2 2 25 4.5\n")
-        self.refuse(good, "pair_coeff 2 1 names no pair of types", coefficients="pair_coeff 2 1 25 4.5\n")
+        if host.year < 2023:  # later versions turn the types round
+            self.refuse(good, "pair_coeff 2 1 names no pair of types", coefficients="pair_coeff 2 1 25 4.5\n")
 
     def test_settings(self):
         good = "dpd/philox 1.0 1.0 7"

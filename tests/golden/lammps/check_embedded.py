@@ -31,8 +31,8 @@ TWO_KINDS = "set type 1 type/fraction 2 0.4 4711"
 THREE_KINDS = TWO_KINDS + "\nset type 1 type/fraction 3 0.3 4712"
 SINGLE = """
 compute local all pair/local eng force
-compute ends all reduce sum c_local[1] c_local[2]
-compute most all reduce max c_local[1] c_local[2]
+compute ends all reduce sum c_local[1] c_local[2] INPUTS_LOCAL
+compute most all reduce max c_local[1] c_local[2] INPUTS_LOCAL
 thermo_style custom step epair c_ends[*] c_most[*]
 thermo_modify format float %.15g
 """

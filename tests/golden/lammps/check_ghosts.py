@@ -79,7 +79,7 @@ class WithGhosts(ComparedWithStock):
         rdf = "compute 2 all rdf 20\nfix 2 all ave/time 10 1 10 c_2[*] mode vector\n"
         sums = "thermo_style custom step pe press c_3\n"
         nearby = "compute 2 all centro/atom fcc\ncompute 3 all reduce sum c_2\n" + sums
-        pairs = "compute 2 all pair/local dist\ncompute 3 all reduce sum c_2\n"
+        pairs = "compute 2 all pair/local dist\ncompute 3 all reduce sum c_2 INPUTS_LOCAL\n"
         for lines, reason in (
             (rdf, LIST), (nearby, LIST), (pairs + sums, LIST), ("compute 2 all ke/atom\n", "compute ke/atom"),
             ("fix 2 all store/force\n", "fix store/force"),

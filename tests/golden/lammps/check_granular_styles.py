@@ -249,7 +249,7 @@ pair_coeff * 2 gran/hertz/history"""
         shown = """compute each all stress/atom NULL pair
 compute of all reduce sumsq c_each[1] c_each[4]
 compute local all pair/local force p1 p4 p7
-compute sums all reduce sumsq c_local[1] c_local[2] c_local[3] c_local[4]
+compute sums all reduce sumsq c_local[1] c_local[2] c_local[3] c_local[4] INPUTS_LOCAL
 thermo_style custom step press pxy c_of[1] c_of[2] c_sums[1] c_sums[2] c_sums[3] c_sums[4]
 """
         for style in STYLES:
@@ -265,7 +265,7 @@ thermo_style custom step press pxy c_of[1] c_of[2] c_sums[1] c_sums[2] c_sums[3]
             self.compare(script + "run 0\nrun 1\nrun 20\n", 1, ("suffix", "dch on"), style, tolerance=1e-11, builds=0)
 
     def test_refusals(self):
-        for bad, words in ((heap().replace("comm_modify vel yes", ""), "Pair granular requires ghost atoms store velocity"),
+        for bad, words in ((heap().replace("comm_modify vel yes", ""), "requires ghost atoms store velocity"),
                            (heap(numbers="2000.0 NULL 50.0 NULL -1 1"), "Illegal pair_style command"),
                            (heap(numbers="2000.0 NULL 50.0 NULL"), "Illegal pair_style command")):
             for way in ("suffix dch\n", "dch on\n"):

@@ -114,7 +114,7 @@ class Bits(unittest.TestCase):
         for words, message in (("1.0 1.0 0.5", "Illegal fix langevin"), ("1.0 1.0 -0.5 4711", "period must be > 0.0"),
                                ("1.0 1.0 0.5 900000001", "Invalid seed"), ("1.0 1.0 0.5 4711 zero", "Illegal fix langevin"),
                                ("1.0 1.0 0.5 4711 scale 7 1.0", "Illegal fix langevin"),
-                               ("v_none 1.0 0.5 4711", "Variable name for fix langevin does not exist"),
+                               ("v_none 1.0 0.5 4711", "Variable name .*for fix langevin does not exist"),
                                ("v_t 1.0 0.5 4711", "variable 't' is -1.* but has to be a temperature of 0 or more"),
                                ("v_a 1.0 0.5 4711", "variable 'a' is -1.* but has to be a temperature of 0 or more")):
             code, output = host.run_text("include ${load}\nvariable t equal -1\nvariable a atom -1\n" + self.TWO +

@@ -84,7 +84,7 @@ PAIRS = {
     "granular": "pair_style gran/hooke/history 200.0 NULL 50.0 NULL 0.5 0\npair_coeff * *\n",
     "hybrid": "pair_style hybrid lj/cut 5.6 morse 3.1\n" + LJ.format("lj/cut") +
               "pair_coeff 1 1 morse 0.2 3.0 0.7 1.25\n",
-    "full": "pair_style hybrid/overlay lj/cut 5.6 sw\n" + LJ.format("lj/cut") + "pair_coeff * * sw small.sw A A\n",
+    "full": "pair_style hybrid/overlay lj/cut 5.6 sw\n" + LJ.format("lj/cut") + "pair_coeff * * sw small.sw A A\nUNTRIMMED\n",
 }
 SW = "A A A 0.2 0.7 1.8 21.0 1.2 -0.333333333333 7.049556277 0.6022245584 4.0 0.0 0.0\n"
 

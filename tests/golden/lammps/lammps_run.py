@@ -2,6 +2,7 @@
 """Runs LAMMPS executables for the golden tests and reads what they print."""
 
 import os
+import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -38,6 +39,16 @@ class Host:
         self.variables = {"here": SCRIPTS, "examples": arguments.examples, "data": arguments.melt}
         self.environment = dict(os.environ, LAMMPS_POTENTIALS=str(arguments.potentials), OMP_NUM_THREADS="1")
 
+        told = subprocess.run([self.lmp, "-h"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False).stdout
+        self.year = int(re.search(r"Simulator - \d+ \w+ (\d{4})", told)[1])
+
+    def in_words_of_version(self, text):
+        """A script in which INPUTS_LOCAL and UNTRIMMED stand for what later versions want: that `compute reduce` is told of
+        values of pairs, and that lists of `pair_style hybrid` keep the cutoffs of types."""
+        is_later = self.year > 2022
+        return text.replace("INPUTS_LOCAL", "inputs local" if is_later else "").replace(
+            "UNTRIMMED", "pair_modify neigh/trim no" if is_later else "")
+
     def run(self, ranks, command, variables=(), log="none", timeout=280):
         """Runs command (a list) on `ranks` processes with LAMMPS variables; returns exit code and all output.
 
@@ -67,7 +78,7 @@ class Host:
         executable: another one, or a list of it and its first arguments.
         """
         script = self.work / "in.text"
-        script.write_text(text)
+        script.write_text(self.in_words_of_version(text))
         words = executable if isinstance(executable, list) else [executable or self.lmp]
         return self.run(ranks, words + ["-in", script], {"load": self.loader, **dict(variables)})
 

@@ -56,6 +56,7 @@ struct FormPair {
   std::array<double, 4> numbers{};  ///< as PairForm names them
   double cutoff = 0;                ///< >= 0; the form does not act if it is 0 [length]
   double charge_cutoff = 0;         ///< >= 0; of charges, the same [length]
+  double left_at_cutoff = 0;        ///< what is left of a shifted energy there [energy]
 };
 
 /// A force and an energy between knots that are equally far from each other in r^2: linear in r^2, or cubic
@@ -78,8 +79,8 @@ struct PairPotentialParams {
   double constant = 1;            ///< of charges, >= 0 [energy length / charge^2]
   double splitting = 0;           ///< of charges, >= 0 [1/length]
   double switch_from = 0;         ///< of charges, where they are switched off [length]
-  bool shifted = false;  ///< whether each pair's energy by its form is lowered by what it is at the cutoff;
-                         ///< nothing changes where that is 0
+  bool shifted = false;  ///< whether each pair's energy by its form is lowered, by what it is at the cutoff
+                         ///< less left_at_cutoff; nothing changes where that is 0
 };
 
 /// Pairs that act by a part only: bonded ones.

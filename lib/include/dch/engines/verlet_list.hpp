@@ -13,7 +13,8 @@ namespace dch {
 /// A neighbor list that knows when it has gone stale.
 class VerletList {
  public:
-  /// What params.types, params.radii and params.exclusions refer to must outlive the list.
+  /// What params.types, params.radii and params.exclusions refer to must outlive the list, which does not
+  /// notice if it changes: make another list then.
   /// @throws InvalidParameter without an engine, or for a negative or non-finite skin.
   VerletList(std::unique_ptr<PairSearch> search, ListParams params, Expiry expiry = Expiry::exact);
 
