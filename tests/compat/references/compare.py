@@ -91,16 +91,20 @@ def difference(first, second, columns):
     return worst
 
 
-def run(arguments, path, mode, ranks):
-    """Forces before and after four steps by atom, and what was printed; None for forces of a run that has ended early."""
+def commands(arguments, path, mode, work):
+    """Of a system in one mode: forces before and after four steps go into files of the folder."""
+    text, motion, _ = script_of(path, arguments.tests)
+    columns = "id x y z vx vy vz fx fy fz modify sort id format float %.17g"
+    return f'clear\nprint "=== {mode}"\n' + MODES[mode].format(load=arguments.load) + text + (
+        f"\nrun 0 post no\nwrite_dump all custom {work}/{mode}.first {columns}\n{motion}thermo 2\nrun 4 post no\n"
+        f"write_dump all custom {work}/{mode}.last {columns}\n" + ("dch explain\n" if mode != "stock" else "suffix off\n"))
+
+
+def run(arguments, path, modes, ranks):
+    """By mode forces before and after four steps by atom, and what was printed; no forces of a run that has ended early."""
     with tempfile.TemporaryDirectory(prefix="dch-reference-") as work:
         work = Path(work)
-        text, motion, _ = script_of(path, arguments.tests)
-        columns = "id x y z vx vy vz fx fy fz modify sort id format float %.17g"
-        script = MODES[mode].format(load=arguments.load) + text + (
-            f"\nrun 0 post no\nwrite_dump all custom {work}/first {columns}\n{motion}thermo 2\nrun 4 post no\n"
-            f"write_dump all custom {work}/last {columns}\n" + ("dch explain\n" if mode != "stock" else ""))
-        (work / "in.reference").write_text(script)
+        (work / "in.reference").write_text("".join(commands(arguments, path, mode, work) for mode in modes))
         words = ["lmp", "-log", "none", "-nocite", "-in", "in.reference"]
         if ranks > 1:
             words = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] + words
@@ -109,11 +113,15 @@ def run(arguments, path, mode, ranks):
         try:
             done = subprocess.run(words, cwd=work, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True, errors="replace", check=False, timeout=arguments.timeout)
+            said = done.stdout
         except subprocess.TimeoutExpired:
-            return None, f"no end within {arguments.timeout} s"
-        if done.returncode != 0 or not (work / "last").exists():
-            return None, done.stdout
-        return (rows_of(work / "first"), rows_of(work / "last")), done.stdout
+            said = f"=== {modes[-1]}\nno end within {arguments.timeout} s"
+        found = {}
+        for mode in modes:
+            dumps = [work / f"{mode}.{when}" for when in ("first", "last")]
+            part = re.search(rf"^=== {mode}\n(.*?)(?=^=== |\Z)", said, re.MULTILINE | re.DOTALL)
+            found[mode] = (tuple(map(rows_of, dumps)) if dumps[1].exists() else None, part[1] if part else said[-300:])
+        return found
 
 
 def reference_forces(path):
@@ -131,11 +139,14 @@ def reference_forces(path):
 def compare(arguments, path, ranks):
     """Counts, and what is wrong, of one reference on so many processes."""
     counts, wrong = Counter(), []
-    stock, said = run(arguments, path, "stock", ranks)
+    found = run(arguments, path, list(MODES), ranks)
+    stock = found["stock"][0]
     if stock is None:
         return Counter(refused=1), []
     for mode in ("lists", "suffix"):
-        ours, said = run(arguments, path, mode, ranks)
+        ours, said = found[mode]
+        if ours is None:  # maybe as the one before has ended LAMMPS
+            ours, said = run(arguments, path, [mode], ranks)[mode]
         label = f"{path.stem}, {ranks} processes, {mode}"
         if ours is None:
             error = re.search(r"^ERROR.*", said, re.MULTILINE)
