@@ -186,6 +186,8 @@ def main():
         if not needed.exists():
             sys.exit(f"compare.py: {needed} does not exist; give the folder of LAMMPS's source, and build the LAMMPS adapter")
     paths = [path for path in sorted(arguments.tests.glob("*.yaml")) if re.search(arguments.only, path.name)]
+    if not paths:
+        sys.exit(f"compare.py: no reference in {arguments.tests} has a name that matches '{arguments.only}'")
     all_wrong = []
     for ranks in arguments.processes:
         counts = Counter()
@@ -195,6 +197,9 @@ def main():
                 for line in wrong:
                     print(line, flush=True)
                 all_wrong += wrong
+        if counts["lists"] + counts["suffix"] == 0:
+            all_wrong.append(f"{ranks} processes: nothing was compared")
+            print(all_wrong[-1])
         print(f"{ranks} processes: {len(paths)} references, {counts['refused']} that stock LAMMPS refuses; {counts['lists']} with "
               f"lists, {counts['suffix']} with the suffix, {counts['ours']} of them on styles of ours; as written down "
               f"{counts['lists, as written down']} and {counts['suffix, as written down']}", flush=True)
