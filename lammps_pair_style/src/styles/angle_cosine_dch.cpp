@@ -5,10 +5,10 @@ namespace LAMMPS_NS {
 
 AngleCosineDCH::AngleCosineDCH(LAMMPS* lammps) : AngleDCH(lammps, "cosine", 1) {}
 
-dch::AngleForces AngleCosineDCH::make_kernel(const std::vector<double>& values) const {
+void AngleCosineDCH::make_kernel(const std::vector<double>& values) {
   std::vector<dch::CosineAngle> types;
   for (const double k : values) types.push_back({k});
-  return dch::AngleForces(types);
+  kernel_.emplace(types);
 }
 
 }  // namespace LAMMPS_NS

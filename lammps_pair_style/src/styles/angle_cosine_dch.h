@@ -16,7 +16,7 @@ class AngleCosineDCH : public AngleDCH {
   explicit AngleCosineDCH(LAMMPS* lammps);
 
  private:
-  dch::AngleForces make_kernel(const std::vector<double>& values) const override;
+  void make_kernel(const std::vector<double>& values) override;
 };
 
 }  // namespace LAMMPS_NS

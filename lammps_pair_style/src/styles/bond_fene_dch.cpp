@@ -15,10 +15,10 @@ void BondFENEDCH::make_kernel(const std::vector<double>& values) {
   kernel_ = std::make_unique<dch::FeneForces>(types);
 }
 
-void BondFENEDCH::add_forces(dch::Span<const dch::BondOfType> bonds, dch::Span<const dch::Vec3> positions,
-                             dch::Span<dch::Vec3> forces, bool wants_virial, std::array<double, 6>& sums) {
-  kernel_->add_forces(bonds, 1, positions, forces, too_long_, wants_virial ? &sums : nullptr);
-  for (const std::int32_t k : too_long_) add_long_bond(bonds[static_cast<std::size_t>(k)], sums);
+void BondFENEDCH::add_forces(dch::Span<const dch::Vec3> positions, dch::Span<dch::Vec3> forces,
+                             bool wants_virial, std::array<double, 6>& sums) {
+  kernel_->add_forces(bonds(), 1, positions, forces, too_long_, wants_virial ? &sums : nullptr);
+  for (const std::int32_t k : too_long_) add_long_bond(bonds()[static_cast<std::size_t>(k)], sums);
 }
 
 /// The plain style warns, or stops if it breaks.

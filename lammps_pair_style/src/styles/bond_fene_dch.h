@@ -17,8 +17,8 @@ class BondFENEDCH : public BondDCH {
 
  private:
   void make_kernel(const std::vector<double>& values) override;
-  void add_forces(dch::Span<const dch::BondOfType> bonds, dch::Span<const dch::Vec3> positions,
-                  dch::Span<dch::Vec3> forces, bool wants_virial, std::array<double, 6>& sums) override;
+  void add_forces(dch::Span<const dch::Vec3> positions, dch::Span<dch::Vec3> forces, bool wants_virial,
+                  std::array<double, 6>& sums) override;
   void add_long_bond(const dch::BondOfType& bond, std::array<double, 6>& sums);
 
   std::unique_ptr<dch::FeneForces> kernel_;

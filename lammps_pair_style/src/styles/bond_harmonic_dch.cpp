@@ -12,10 +12,9 @@ void BondHarmonicDCH::make_kernel(const std::vector<double>& values) {
   kernel_ = std::make_unique<dch::HarmonicForces>(types);
 }
 
-void BondHarmonicDCH::add_forces(dch::Span<const dch::BondOfType> bonds, dch::Span<const dch::Vec3> positions,
-                                 dch::Span<dch::Vec3> forces, bool wants_virial,
-                                 std::array<double, 6>& sums) {
-  kernel_->add_forces(bonds, 1, positions, forces, wants_virial ? &sums : nullptr);
+void BondHarmonicDCH::add_forces(dch::Span<const dch::Vec3> positions, dch::Span<dch::Vec3> forces,
+                                 bool wants_virial, std::array<double, 6>& sums) {
+  kernel_->add_forces(bonds(), 1, positions, forces, wants_virial ? &sums : nullptr);
 }
 
 }  // namespace LAMMPS_NS

@@ -19,8 +19,8 @@ class BondHarmonicDCH : public BondDCH {
 
  private:
   void make_kernel(const std::vector<double>& values) override;
-  void add_forces(dch::Span<const dch::BondOfType> bonds, dch::Span<const dch::Vec3> positions,
-                  dch::Span<dch::Vec3> forces, bool wants_virial, std::array<double, 6>& sums) override;
+  void add_forces(dch::Span<const dch::Vec3> positions, dch::Span<dch::Vec3> forces, bool wants_virial,
+                  std::array<double, 6>& sums) override;
 
   std::unique_ptr<dch::HarmonicForces> kernel_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <error.h>
@@ -17,20 +18,22 @@ namespace LAMMPS_NS {
 template <class Style>
 class PlainStyle {
  public:
-  /// @param kind "Bond" or "Angle", for messages
+  /// @param kind "bond" or "angle", for messages
   /// @param coefficients how many numbers a type has
-  PlainStyle(const char* kind, const char* name, std::size_t coefficients)
-      : kind_(kind), name_(name), count_(coefficients) {}
-
-  std::string name() const { return name_ + "/dch"; }
-  /// "Bond style harmonic/dch", for messages.
-  std::string title() const { return kind_ + " style " + name(); }
-
   /// @param made by LAMMPS; null if there is no such style
-  void take(Style* made, Error& error) {
-    style_.reset(made);
+  PlainStyle(const char* kind, const char* name, std::size_t coefficients, Style* made, Error& error)
+      : kind_(kind), name_(name), count_(coefficients), style_(made) {
     if (!style_)
       error.all(FLERR, title() + " needs the plain style " + name_ + ", which this LAMMPS was built without");
+  }
+
+  const std::string& kind() const { return kind_; }
+  std::string name() const { return name_ + "/dch"; }
+  /// "Bond style harmonic/dch", for messages.
+  std::string title() const {
+    std::string words = kind_ + " style " + name();
+    words[0] = static_cast<char>(std::toupper(words[0]));
+    return words;
   }
 
   Style* operator->() const { return style_.get(); }
