@@ -30,7 +30,7 @@ find_package_handle_standard_args(
 
 include(${CMAKE_CURRENT_LIST_DIR}/LammpsSizes.cmake)
 if(LammpsHost_FOUND)
-  dch_check_lammps_sizes(${LAMMPS_LIBRARY})
+  dch_find_lammps_sizes(_lammps_sizes ${LAMMPS_LIBRARY})
 endif()
 
 # The adapter takes the place of a part of LAMMPS, hence is for a version; with these it has been run.
@@ -48,7 +48,7 @@ if(LammpsHost_FOUND AND NOT TARGET Lammps::host)
   add_library(Lammps::host INTERFACE IMPORTED GLOBAL)
   # The folder shim has headers that some packages of LAMMPS lack.
   target_include_directories(Lammps::host SYSTEM INTERFACE ${LAMMPS_INCLUDE_DIR}/lammps ${CMAKE_CURRENT_LIST_DIR}/../shim)
-  target_compile_definitions(Lammps::host INTERFACE LAMMPS_SMALLBIG OMPI_SKIP_MPICXX
+  target_compile_definitions(Lammps::host INTERFACE ${_lammps_sizes} OMPI_SKIP_MPICXX
                                                     DCH_LAMMPS_VERSION=${DCH_LAMMPS_VERSION})
   target_link_libraries(Lammps::host INTERFACE ${LAMMPS_LIBRARY} MPI::MPI_CXX)
 endif()

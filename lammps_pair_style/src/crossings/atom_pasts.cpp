@@ -3,6 +3,8 @@
 
 #include <memory.h>
 
+#include "id_numbers.h"
+
 namespace LAMMPS_NS {
 
 dch::lammps::BoxCounts box_counts(imageint image) {
@@ -80,10 +82,10 @@ int AtomPasts::write(int i, double* to) const {
   }
   double* at = to;
   for (int k = 0; k < 3; ++k) *at++ = position(i)[k];
-  *at++ = static_cast<double>(image(i));
+  *at++ = in_double(image(i));
   const auto held = partners(i);
   *at++ = static_cast<double>(held.size());
-  for (const tagint partner : held) *at++ = static_cast<double>(partner);
+  for (const tagint partner : held) *at++ = in_double(partner);
   return static_cast<int>(at - to);
 }
 
@@ -93,8 +95,8 @@ int AtomPasts::read(int i, const double* from) {
     forget(i);
     return 5;
   }
-  note(i, {from[0], from[1], from[2]}, static_cast<imageint>(from[3]));
-  for (int k = 0; k < bonds; ++k) note_bond(i, static_cast<tagint>(from[5 + k]));
+  note(i, {from[0], from[1], from[2]}, from_double<imageint>(from[3]));
+  for (int k = 0; k < bonds; ++k) note_bond(i, from_double<tagint>(from[5 + k]));
   return 5 + bonds;
 }
 

@@ -5,6 +5,8 @@
 #include <comm.h>
 #include <tuple>
 
+#include "id_numbers.h"
+
 namespace LAMMPS_NS {
 namespace {
 
@@ -27,7 +29,7 @@ void CrossingLog::gather(const std::vector<BondCrossing>& mine, const MovingAtom
 void CrossingLog::collect(const std::vector<BondCrossing>& mine, double begin, double end) {
   std::vector<double> numbers;
   for (const BondCrossing& crossing : mine) {
-    for (const tagint tag : crossing.tags) numbers.push_back(static_cast<double>(tag));
+    for (const tagint tag : crossing.tags) numbers.push_back(in_double(tag));
     numbers.insert(numbers.end(), {begin + crossing.time * (end - begin), crossing.place.x, crossing.place.y,
                                    crossing.place.z, static_cast<double>(crossing.sign)});
   }
@@ -47,7 +49,7 @@ void CrossingLog::collect(const std::vector<BondCrossing>& mine, double begin, d
     const double* at = all.data() + first[p];
     for (int k = 0; k < counts[p]; k += static_cast<int>(kNumbers), at += kNumbers) {
       CrossingEvent event;
-      for (std::size_t n = 0; n < 4; ++n) event.tags[n] = static_cast<tagint>(at[n]);
+      for (std::size_t n = 0; n < 4; ++n) event.tags[n] = from_double<tagint>(at[n]);
       event.step = at[4];
       event.place = {at[5], at[6], at[7]};
       event.sign = static_cast<int>(at[8]);

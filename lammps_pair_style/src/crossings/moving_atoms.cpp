@@ -10,6 +10,8 @@
 #include <limits>
 #include <modify.h>
 
+#include "id_numbers.h"
+
 namespace LAMMPS_NS {
 namespace {
 
@@ -77,9 +79,7 @@ int MovingAtoms::pack(int n, const int* list, double* to, bool through_faces, co
     for (int axis = 0; axis < 3; ++axis) *at++ = start[axis];
     for (int axis = 0; axis < 3; ++axis) *at++ = end[axis];
     double* const bonds = at;
-    const auto write = [&](tagint partner, bool is_old) {
-      *at++ = static_cast<double>(is_old ? partner : -partner);
-    };
+    const auto write = [&](tagint partner, bool is_old) { *at++ = in_double(is_old ? partner : -partner); };
     if (i < atom->nlocal) {
       for_bonds_of_owned(i, write);
     } else {
@@ -96,7 +96,7 @@ void MovingAtoms::unpack(int n, int first, const double* from) {
     for (int axis = 0; axis < 3; ++axis) ghost.before[axis] = *from++;
     for (int axis = 0; axis < 3; ++axis) ghost.now[axis] = *from++;
     tagint* const held = bonds_.data() + place(i) * static_cast<std::size_t>(width_);
-    for (int m = 0; m < width_; ++m) held[m] = static_cast<tagint>(*from++);
+    for (int m = 0; m < width_; ++m) held[m] = from_double<tagint>(*from++);
   }
 }
 

@@ -5,10 +5,6 @@
 #include <lammps.h>
 #include <pointers.h>
 
-static_assert(
-    sizeof(LAMMPS_NS::tagint) == 4,
-    "DCH neighbor lists know LAMMPS built with LAMMPS_SMALLBIG, the default, not with LAMMPS_BIGBIG");
-
 #if __has_include(<command.h>)
 #include <command.h>
 #else

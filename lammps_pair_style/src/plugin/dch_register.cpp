@@ -37,9 +37,8 @@ bool dch::lammps::fits_ids_of(int bytes) {
   const int known = static_cast<int>(sizeof(LAMMPS_NS::tagint));
   if (bytes == known) return true;
   complain(
-      "ERROR: the DCH neighbor lists were built for LAMMPS with atom IDs of %d bytes (LAMMPS_SMALLBIG), but "
-      "this "
-      "has IDs of %d bytes (LAMMPS_BIGBIG); build LAMMPS with -D LAMMPS_SIZES=smallbig, the default\n",
+      "ERROR: the DCH neighbor lists were built for LAMMPS with atom IDs of %d bytes, but this has IDs of %d "
+      "bytes (its LAMMPS_SIZES); build them with -DLAMMPS_LIBRARY= the library of this LAMMPS\n",
       known, bytes);
   return false;
 }

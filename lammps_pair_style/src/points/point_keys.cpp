@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kShiftBits = 8;
 constexpr int kMaxShift = 127;
+constexpr std::int64_t kTags = std::int64_t{1} << (64 - 3 * kShiftBits);
 
 std::uint64_t pack(std::int64_t tag, const ImageFlags& cell) {
   auto key = static_cast<std::uint64_t>(tag);
@@ -21,8 +22,10 @@ std::uint64_t pack(std::int64_t tag, const ImageFlags& cell) {
 Span<const std::uint64_t> PointKeys::assign(Span<const Vec3> points, Span<const std::int64_t> tags,
                                             Span<const ImageFlags> images, const Lattice& lattice) {
   const std::size_t owned = images.size();
+  const std::int64_t largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
+  if (largest >= kTags) return {};
   keys_.resize(points.size());
-  by_tag_.reset(points.size(), tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end()));
+  by_tag_.reset(points.size(), largest);
   for (std::size_t p = 0; p < owned; ++p) {
     keys_[p] = pack(tags[p], images[p]);
     by_tag_.find_or_add(tags[p], static_cast<std::int32_t>(p));

@@ -39,8 +39,8 @@ struct Lattice {
 class PointKeys {
  public:
   /// Names the points; the first images.size() of them are owned atoms with these image flags, the rest are
-  /// ghosts. IDs are positive and below 2^40. O(n). Returns an empty span if copies of an atom lie more than
-  /// 127 boxes apart: such points have no names.
+  /// ghosts. IDs are positive. O(n). Returns an empty span if copies of an atom lie more than 127 boxes
+  /// apart, or an ID is 2^40 or more: such points have no names.
   Span<const std::uint64_t> assign(Span<const Vec3> points, Span<const std::int64_t> tags,
                                    Span<const ImageFlags> images, const Lattice& lattice);
 

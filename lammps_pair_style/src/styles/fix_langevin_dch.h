@@ -19,6 +19,8 @@ FixStyle(langevin/dch,FixLangevinDCH);
 
 namespace LAMMPS_NS {
 
+class Compute;
+
 /// langevin/dch: the random numbers and operations of fix langevin, in its order, by SIMD kernels: forces
 /// have its bits. It keeps an object of the plain style, which reads the arguments, and computes what the
 /// kernels do not know.

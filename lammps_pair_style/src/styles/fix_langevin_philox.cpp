@@ -13,6 +13,7 @@
 
 #include "finite_number.h"
 #include "group_runs.h"
+#include "id_numbers.h"
 
 namespace LAMMPS_NS {
 
@@ -120,7 +121,7 @@ void FixLangevinPhilox::add_forces(const int* atoms, int count) {
   std::array<std::int32_t, kMostInRun> ids;
   std::array<dch::Vec3, kMostInRun> noises;
   const auto size = static_cast<std::size_t>(count);
-  for (std::size_t k = 0; k < size; ++k) ids[k] = atom->tag[atoms[k]];
+  for (std::size_t k = 0; k < size; ++k) ids[k] = drawn_by(atom->tag[atoms[k]], *error);
   const dch::Span<dch::Vec3> noise(noises.data(), size);
   dch::uniform_noise(seed_, update->ntimestep, {ids.data(), size}, noise);
   bath_.add_forces(atoms, noise);

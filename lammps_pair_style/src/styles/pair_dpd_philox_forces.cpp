@@ -12,6 +12,7 @@
 
 #include <dch/base/error.hpp>
 
+#include "id_numbers.h"
 #include "pair_dpd_philox.h"
 
 namespace LAMMPS_NS {
@@ -104,7 +105,8 @@ void PairDPDPhilox::add_row(int i, Batch& batch) {
   const int* const type = atom->type;
   const tagint* const tag = atom->tag;
   const dch::Vec3 own = x[i], own_velocity = v[i];
-  const int first_type = (type[i] - 1) * atom->ntypes - 1, own_tag = tag[i];
+  const int first_type = (type[i] - 1) * atom->ntypes - 1;
+  const std::int32_t own_id = drawn_by(tag[i], *error);
   dch::DissipativeBatch& pairs = batch.pairs;
   for (int k = 0; k < found; ++k) {
     const int marked = near_[static_cast<std::size_t>(k)], j = marked & NEIGHMASK;
@@ -118,8 +120,8 @@ void PairDPDPhilox::add_row(int i, Batch& batch) {
     pairs.vx[at] = velocity.x;
     pairs.vy[at] = velocity.y;
     pairs.vz[at] = velocity.z;
-    pairs.first_id[at] = own_tag;
-    pairs.second_id[at] = tag[j];
+    pairs.first_id[at] = own_id;
+    pairs.second_id[at] = drawn_by(tag[j], *error);
     pairs.types[at] = has_one_type ? 0 : first_type + type[j];
     pairs.kind[at] = sbmask(marked);
     if (++pairs.count == dch::DissipativeBatch::kSize) finish(batch);

@@ -138,6 +138,9 @@ std::vector<int> gather(std::vector<int> mine) {
   return all;
 }
 
+/// The scenes here have few atoms, whose IDs are the first numbers.
+int short_id(LAMMPS_NS::tagint id) { return static_cast<int>(id); }
+
 /// Sorted pairs of all lists that are kept up, and of bonded atoms, which lists may leave out.
 std::vector<Key> listed_pairs(LAMMPS_NS::LAMMPS& lammps, const Scene& scene) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
@@ -149,7 +152,8 @@ std::vector<Key> listed_pairs(LAMMPS_NS::LAMMPS& lammps, const Scene& scene) {
       for (int k = 0; k < list.numneigh[i]; ++k) {
         const int j = list.firstneigh[i][k] & NEIGHMASK;
         const Vec d{atom.x[j][0] - atom.x[i][0], atom.x[j][1] - atom.x[i][1], atom.x[j][2] - atom.x[i][2]};
-        const Key key = key_of(atom.tag[i], atom.tag[j], scene.image_of(atom.tag[i], atom.tag[j], d));
+        const int own = short_id(atom.tag[i]), other = short_id(atom.tag[j]);
+        const Key key = key_of(own, other, scene.image_of(own, other, d));
         numbers.insert(numbers.end(), key.begin(), key.end());
       }
     }
@@ -168,8 +172,8 @@ std::vector<std::pair<int, int>> bonded_pairs(LAMMPS_NS::LAMMPS& lammps) {
   std::vector<int> numbers;
   for (int i = 0; atom.molecular != LAMMPS_NS::Atom::ATOMIC && i < atom.nlocal; ++i)
     for (int k = 0; k < atom.nspecial[i][0]; ++k) {
-      numbers.push_back(atom.tag[i]);
-      numbers.push_back(atom.special[i][k]);
+      numbers.push_back(short_id(atom.tag[i]));
+      numbers.push_back(short_id(atom.special[i][k]));
     }
   const std::vector<int> all = gather(std::move(numbers));
   std::vector<std::pair<int, int>> pairs;

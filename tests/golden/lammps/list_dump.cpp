@@ -23,15 +23,16 @@ void write_box(std::FILE* out, void* lammps) {
                hi[1], hi[2], xy, yz, xz);
 }
 
-void write_list(std::FILE* out, void* lammps, int list, const int* tag, double** x) {
+void write_list(std::FILE* out, void* lammps, int list, const LAMMPS_NS::tagint* tag, double** x) {
   for (int row = 0; row < lammps_neighlist_num_elements(lammps, list); ++row) {
     int i = -1, count = 0;
     int* neighbors = nullptr;
     lammps_neighlist_element_neighbors(lammps, list, row, &i, &count, &neighbors);
     for (int k = 0; k < count; ++k) {
       const int j = neighbors[k] & NEIGHMASK;
-      std::fprintf(out, "pair %d %d %d %.17g %.17g %.17g %d\n", list, tag[i], tag[j], x[j][0] - x[i][0],
-                   x[j][1] - x[i][1], x[j][2] - x[i][2], neighbors[k] >> SBBITS & 3);
+      std::fprintf(out, "pair %d %lld %lld %.17g %.17g %.17g %d\n", list, static_cast<long long>(tag[i]),
+                   static_cast<long long>(tag[j]), x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2],
+                   neighbors[k] >> SBBITS & 3);
     }
   }
 }
@@ -56,12 +57,13 @@ int main(int argc, char** argv) {
     std::perror(argv[1]);
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
-  const int* tag = static_cast<int*>(lammps_extract_atom(lammps, "id"));
+  const auto* tag = static_cast<LAMMPS_NS::tagint*>(lammps_extract_atom(lammps, "id"));
   auto** x = static_cast<double**>(lammps_extract_atom(lammps, "x"));
   const int owned = lammps_extract_setting(lammps, "nlocal");
   write_box(out, lammps);
   for (int i = 0; i < owned; ++i) {
-    std::fprintf(out, "atom %d %.17g %.17g %.17g\n", tag[i], x[i][0], x[i][1], x[i][2]);
+    std::fprintf(out, "atom %lld %.17g %.17g %.17g\n", static_cast<long long>(tag[i]), x[i][0], x[i][1],
+                 x[i][2]);
   }
   for (int list = 0; lammps_neighlist_num_elements(lammps, list) >= 0; ++list) {
     write_list(out, lammps, list, tag, x);

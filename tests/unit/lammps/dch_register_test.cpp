@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <lmptype.h>
 #include <string>
 
 namespace {
@@ -15,15 +16,16 @@ TEST(DchRegister, RefusesAnythingButTheVersionItWasBuiltFor) {
                                  ", but this is version 0; build them against the headers of this LAMMPS"));
 }
 
-TEST(DchRegister, RefusesLongIds) {
+TEST(DchRegister, RefusesIdsOfAnotherSize) {
+  constexpr int known = sizeof(LAMMPS_NS::tagint), other = known == 4 ? 8 : 4;
   testing::internal::CaptureStderr();
-  EXPECT_TRUE(dch::lammps::fits_ids_of(4));
+  EXPECT_TRUE(dch::lammps::fits_ids_of(known));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   testing::internal::CaptureStderr();
-  EXPECT_FALSE(dch::lammps::fits_ids_of(8));
+  EXPECT_FALSE(dch::lammps::fits_ids_of(other));
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::AllOf(testing::HasSubstr("this has IDs of 8 bytes (LAMMPS_BIGBIG)"),
-                             testing::HasSubstr("build LAMMPS with -D LAMMPS_SIZES=smallbig")));
+              testing::AllOf(testing::HasSubstr("built for LAMMPS with atom IDs of " + std::to_string(known)),
+                             testing::HasSubstr("this has IDs of " + std::to_string(other) + " bytes")));
 }
 
 }  // namespace

@@ -101,6 +101,14 @@ TEST(PointKeys, ImagesTooFarApartHaveNoNames) {
   EXPECT_EQ(keys_of(atoms, cube(100)).size(), 2u);
 }
 
+TEST(PointKeys, IdsTooLongHaveNoNames) {
+  constexpr std::int64_t first = std::int64_t{1} << 40;
+  for (const std::int64_t longest : {first, first + 1, std::numeric_limits<std::int64_t>::max()})
+    EXPECT_TRUE(keys_of({{{1, 1, 1}, {2, 1, 1}}, {1, longest}, {{0, 0, 0}, {0, 0, 0}}}, cube(5)).empty());
+  const auto keys = keys_of({{{1, 1, 1}, {2, 1, 1}}, {first - 1, 1}, {{0, 0, 0}, {0, 0, 0}}}, cube(5));
+  EXPECT_EQ(keys, (std::vector<std::uint64_t>{((1ull << 40) - 1) << 24, 1ull << 24}));
+}
+
 TEST(PointKeys, NoPointsAndNonNumericOnes) {
   EXPECT_TRUE(keys_of({}, cube(5)).empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
