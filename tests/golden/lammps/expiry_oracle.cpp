@@ -16,7 +16,6 @@
 #include <force.h>
 #include <input.h>
 #include <lammps_host.h>
-#include <library.h>
 #include <memory>
 #include <neigh_list.h>
 #include <neighbor.h>
@@ -63,27 +62,31 @@ std::unique_ptr<dch::PairSearch> make_blind(const std::string& engine, const dch
   return std::make_unique<BlindSearch>(engine, params);
 }
 
+/// The scenes here have few atoms, whose IDs are the first numbers.
+int short_id(LAMMPS_NS::tagint id) { return static_cast<int>(id); }
+
 /// Atoms of all processes by their IDs, which are 1 to their number, and the box.
 struct Scene {
   explicit Scene(LAMMPS_NS::LAMMPS& lammps) : count(static_cast<int>(lammps.atom->natoms)) {
-    at.resize(3 * static_cast<std::size_t>(count));
-    forces.resize(at.size());
-    types.resize(static_cast<std::size_t>(count));
-    gather(lammps, "x", 1, 3, at.data());
-    gather(lammps, "f", 1, 3, forces.data());
-    gather(lammps, "type", 0, 1, types.data());
-    if (lammps.atom->radius_flag) {
-      radii.resize(types.size());
-      gather(lammps, "radius", 1, 1, radii.data());
-    }
+    const LAMMPS_NS::Atom& atom = *lammps.atom;
+    at = gather<3>(atom, atom.x[0], MPI_DOUBLE);
+    forces = gather<3>(atom, atom.f[0], MPI_DOUBLE);
+    types = gather<1>(atom, atom.type, MPI_INT);
+    if (atom.radius_flag) radii = gather<1>(atom, atom.radius, MPI_DOUBLE);
     const double* const h = lammps.domain->h;
     cell = {{{h[0], 0, 0}, {h[5], h[1], 0}, {h[4], h[3], h[2]}}};
     for (int axis = 0; axis < 3; ++axis) reach[axis] = lammps.domain->periodicity[axis] ? 2 : 0;
     cutsq = lammps.force->pair->cutsq;
   }
-  /// LAMMPS's versions differ in whether they take a name that is constant.
-  static void gather(LAMMPS_NS::LAMMPS& lammps, std::string name, int type, int numbers, void* to) {
-    lammps_gather_atoms(&lammps, name.data(), type, numbers, to);
+  /// By ID, so many numbers of each. LAMMPS's own function knows no long IDs.
+  template <std::size_t kNumbers, class Number>
+  std::vector<Number> gather(const LAMMPS_NS::Atom& atom, const Number* own, MPI_Datatype type) const {
+    std::vector<Number> all(kNumbers * static_cast<std::size_t>(count));
+    for (int i = 0; i < atom.nlocal; ++i)
+      std::copy_n(own + kNumbers * static_cast<std::size_t>(i), kNumbers,
+                  all.begin() + static_cast<std::ptrdiff_t>(kNumbers) * short_id(atom.tag[i] - 1));
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), type, MPI_SUM, MPI_COMM_WORLD);
+    return all;
   }
   /// Squared, of atoms i and j; both from 1.
   double cutoff2(int i, int j) const {
@@ -137,9 +140,6 @@ std::vector<int> gather(std::vector<int> mine) {
                  MPI_COMM_WORLD);
   return all;
 }
-
-/// The scenes here have few atoms, whose IDs are the first numbers.
-int short_id(LAMMPS_NS::tagint id) { return static_cast<int>(id); }
 
 /// Sorted pairs of all lists that are kept up, and of bonded atoms, which lists may leave out.
 std::vector<Key> listed_pairs(LAMMPS_NS::LAMMPS& lammps, const Scene& scene) {
