@@ -80,6 +80,8 @@ class Python(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def test_energies_and_lists_are_the_same(self):
+        if host.has_long_ids:
+            self.skipTest("LAMMPS's gather_atoms(), which the example calls, is only for short IDs")
         library = host.loader.parent / "libdch_lammps.so"
         done = self.run_melt(library, "--cells", 6, "--steps", 50, "--screen")
         self.assertEqual(done.returncode, 0, done.stdout)

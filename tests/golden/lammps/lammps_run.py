@@ -41,6 +41,7 @@ class Host:
 
         told = subprocess.run([self.lmp, "-h"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False).stdout
         self.year = int(re.search(r"Simulator - \d+ \w+ (\d{4})", told)[1])
+        self.has_long_ids = re.search(r"sizeof\(tagint\): +64-bit", told) is not None
 
     def in_words_of_version(self, text):
         """A script in which INPUTS_LOCAL and UNTRIMMED stand for what later versions want: that `compute reduce` is told of
