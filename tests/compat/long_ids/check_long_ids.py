@@ -34,7 +34,7 @@ thermo_modify format float %.15g
 WATCHED = """
 compute touch all necklace/contact 0.05 radius 0.45
 fix cross all necklace/crossing 10 action count
-thermo_style custom step pe press c_touch f_cross f_cross[1] f_cross[2]
+thermo_style custom step pe press c_touch f_cross f_cross[*]
 """
 
 
